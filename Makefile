@@ -26,7 +26,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench sanitize tsan fuzz cross bench-python python-test docs format lint install clean
+.PHONY: all demo test benchmarks bench bench-simd bench-python sanitize tsan fuzz cross python-test docs format lint install clean
 
 all:
 	tools/setup tools
@@ -49,6 +49,11 @@ benchmarks:
 
 bench: benchmarks
 	tools/bench $(BUILD)/bench
+
+# What SIMD saves on AArch64 (instructions, in qemu) and in WebAssembly (time, in node).
+bench-simd:
+	tools/setup tools tests cross
+	tools/bench-simd
 
 bench-%:
 	tools/setup tools tests bench

@@ -385,7 +385,7 @@ static void bake_navmeshes(uint32_t count)
 static const struct {
     const char *name;
     void (*work)(uint32_t count);
-    uint32_t usual; // so many take some tenths of a second natively
+    uint32_t usual; // so many take some hundredths of a second natively
 } kinds[] = {
     { "rays", rays, 20000 },
     { "rays-compact", rays_compact, 20000 },

@@ -7,8 +7,8 @@
 //
 // On x86-64 kernels of all levels are compiled, and the C runtime finds the features at program start
 // (__builtin_cpu_supports): a question is one load and a branch, and there is no state of our own. Elsewhere the
-// compiler's target decides. 32-bit ARM stays at 0, for its NEON takes denormals as zero; so does AArch64 with the
-// bytes of a word the other way round. A build with TALUS_NO_SIMD has level 0 alone, to compare with.
+// compiler's target decides. 32-bit ARM stays at 0, for its NEON takes denormals as zero; AArch64 with big-endian words
+// too, for its lanes lie the other way round. A build with TALUS_NO_SIMD has level 0 alone, to compare with.
 
 #ifndef TALUS_SRC_BASE_CPU_H
 #define TALUS_SRC_BASE_CPU_H

@@ -228,11 +228,6 @@ static inline tl_f32x4 tl_f32x4_where_less(tl_f32x4 a, tl_f32x4 b)
     return vreinterpretq_f32_u32(vcltq_f32(a, b));
 }
 
-static inline tl_f32x4 tl_f32x4_where_not_less(tl_f32x4 a, tl_f32x4 b)
-{
-    return vreinterpretq_f32_u32(vmvnq_u32(vcltq_f32(a, b)));
-}
-
 // The upper half of each lane has its sign.
 static inline uint16x8_t tl_f32x4_upper_halves(tl_f32x4 low, tl_f32x4 high)
 {
@@ -250,6 +245,11 @@ static inline uint32_t tl_f32x4_two_signs(tl_f32x4 low, tl_f32x4 high)
 {
     static const int16_t places[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
     return vaddvq_u16(vshlq_u16(vshrq_n_u16(tl_f32x4_upper_halves(low, high), 15), vld1q_s16(places)));
+}
+
+static inline uint32_t tl_f32x4_two_not_less(tl_f32x4 a_low, tl_f32x4 b_low, tl_f32x4 a_high, tl_f32x4 b_high)
+{
+    return tl_f32x4_two_masks(tl_f32x4_where_less(a_low, b_low), tl_f32x4_where_less(a_high, b_high)) ^ 0xffu;
 }
 
 static inline uint32_t tl_f32x4_four_masks(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f32x4 d)

@@ -230,11 +230,6 @@ static inline tl_f32x4 tl_f32x4_where_less(tl_f32x4 a, tl_f32x4 b)
     return _mm_cmplt_ps(a, b);
 }
 
-static inline tl_f32x4 tl_f32x4_where_not_less(tl_f32x4 a, tl_f32x4 b)
-{
-    return _mm_cmpnlt_ps(a, b);
-}
-
 static inline uint32_t tl_f32x4_two_signs(tl_f32x4 low, tl_f32x4 high)
 {
     return (uint32_t)_mm_movemask_ps(low) | (uint32_t)_mm_movemask_ps(high) << 4;
@@ -244,6 +239,11 @@ static inline uint32_t tl_f32x4_two_signs(tl_f32x4 low, tl_f32x4 high)
 static inline uint32_t tl_f32x4_two_masks(tl_f32x4 low, tl_f32x4 high)
 {
     return tl_f32x4_two_signs(low, high);
+}
+
+static inline uint32_t tl_f32x4_two_not_less(tl_f32x4 a_low, tl_f32x4 b_low, tl_f32x4 a_high, tl_f32x4 b_high)
+{
+    return tl_f32x4_two_masks(_mm_cmpnlt_ps(a_low, b_low), _mm_cmpnlt_ps(a_high, b_high));
 }
 
 static inline uint32_t tl_f32x4_four_masks(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f32x4 d)

@@ -223,11 +223,6 @@ static inline tl_f32x4 tl_f32x4_where_less(tl_f32x4 a, tl_f32x4 b)
     return wasm_f32x4_lt(a, b);
 }
 
-static inline tl_f32x4 tl_f32x4_where_not_less(tl_f32x4 a, tl_f32x4 b)
-{
-    return wasm_v128_not(wasm_f32x4_lt(a, b));
-}
-
 // Narrowing keeps signs: two instructions instead of two bit masks, a shift and an or.
 static inline uint32_t tl_f32x4_two_signs(tl_f32x4 low, tl_f32x4 high)
 {
@@ -238,6 +233,11 @@ static inline uint32_t tl_f32x4_two_signs(tl_f32x4 low, tl_f32x4 high)
 static inline uint32_t tl_f32x4_two_masks(tl_f32x4 low, tl_f32x4 high)
 {
     return tl_f32x4_two_signs(low, high);
+}
+
+static inline uint32_t tl_f32x4_two_not_less(tl_f32x4 a_low, tl_f32x4 b_low, tl_f32x4 a_high, tl_f32x4 b_high)
+{
+    return tl_f32x4_two_masks(tl_f32x4_where_less(a_low, b_low), tl_f32x4_where_less(a_high, b_high)) ^ 0xffu;
 }
 
 static inline uint32_t tl_f32x4_four_masks(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f32x4 d)

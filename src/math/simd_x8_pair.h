@@ -150,7 +150,7 @@ static inline uint32_t tl_f32x8_less(tl_f32x8 a, tl_f32x8 b)
 
 static inline uint32_t tl_f32x8_not_less(tl_f32x8 a, tl_f32x8 b)
 {
-    return tl_f32x4_two_masks(tl_f32x4_where_not_less(a.low, b.low), tl_f32x4_where_not_less(a.high, b.high));
+    return tl_f32x4_two_not_less(a.low, b.low, a.high, b.high);
 }
 
 static inline uint32_t tl_f32x8_less_bits(tl_f32x8 a, tl_f32x8 b)
