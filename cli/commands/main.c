@@ -4,6 +4,7 @@
 
 #include "cli/options/closest_word.h"
 #include "cli/shared/command.h"
+#include "cli/shared/start.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -48,6 +49,10 @@ static int unknown_command(const char *word)
 
 int main(int argc, char **argv)
 {
+    if (!tl_start(&argc, &argv)) {
+        fprintf(stderr, "talus: the arguments cannot be read\n");
+        return TL_EXIT_USAGE;
+    }
     if (argc < 2) {
         print_commands(stderr);
         return TL_EXIT_USAGE;

@@ -10,16 +10,12 @@
 #include "cli/level/write_pack.h"
 #include "cli/options/parse_value.h"
 #include "cli/shared/json_out.h"
+#include "cli/shared/start.h"
 #include "io/files/atomic_write.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef __APPLE__
-#include <mach-o/dyld.h>
-#else
-#include <unistd.h>
-#endif
 
 static const char PAGE_MARK[] = "<!--talus-level-->";
 static const char *const PAGE_ENDINGS[] = { ".html", ".htm", NULL };
@@ -40,18 +36,9 @@ typedef struct view_settings {
 // The folder of the running program, without the last slash. False: the system does not tell.
 static bool find_own_folder(char path[MAX_PAGE_PATH])
 {
-#ifdef __APPLE__
-    uint32_t size = MAX_PAGE_PATH;
-    if (_NSGetExecutablePath(path, &size) != 0) {
+    if (!tl_own_path(path, MAX_PAGE_PATH)) {
         return false;
     }
-#else
-    const ssize_t length = readlink("/proc/self/exe", path, MAX_PAGE_PATH - 1);
-    if (length <= 0) {
-        return false;
-    }
-    path[length] = '\0';
-#endif
     char *slash = strrchr(path, '/');
     if (slash == NULL) {
         return false;

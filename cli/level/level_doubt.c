@@ -132,8 +132,8 @@ tl_level_doubt tl_level_doubt_find(const tl_mesh_view *mesh, tl_aabb bounds, con
     if (f.down > 2.0 * f.up) {
         return doubt_winding(&f);
     }
-    if (longest > LARGE_METRES && mesh->triangle_count >= 100 &&
-        f.mean_edge > LARGE_TRIANGLES * (double)settings->nav_def.agent_height) {
+    if (longest > (double)LARGE_METRES && mesh->triangle_count >= 100 &&
+        f.mean_edge > (double)LARGE_TRIANGLES * (double)settings->nav_def.agent_height) {
         return doubt_units(longest, 0.01, settings);
     }
     const tl_level_doubt none = { NULL, "" };

@@ -5,11 +5,11 @@
 
 #include "cli/options/output_check.h"
 
+#include "cli/options/same_file.h"
+
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 const char *const tl_picture_endings[] = { ".png", ".svg", NULL };
 
@@ -32,24 +32,10 @@ static const char *text_of(const tl_option *option)
     return *(const char *const *)option->target;
 }
 
-// Devices and pipes take everything, and are nothing that could be destroyed.
-static bool is_stream(const char *path)
-{
-    struct stat status;
-    return strcmp(path, "-") == 0 || (stat(path, &status) == 0 && !S_ISREG(status.st_mode));
-}
-
-static bool is_output_itself(const struct stat *output, const char *input)
-{
-    struct stat status;
-    const bool there = strcmp(input, "-") == 0 ? fstat(STDIN_FILENO, &status) == 0 : stat(input, &status) == 0;
-    return there && status.st_dev == output->st_dev && status.st_ino == output->st_ino;
-}
-
 static bool has_known_ending(const tl_option *output, tl_arguments *arguments)
 {
     const char *path = text_of(output);
-    if (output->words == NULL || is_stream(path)) {
+    if (output->words == NULL || tl_is_stream(path)) {
         return true;
     }
     char list[128] = "";
@@ -65,18 +51,17 @@ static bool has_known_ending(const tl_option *output, tl_arguments *arguments)
     return false;
 }
 
-static const char *find_same_input(const tl_option_group *groups, const tl_arguments *arguments,
-                                   const struct stat *output)
+static const char *find_same_input(const tl_option_group *groups, const tl_arguments *arguments, const char *output)
 {
     for (uint32_t i = 0; i < arguments->count; ++i) {
-        if (is_output_itself(output, arguments->words[i])) {
+        if (tl_is_same_file(output, arguments->words[i])) {
             return arguments->words[i];
         }
     }
     for (; groups->title != NULL; ++groups) {
         for (const tl_option *option = groups->options; option->name != NULL; ++option) {
             const char *path = option->kind == TL_OPTION_INPUT ? text_of(option) : NULL;
-            if (path != NULL && is_output_itself(output, path)) {
+            if (path != NULL && tl_is_same_file(output, path)) {
                 return path;
             }
         }
@@ -90,11 +75,10 @@ static bool check_output_path(const tl_option_group *groups, const tl_option *ou
         return false;
     }
     const char *path = text_of(output);
-    struct stat status;
-    if (is_stream(path) || stat(path, &status) != 0) {
+    if (tl_is_stream(path)) {
         return true;
     }
-    const char *input = find_same_input(groups, arguments, &status);
+    const char *input = find_same_input(groups, arguments, path);
     if (input != NULL) {
         snprintf(arguments->message, sizeof(arguments->message),
                  "--%s: '%s' is the same file as the input '%s', which would be destroyed; write to another file",

@@ -5,11 +5,10 @@
 
 #include "cli/shared/line_input.h"
 
+#include "cli/shared/input_wait.h"
 #include "cli/shared/interrupt.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -20,7 +19,7 @@ tl_result tl_line_input_open(const char *path, tl_line_input *input_out, tl_io_e
 {
     memset(input_out, 0, sizeof(*input_out));
     input_out->path = path;
-    input_out->file = strcmp(path, "-") == 0 ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
+    input_out->file = strcmp(path, "-") == 0 ? STDIN_FILENO : tl_input_open(path);
     if (input_out->file < 0) {
         return tl_io_fail_system(error_out, path, "open", errno);
     }
@@ -106,6 +105,5 @@ bool tl_line_input_would_wait(const tl_line_input *input)
     if (input->at_end || memchr(input->buffer + input->begin, '\n', input->end - input->begin) != NULL) {
         return false;
     }
-    struct pollfd waiter = { input->file, POLLIN, 0 };
-    return poll(&waiter, 1, 0) == 0;
+    return tl_input_would_wait(input->file);
 }

@@ -9,7 +9,12 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#ifdef _WIN32
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+#else
 #include <unistd.h>
+#endif
 
 // One loop. Written under the mutex before `generation` is raised, read by the threads after they saw it raised.
 typedef struct loop {
@@ -149,6 +154,10 @@ const tl_tasks *tl_thread_pool_tasks(const tl_thread_pool *pool)
 
 uint32_t tl_online_processors(void)
 {
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
+#ifdef _WIN32
+    const DWORD count = GetActiveProcessorCount(ALL_PROCESSOR_GROUPS);
+#else
+    const long count = sysconf(_SC_NPROCESSORS_ONLN);
+#endif
     return count > 0 ? (uint32_t)count : 1;
 }

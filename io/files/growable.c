@@ -6,22 +6,33 @@
 
 #include <stdlib.h>
 #include <string.h>
+#ifdef _WIN32
+#include <malloc.h>
+#endif
 
 enum { ALIGNMENT = 64, FIRST_ITEMS = 64 };
 
 static void *io_default_allocate(size_t size, size_t alignment, void *user)
 {
     (void)user;
+#ifdef _WIN32
+    return _aligned_malloc(size, alignment);
+#else
     // aligned_alloc wants a multiple of the alignment.
     return size <= SIZE_MAX - alignment ? aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
                                         : NULL;
+#endif
 }
 
 static void io_default_release(void *block, size_t size, void *user)
 {
     (void)size;
     (void)user;
+#ifdef _WIN32
+    _aligned_free(block);
+#else
     free(block);
+#endif
 }
 
 tl_allocator tl_io_allocator_or_default(const tl_allocator *allocator)

@@ -95,8 +95,12 @@ static const char *system_advice(int error_number)
         return "check the permissions, or choose another place";
     case EISDIR:
         return "name a file, not a folder";
+    case EBUSY:
+        return "close the programs that have it open, or choose another place";
     case ENOSPC:
+#ifdef EDQUOT
     case EDQUOT:
+#endif
         return "free some room on the disk, or choose another place";
     case EFBIG:
         return "raise the file size limit (ulimit -f), or choose another place";
@@ -110,7 +114,11 @@ tl_result tl_io_fail_system(tl_io_error *error, const char *path, const char *ac
     tl_result result = error_number == ENOMEM ? TL_ERR_MEMORY : TL_ERR_IO;
     // strerror's text may be shared between threads; strerror_r has two signatures, of which this is the XSI one.
     char reason[128];
+#ifdef _WIN32
+    if (strerror_s(reason, sizeof reason, error_number) != 0) {
+#else
     if (strerror_r(error_number, reason, sizeof reason) != 0) {
+#endif
         snprintf(reason, sizeof reason, "system error %d", error_number);
     }
     return tl_io_fail(error, result, path, 0, system_advice(error_number), "cannot %s: %s", action, reason);

@@ -329,13 +329,23 @@ static tl_result explain_death(const receiver *from, int status)
                       WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "it ended early");
 }
 
+// Closed in programs that other threads start meanwhile.
+static int open_pipe(int ends[2])
+{
+#ifdef __linux__
+    return pipe2(ends, O_CLOEXEC);
+#else
+    return pipe(ends) == 0 && fcntl(ends[0], F_SETFD, FD_CLOEXEC) != -1 ? fcntl(ends[1], F_SETFD, FD_CLOEXEC) : -1;
+#endif
+}
+
 tl_result tl_read_isolated(tl_mesh_reader *read_mesh, const tl_mesh_source *source, const tl_import_limits *limits,
                            const tl_host *host, tl_imported_mesh *mesh_out, tl_io_error *error_out)
 {
     receiver from = { -1, source, host, error_out, choose_limits(limits, source->size), { 0, 0 } };
     memset(mesh_out, 0, sizeof *mesh_out);
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) {
+    if (open_pipe(ends) != 0) {
         return tl_io_fail_system(error_out, source->name, "start a process to read it", errno);
     }
     clock_gettime(CLOCK_MONOTONIC, &from.start);

@@ -4,7 +4,8 @@
 //
 // OBJ, glTF and GLB are read by our own readers (obj_reader.h, gltf_reader.h); FBX, STL, PLY, Collada (DAE)
 // and every other format that Assimp knows, by Assimp. The file's name decides, then its first bytes: a file without a
-// known extension, or standard input ("-"), is recognised by its content.
+// known extension, or standard input ("-"), is recognised by its content. A build without Assimp or Jansson (CMake's
+// TALUS_ASSIMP and TALUS_GLTF) knows those kinds too, and refuses them by the library's name.
 
 #ifndef TALUS_IO_MESH_IMPORT_H
 #define TALUS_IO_MESH_IMPORT_H
@@ -60,7 +61,8 @@ tl_import_options tl_default_import_options(void);
 /// triangles), TL_ERR_NOT_FINITE, TL_ERR_RANGE (a coordinate does not fit a float), TL_ERR_INDEX, TL_ERR_LIMIT,
 /// TL_ERR_ARGUMENT, TL_ERR_MEMORY, TL_ERR_CANCELLED. On failure `*mesh_out` is zeroed. All but OBJ is read in a child
 /// process with limits, so that a file that makes a reader crash or loop for ever is an error too (import_process.h);
-/// the child's memory is not the host's allocator's. A file that the level names (a glTF's buffer) is opened only when
+/// the child's memory is not the host's allocator's. On Windows it is read in the calling process, unguarded: give it no
+/// files of strangers there, and `limits` other than zeros are TL_ERR_UNSUPPORTED. A file that the level names (a glTF's buffer) is opened only when
 /// it is a regular file of the level's folder or below.
 tl_result tl_import_mesh(const char *path, const tl_import_options *options, tl_imported_mesh *mesh_out,
                          tl_io_error *error_out);

@@ -73,7 +73,7 @@ static const void *file_bytes(const tl_pack_item *item, void *room)
     return tl_pack_swap_chunk(room, item->size, item->type, false) ? room : NULL;
 }
 
-static tl_result make_room(const tl_pack_item *items, uint32_t count, tl_arena *arena, void **room_out)
+static tl_result make_scratch(const tl_pack_item *items, uint32_t count, tl_arena *arena, void **room_out)
 {
     uint64_t largest = 0;
     for (uint32_t i = 0; TL_BIG_ENDIAN && i < count; i++) {
@@ -114,7 +114,7 @@ static tl_result write_pack(const tl_pack_item *items, uint32_t count, tl_arena 
         return TL_ERR_MEMORY;
     }
     void *room;
-    TL_TRY(make_room(items, count, arena, &room));
+    TL_TRY(make_scratch(items, count, arena, &room));
     uint64_t offset = table_end(count);
     for (uint32_t i = 0; i < count; i++) {
         const void *bytes = file_bytes(&items[i], room);

@@ -179,8 +179,10 @@ static tl_vec3 to_world(const patch_builder *b, const tl_detail_point *p)
     double first_x = (double)((int64_t)lattice->first_x + compact->border_size + b->extent.min_x);
     double first_z = (double)((int64_t)lattice->first_z + compact->border_size + b->extent.min_z);
     // The formula of tl_nav_lattice_to_world, for lines between the lattice's; at these the bits are the same.
-    double x = (double)lattice->origin.x + (first_x + (double)p->x / TL_DETAIL_ONE) * (double)compact->cell_size;
-    double z = (double)lattice->origin.z + (first_z + (double)p->z / TL_DETAIL_ONE) * (double)compact->cell_size;
+    double x =
+        (double)lattice->origin.x + (first_x + (double)p->x / (double)TL_DETAIL_ONE) * (double)compact->cell_size;
+    double z =
+        (double)lattice->origin.z + (first_z + (double)p->z / (double)TL_DETAIL_ONE) * (double)compact->cell_size;
     return tl_vec3_make((float)x, tl_nav_lattice_to_world(lattice->origin.y, p->y, compact->cell_height), (float)z);
 }
 

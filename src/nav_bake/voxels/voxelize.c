@@ -86,8 +86,8 @@ static inline bool span_of_heights(double low, double high, uint32_t height_voxe
 {
     // Bounded before the conversion, by more than rounding can bring back.
     const int32_t limit = (int32_t)height_voxels * SUBDIVISIONS;
-    int32_t bottom = round_to_int(tl_clamp_f64(low, -SUBDIVISIONS, (double)limit + SUBDIVISIONS));
-    int32_t top = round_to_int(tl_clamp_f64(high, -SUBDIVISIONS, (double)limit + SUBDIVISIONS));
+    int32_t bottom = round_to_int(tl_clamp_f64(low, -TL_SUBDIVISIONS, (double)limit + TL_SUBDIVISIONS));
+    int32_t top = round_to_int(tl_clamp_f64(high, -TL_SUBDIVISIONS, (double)limit + TL_SUBDIVISIONS));
     if (top < 0 || bottom > limit) {
         return false;
     }
@@ -482,17 +482,17 @@ tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_voxel_point a, tl_v
     if (first > last) {
         return TL_OK;
     }
-    a.y *= SUBDIVISIONS;
-    b.y *= SUBDIVISIONS;
-    c.y *= SUBDIVISIONS;
+    a.y *= TL_SUBDIVISIONS;
+    b.y *= TL_SUBDIVISIONS;
+    c.y *= TL_SUBDIVISIONS;
     const size_t line = band->line;
-    const double limit = (double)band->height_voxels * SUBDIVISIONS;
-    const bool inside = min_y >= 0.0 && max_y * SUBDIVISIONS <= limit;
+    const double limit = (double)band->height_voxels * TL_SUBDIVISIONS;
+    const bool inside = min_y >= 0.0 && max_y * TL_SUBDIVISIONS <= limit;
     walk w = { band, area, false, inside, 0, 0, band->heights, band->heights + line, NULL, NULL, 0, 0, 0, 0 };
     w.next_low = w.high + line;
     w.next_high = w.next_low + line;
-    if (lies_in_one_layer(min_y * SUBDIVISIONS, max_y * SUBDIVISIONS, band->height_voxels)) {
-        w.level = span_of_heights(min_y * SUBDIVISIONS, max_y * SUBDIVISIONS, band->height_voxels, &w.level_min,
+    if (lies_in_one_layer(min_y * TL_SUBDIVISIONS, max_y * TL_SUBDIVISIONS, band->height_voxels)) {
+        w.level = span_of_heights(min_y * TL_SUBDIVISIONS, max_y * TL_SUBDIVISIONS, band->height_voxels, &w.level_min,
                                   &w.level_max);
     }
     // Judged in the whole lattice, not in the band's or field's part of it: all that see a triangle treat it alike.

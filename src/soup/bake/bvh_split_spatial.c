@@ -171,7 +171,7 @@ void tl_bvh_improve_by_spatial_split(const tl_bvh_splitter *splitter, const tl_b
     }
     for (uint32_t axis = 0; axis < 3; axis++) {
         float base = tl_component(range->box.min, axis);
-        float width = (tl_component(range->box.max, axis) - base) / SPATIAL_BINS;
+        float width = (tl_component(range->box.max, axis) - base) / (float)SPATIAL_BINS;
         // Bins must be wider than the rounding of their planes.
         if (width > 4.0f * FLT_EPSILON * fabsf(base) && width > FLT_MIN && 1.0f / width < FLT_MAX) {
             spatial_bins bins;

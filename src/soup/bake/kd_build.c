@@ -265,7 +265,7 @@ static uint32_t bin_of(float place, float base, float per_metre)
 static TL_ALWAYS_INLINE void try_bins(kd_builder *b, const kd_cell *cell, uint32_t axis, kd_plane *best)
 {
     float base = tl_component(cell->box.min, axis);
-    float width = (tl_component(cell->box.max, axis) - base) / KD_BINS;
+    float width = (tl_component(cell->box.max, axis) - base) / (float)KD_BINS;
     // Bins must be wider than the rounding of their borders.
     if (!(width > 4.0f * FLT_EPSILON * fabsf(base) && width > FLT_MIN && 1.0f / width < FLT_MAX)) {
         return;

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+//
+// The part of io that asks the operating system, on whatever system this runs: tools/cross builds it with io for other
+// machines and for Windows, without Assimp and Jansson. Its argument is an empty folder that it may fill.
+
+#include "io/files/atomic_write.h"
+#include "io/files/file_map.h"
+#include "io/files/sibling_file.h"
+#include "io/mesh/mesh_import.h"
+#include "io/mesh/obj_write.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int faults;
+
+#define EXPECT(condition)                                                                                              \
+    do {                                                                                                               \
+        if (!(condition)) {                                                                                            \
+            printf("%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);                                             \
+            faults++;                                                                                                  \
+        }                                                                                                              \
+    } while (0)
+
+static const char *folder;
+
+/// FOLDER/NAME, valid until the eighth call from here.
+static const char *in_folder(const char *name)
+{
+    static char paths[8][2048];
+    static int next;
+    char *path = paths[next++ % 8];
+    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
+    return path;
+}
+
+static bool holds(const char *path, const char *text)
+{
+    tl_file_map map;
+    if (tl_file_map_open(path, 0, &map, NULL) != TL_OK) {
+        return false;
+    }
+    const bool same = map.size == strlen(text) && memcmp(map.bytes, text, map.size) == 0;
+    const bool aligned = (uintptr_t)map.bytes % TL_BLOB_ALIGNMENT == 0;
+    tl_file_map_close(&map);
+    return same && aligned && map.bytes == NULL;
+}
+
+// Names that are no ASCII: Windows must not read them in the code page of the user.
+static void whole_files(void)
+{
+    const char *path = in_folder("gr\xc3\xbc\xc3\x9f-\xe7\x8e\xa9\xe5\xae\xb6.txt");
+    EXPECT(tl_atomic_write(path, "first", 5, NULL) == TL_OK);
+    EXPECT(holds(path, "first"));
+    EXPECT(tl_atomic_write(path, "the second", 10, NULL) == TL_OK);
+    EXPECT(holds(path, "the second"));
+    tl_atomic_file *file;
+    EXPECT(tl_atomic_file_open(path, &file, NULL) == TL_OK);
+    EXPECT(tl_atomic_file_write(file, "half", 4, NULL) == TL_OK && tl_atomic_file_size(file) == 4);
+    EXPECT(holds(path, "the second"));
+    tl_atomic_file_abort(file);
+    EXPECT(holds(path, "the second"));
+    EXPECT(tl_atomic_write(in_folder("empty"), "", 0, NULL) == TL_OK && holds(in_folder("empty"), ""));
+
+    // Larger than every buffer.
+    const size_t size = 300000;
+    char *large = malloc(size + 1);
+    for (size_t i = 0; i < size; i++) {
+        large[i] = (char)('a' + i % 23);
+    }
+    large[size] = '\0';
+    EXPECT(tl_atomic_write(in_folder("large"), large, size, NULL) == TL_OK && holds(in_folder("large"), large));
+    tl_file_map map;
+    tl_io_error error;
+    EXPECT(tl_file_map_open(in_folder("large"), 1000, &map, &error) == TL_ERR_LIMIT && map.bytes == NULL);
+    free(large);
+}
+
+static void refusals(void)
+{
+    tl_io_error error;
+    tl_file_map map;
+    EXPECT(tl_file_map_open(in_folder("nothing"), 0, &map, &error) == TL_ERR_IO && strlen(error.message) > 12);
+    EXPECT(strstr(error.advice, "path") != NULL);
+    EXPECT(tl_file_map_open(folder, 0, &map, &error) == TL_ERR_IO && map.bytes == NULL);
+    EXPECT(tl_atomic_write(folder, "x", 1, &error) == TL_ERR_IO);
+    EXPECT(tl_atomic_write("", "x", 1, &error) == TL_ERR_IO);
+    EXPECT(tl_atomic_write(in_folder("missing/file"), "x", 1, &error) == TL_ERR_IO);
+#ifdef _WIN32
+    EXPECT(tl_atomic_write("NUL", "x", 1, &error) == TL_OK);
+    EXPECT(tl_file_map_open(in_folder("\xff\xfe"), 0, &map, &error) == TL_ERR_IO); // no UTF-8
+#else
+    EXPECT(tl_atomic_write("/dev/null", "x", 1, &error) == TL_OK);
+#endif
+}
+
+static void siblings(void)
+{
+    static const char *const OUTSIDE[] = { "../large", "/etc/passwd",    "\\\\server\\share", "c:\\windows\\win.ini",
+                                           "c:file",   "http://x/y.bin", "sub/../../large",   "." };
+    const char *level = in_folder("level.gltf");
+    tl_file_map map;
+    tl_io_error error;
+    EXPECT(tl_atomic_write(level, "{}", 2, NULL) == TL_OK);
+    EXPECT(tl_atomic_write(in_folder("level.bin"), "bytes", 5, NULL) == TL_OK);
+    EXPECT(tl_sibling_open(level, "level.bin", level, &map, &error) == TL_OK);
+    EXPECT(map.size == 5 && memcmp(map.bytes, "bytes", 5) == 0);
+    tl_file_map_close(&map);
+    for (size_t i = 0; i < sizeof OUTSIDE / sizeof OUTSIDE[0]; i++) {
+        const tl_result result = tl_sibling_open(level, OUTSIDE[i], level, &map, &error);
+        EXPECT((result == TL_ERR_UNSUPPORTED || result == TL_ERR_IO) && map.bytes == NULL);
+    }
+    EXPECT(tl_sibling_open(level, "not-there.bin", level, &map, &error) == TL_ERR_IO);
+}
+
+static void meshes(void)
+{
+    static const char OBJ[] = "v 0 0 0\r\nv 1 0 0\nv 1 0 1.5\nv 0 0 1\nf 1 2 3 4\n";
+    tl_imported_mesh mesh;
+    tl_io_error error;
+    EXPECT(tl_atomic_write(in_folder("quad.obj"), OBJ, sizeof OBJ - 1, NULL) == TL_OK);
+    EXPECT(tl_import_mesh(in_folder("quad.obj"), NULL, &mesh, &error) == TL_OK);
+    EXPECT(mesh.vertex_count == 4 && mesh.triangle_count == 2 && mesh.vertices[2].z == 1.5f);
+    tl_imported_mesh_free(&mesh);
+    // What this build lacks is known, and told.
+    EXPECT(tl_import_mesh(in_folder("level.gltf"), NULL, &mesh, &error) == TL_ERR_UNSUPPORTED);
+    EXPECT(strstr(error.message, "Jansson") != NULL && strstr(error.advice, "OBJ") != NULL);
+    EXPECT(tl_atomic_write(in_folder("level.FBX"), "Kaydara FBX Binary  ", 20, NULL) == TL_OK);
+    EXPECT(tl_import_mesh(in_folder("level.FBX"), NULL, &mesh, &error) == TL_ERR_UNSUPPORTED);
+    EXPECT(strstr(error.message, "Assimp") != NULL);
+}
+
+// Folders of names so long that Windows' old calls give up, if the program may make them there.
+static void long_names(void)
+{
+    char name[220];
+    memset(name, 'n', sizeof name - 1);
+    name[sizeof name - 1] = '\0';
+    const char *path = in_folder(name);
+    EXPECT(tl_atomic_write(path, "long", 4, NULL) == TL_OK && holds(path, "long"));
+}
+
+int main(int count, char **words)
+{
+    if (count != 2) {
+        fprintf(stderr, "files FOLDER\n");
+        return 2;
+    }
+    folder = words[1];
+    whole_files();
+    refusals();
+    siblings();
+    meshes();
+    long_names();
+    printf(faults == 0 ? "files: all as it should be\n" : "files: %d faults\n", faults);
+    return faults != 0;
+}
