@@ -36,7 +36,7 @@ draw_camera draw_camera_fit(draw_view view, tl_aabb bounds, uint32_t panel_size)
     }
     tl_vec3 size = tl_aabb_size(seen);
     float longest = tl_maxf(size.x, size.y);
-    float room = (float)panel_size - 2.0f * VIEW_MARGIN_PIXELS;
+    float room = (float)panel_size - 2.0f * (float)VIEW_MARGIN_PIXELS;
     camera.pixels_per_metre = longest > 0.0f ? room / longest : 1.0f;
     camera.width = (uint32_t)ceilf(size.x * camera.pixels_per_metre) + 2 * VIEW_MARGIN_PIXELS;
     camera.height = (uint32_t)ceilf(size.y * camera.pixels_per_metre) + 2 * VIEW_MARGIN_PIXELS;

@@ -121,9 +121,9 @@ static uint32_t draw_legends(cairo_t *cairo, const draw_scene *scene, double wid
         const draw_legend *legend = &scene->legends[i];
         draw_choose_font(cairo, LEGEND_SIZE, false);
         double taken = 20 + draw_text_width(cairo, legend->text);
-        if (x > SHEET_MARGIN_PIXELS && x + taken > width - SHEET_MARGIN_PIXELS) {
+        if (x > (double)SHEET_MARGIN_PIXELS && x + taken > width - (double)SHEET_MARGIN_PIXELS) {
             x = SHEET_MARGIN_PIXELS;
-            y += LEGEND_PIXELS;
+            y += (double)LEGEND_PIXELS;
             rows++;
         }
         if (paints) {
@@ -164,7 +164,7 @@ static void paint_views(cairo_t *cairo, const void *user)
         x += camera->width + GAP_PIXELS;
     }
     draw_set_colour(cairo, DRAW_INK, 1.0);
-    const double width = sheet->width - 2.0 * SHEET_MARGIN_PIXELS;
+    const double width = sheet->width - 2.0 * (double)SHEET_MARGIN_PIXELS;
     draw_text_within(cairo, SHEET_MARGIN_PIXELS, 30, 20, true, sheet->scene->title, width);
     draw_set_colour(cairo, 0x6a6a72, 1.0);
     draw_text_within(cairo, SHEET_MARGIN_PIXELS, 52, 13, false, sheet->scene->subtitle, width);

@@ -310,7 +310,7 @@ static void paint_steps(cairo_t *cairo, const void *user)
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     for (uint32_t i = 0; i < kind->shown_count + 2; i++) {
         cairo_save(cairo);
-        cairo_translate(cairo, GAP + (double)(i % sheet->columns) * (sheet->panel_width + GAP),
+        cairo_translate(cairo, (double)GAP + (double)(i % sheet->columns) * (sheet->panel_width + GAP),
                         HEAD + CAPTION + (double)(i / sheet->columns) * (sheet->panel_height + CAPTION + GAP));
         add_step_contour(cairo, sheet);
         draw_set_colour(cairo, FLOOR, 1.0);
