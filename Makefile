@@ -26,7 +26,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench bench-simd bench-python sanitize tsan fuzz cross python-test docs format lint install clean
+.PHONY: all demo test benchmarks bench bench-simd bench-python sanitize tsan fuzz cross python-test docs format wasm js-test bench-web lint install clean
 
 all:
 	tools/setup tools
@@ -97,6 +97,23 @@ format:
 lint:
 	tools/setup lint
 	tools/lint
+
+# The modules of the npm package, built by Debian's Emscripten: js/dist/talus.wasm and talus-simd.wasm.
+wasm:
+	tools/setup web
+	emcmake cmake -S wasm -B build/wasm -G Ninja -DTALUS_WERROR=$(WERROR) >/dev/null
+	cmake --build build/wasm --parallel $(JOBS)
+	mkdir -p js/dist
+	cp build/wasm/talus.wasm build/wasm/talus-simd.wasm js/dist/
+
+# The package's tests; bytes are compared with those of the command.
+js-test: wasm all
+	cd js && npm ci --no-audit --no-fund --silent && npx tsc -p .
+	cd js && TALUS_COMMAND=$(abspath $(BUILD))/cli/talus npm test
+
+# JavaScript peers, in node: rays, paths, bakes.
+bench-web: wasm
+	cd js/bench && npm ci --no-audit --no-fund --silent && node bench.js
 
 install: all
 	cmake --install $(BUILD) --prefix "$(PREFIX)"

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// What a Navmesh of JavaScript is: the table of tiles with all that belongs to it.
+
+#ifndef TALUS_WASM_JS_NAVMESH_H
+#define TALUS_WASM_JS_NAVMESH_H
+
+#include "js_mesh.h"
+
+typedef struct tl_js_navmesh {
+    tl_navmesh *navmesh;
+    tl_nav_query *query; ///< NULL until a search needs it
+    uint32_t max_nodes;  ///< of `query`, and of the next one
+    tl_nav_def def;      ///< what it was baked with; bounds are those that were baked
+    tl_nav_bake_report report;
+    uint32_t tiles_x, tiles_z;
+    tl_nav_obstacles *obstacles; ///< NULL: it was baked without
+    tl_nav_links *links;         ///< found ones, for the file; NULL: none
+    void **copies;               ///< blocks of borrowed tiles
+    uint32_t copy_count, copy_capacity;
+    // The last path.
+    tl_nav_corner *corners;
+    tl_nav_ref *polygons;
+    uint32_t corner_capacity, polygon_capacity;
+} tl_js_navmesh;
+
+/// An empty one. NULL: out of memory.
+tl_js_navmesh *tl_js_navmesh_create(void);
+void tl_js_navmesh_destroy(tl_js_navmesh *self);
+
+/// The query of `self`, made where there is none.
+tl_result tl_js_navmesh_query(tl_js_navmesh *self, tl_nav_query **query_out);
+
+/// Tiles in the order of a file: by z, x and layer. Slot numbers, tl_navmesh_tile_count of them; NULL: out of memory.
+/// Freed with free().
+uint32_t *tl_js_tile_order(const tl_js_navmesh *self);
+
+#endif

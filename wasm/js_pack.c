@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+//
+// The baked file: the chunks and their order are those of `talus bake`.
+
+#include "js_navmesh.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// ---------------------------------------------------------------------------------------------------------
+// Reading.
+
+static tl_pack pack;
+
+/// The bytes stay JavaScript's, and must stand while the pack is read. Slot: chunks.
+tl_result TL_JS_EXPORT(js_pack_open)(const void *bytes, uint32_t size)
+{
+    const tl_result result = tl_pack_open(bytes, size, &pack, &tl_js_report);
+    tl_js_put(0, pack.chunk_count);
+    return result;
+}
+
+/// Slot: type, id, size, address.
+void TL_JS_EXPORT(js_pack_chunk)(uint32_t index)
+{
+    const tl_pack_chunk chunk = tl_pack_chunk_at(&pack, index);
+    tl_js_put_pointer(tl_js_put(tl_js_put(tl_js_put(0, chunk.type), chunk.id), (double)chunk.size), chunk.bytes);
+}
+
+/// Slot: name, counts, bounds, up.
+tl_result TL_JS_EXPORT(js_pack_meta)(const void *bytes, uint32_t size)
+{
+    const tl_result result = tl_pack_meta_check(bytes, size, &tl_js_report);
+    if (result == TL_OK) {
+        const tl_pack_meta *meta = bytes;
+        uint32_t at = tl_js_put_pointer(0, tl_pack_meta_name(meta));
+        at = tl_js_put(tl_js_put(at, (double)meta->source_vertices), (double)meta->source_triangles);
+        tl_js_put(tl_js_put_aabb(at, meta->bounds), meta->source_up);
+    }
+    return result;
+}
+
+/// Slot: the def, then the grid of tiles.
+tl_result TL_JS_EXPORT(js_pack_navmesh)(const void *bytes, uint32_t size, tl_js_navmesh *self)
+{
+    const tl_result result = tl_pack_navmesh_check(bytes, size, &tl_js_report);
+    if (result == TL_OK) {
+        const tl_pack_navmesh *navmesh = bytes;
+        self->def = tl_pack_navmesh_def(navmesh);
+        self->tiles_x = navmesh->tiles_x;
+        self->tiles_z = navmesh->tiles_z;
+    }
+    return result;
+}
+
+/// Slot: how many volumes there are.
+tl_result TL_JS_EXPORT(js_pack_volumes)(const void *bytes, uint32_t size)
+{
+    const tl_result result = tl_pack_volumes_check(bytes, size, &tl_js_report);
+    tl_js_put(0, result == TL_OK ? ((const tl_pack_volumes *)bytes)->count : 0.0);
+    return result;
+}
+
+/// Slot: a volume of checked ones: kind, area, box, base, radius, height, points and where they are.
+void TL_JS_EXPORT(js_pack_volume)(const tl_pack_volumes *volumes, uint32_t index)
+{
+    const tl_nav_volume v = tl_pack_volumes_at(volumes, index);
+    uint32_t at = tl_js_put_vec3(tl_js_put_aabb(tl_js_put(tl_js_put(0, v.kind), v.area), v.box), v.base);
+    at = tl_js_put(tl_js_put(tl_js_put(at, (double)v.radius), (double)v.height), v.point_count);
+    tl_js_put_pointer(at, v.points);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Writing.
+
+static tl_result append_bytes(const void *bytes, size_t size, void *user)
+{
+    tl_js_buffer *buffer = user;
+    tl_js_buffer_add(buffer, bytes, size);
+    return buffer->failed ? TL_ERR_MEMORY : TL_OK;
+}
+
+static void add_item(tl_pack_item *items, uint32_t *count, uint32_t type, uint32_t id, const void *blob)
+{
+    if (blob != NULL) {
+        const tl_pack_item item = { type, id, blob, ((const tl_blob *)blob)->size };
+        items[(*count)++] = item;
+    }
+}
+
+typedef struct pack_parts {
+    tl_pack_meta *meta;
+    const void *soup, *hull;
+    const tl_js_navmesh *navmesh;
+    tl_pack_navmesh *settings;
+    tl_pack_volumes *volumes;
+} pack_parts;
+
+static tl_result write_parts(const pack_parts *parts)
+{
+    const tl_js_navmesh *navmesh = parts->navmesh;
+    const uint32_t tiles = navmesh != NULL ? tl_navmesh_tile_count(navmesh->navmesh) : 0;
+    uint32_t *order = navmesh != NULL ? tl_js_tile_order(navmesh) : NULL;
+    tl_pack_item *items = malloc((tiles + 6) * sizeof *items);
+    tl_result result = TL_ERR_MEMORY;
+    if (items != NULL && (navmesh == NULL || order != NULL)) {
+        uint32_t count = 0;
+        add_item(items, &count, TL_PACK_META, 0, parts->meta);
+        add_item(items, &count, TL_PACK_SOUP, 0, parts->soup);
+        add_item(items, &count, TL_PACK_HULL, 0, parts->hull);
+        add_item(items, &count, TL_PACK_NAVM, 0, parts->settings);
+        for (uint32_t i = 0; i < tiles; i++) {
+            add_item(items, &count, TL_PACK_NAVT, i, tl_navmesh_slot_tile(navmesh->navmesh, order[i]));
+        }
+        add_item(items, &count, TL_PACK_LINK, 0, navmesh != NULL ? navmesh->links : NULL);
+        add_item(items, &count, TL_PACK_MARK, 0, parts->volumes);
+        tl_js_buffer *buffer = tl_js_buffer_begin();
+        result = tl_pack_write(items, count, NULL, append_bytes, buffer, &tl_js_report);
+        tl_js_put_pointer(tl_js_put(0, (double)buffer->used), buffer->bytes);
+    }
+    free(order);
+    free(items);
+    return result;
+}
+
+/// Slot: whether there is a meta chunk, its counts, bounds and up axis. `name` is zero-terminated. Volumes are the
+/// input's. Pointers may be NULL. Slot afterwards: how many bytes, and where.
+tl_result TL_JS_EXPORT(js_pack_write)(const char *name, const void *soup, const void *hull,
+                                      const tl_js_navmesh *navmesh)
+{
+    pack_parts parts = { NULL, soup, hull, navmesh, NULL, NULL };
+    tl_result result = TL_OK;
+    if (tl_js_slot[0] != 0.0) {
+        const uint32_t up = tl_js_u32(9);
+        result = tl_pack_meta_encode(name, (uint64_t)tl_js_slot[1], (uint64_t)tl_js_slot[2], tl_js_aabb(3), NULL,
+                                     &parts.meta, &tl_js_report);
+        if (result == TL_OK) {
+            parts.meta->source_up = up;
+        }
+    }
+    if (result == TL_OK && navmesh != NULL) {
+        result = tl_pack_navmesh_encode(&navmesh->def, navmesh->tiles_x, navmesh->tiles_z,
+                                        tl_navmesh_tile_count(navmesh->navmesh), NULL, &parts.settings, &tl_js_report);
+    }
+    if (result == TL_OK && tl_js_input.volume_count > 0) {
+        result =
+            tl_pack_volumes_encode(tl_js_input.volumes, tl_js_input.volume_count, NULL, &parts.volumes, &tl_js_report);
+    }
+    if (result == TL_OK) {
+        result = write_parts(&parts);
+    }
+    tl_blob_free(parts.meta);
+    tl_blob_free(parts.settings);
+    tl_blob_free(parts.volumes);
+    return result;
+}
