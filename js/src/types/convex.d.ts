@@ -72,7 +72,7 @@ export class Hull implements Freeable {
   [Symbol.dispose](): void;
 
   /** Null for a hull that came from bytes. */
-  readonly report: HullReport | null;
+  report: HullReport | null;
   /** A copy of the hull's bytes: the same as natively. */
   toBytes(): Uint8Array;
   /** A copy of this hull: scaled along its own axes, then turned and moved. A negative scale mirrors. */

@@ -97,7 +97,7 @@ export interface Audit {
 
 export type Cause =
   | 'none' | 'outside' | 'no floor' | 'slope' | 'area input' | 'ledge' | 'ceiling' | 'radius' | 'volume' | 'island'
-  | 'outline' | 'changed';
+  | 'outline' | 'changed' | 'pruned';
 
 /** One cause, and the setting that removes it. */
 export interface Reason {

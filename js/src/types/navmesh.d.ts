@@ -243,7 +243,7 @@ export class Navmesh implements Freeable {
   /** What it was baked with; `bounds` are those that were baked. */
   readonly options: Required<NavOptions>;
   /** Null where it was not baked here. */
-  readonly report: NavBakeReport | null;
+  report: NavBakeReport | null;
   /** Nodes that a search may use: a node takes 232 bytes. Default 65,536. `linkCount() + 2` is always enough. */
   maxNodes: number;
 

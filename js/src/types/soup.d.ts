@@ -128,8 +128,8 @@ export interface SoupBoxes {
 }
 
 /**
- * A ray's walk through the tree: the boxes that it enters before its hit, nearest first at each depth's turn, and the
- * boxes beside them that it was tested against and misses.
+ * A ray's walk through the tree: the boxes that it enters before its hit, and the boxes beside them that it was tested
+ * against and misses; parents before children. Sorted by `enter`, they come in the order in which the ray meets them.
  */
 export interface RayWalk extends SoupBoxes {
   /** 1: the ray enters the box before its hit; 0: tested, and left out. */

@@ -127,4 +127,9 @@ export function bakeStages(mesh: Mesh, options?: NavOptions & NavInput & BakeHoo
  * Divides the contours of a tile again, with every step. Takes time that grows with the square of a contour's vertices.
  * Of the methods 'classic' is followed wholly, the others as far as they share its steps.
  */
-export function polygonSteps(mesh: Mesh, options?: NavOptions & NavInput & BakeHooks & { tileX?: number; tileZ?: number }): PolygonSteps;
+export function polygonSteps(mesh: Mesh, options?: NavOptions & NavInput & BakeHooks & {
+  tileX?: number;
+  tileZ?: number;
+  /** That contour alone, an index into `contours.simplified`. Default: all. */
+  contour?: number;
+}): PolygonSteps;

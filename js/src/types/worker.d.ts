@@ -33,7 +33,7 @@ export class TalusWorker {
   bakeHull(points: ArrayLike<number>, options?: HullOptions): Promise<Hull>;
   bakeNavmesh(mesh: Mesh, options?: NavBakeOptions): Promise<Navmesh>;
   bakeStages(mesh: Mesh, options?: StageOptions): Promise<BakeStages>;
-  polygonSteps(mesh: Mesh, options?: StageOptions): Promise<PolygonSteps>;
+  polygonSteps(mesh: Mesh, options?: StageOptions & { contour?: number }): Promise<PolygonSteps>;
   findLinks(navmesh: Navmesh, soup: Soup, options?: LinkOptions): Promise<{ links: JumpLink[]; report: LinksReport }>;
   audit(navmesh: Navmesh, soup: Soup, options?: AuditOptions): Promise<Audit>;
   why(navmesh: Navmesh, mesh: Mesh, point: Vec3Like, options?: NavInput & BakeHooks): Promise<WhyAnswer>;

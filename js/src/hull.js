@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+
+import { Handle, PRIVATE, refuseNew } from './handle.js';
+import { F64, SLOT, U8, check, copyIn, copyOut, fail, putPose, putVec3, ready, release, slotAabb, slotVec3, wasm, watched } from './module.js';
+
+const NO_VERTEX = 0xffffffff;
+
+function fromResult(address) {
+  address >>>= 0;
+  const s = SLOT;
+  if (address === 0) {
+    check(F64[s]);
+    fail(F64[s]);
+  }
+  return new Hull(PRIVATE, address, 'js_blob_free', {
+    triangleCount: F64[s + 1], thickened: F64[s + 2] !== 0, pointsLeftOut: F64[s + 3], maxOutside: F64[s + 4],
+  });
+}
+
+export class Hull extends Handle {
+  constructor(key, address, free, report) {
+    refuseNew(key, 'Hull');
+    super(address, free);
+    this.report = report;
+  }
+
+  static bake(points, options = {}) {
+    ready();
+    const array = points instanceof Float32Array ? points : Float32Array.from(points);
+    const address = copyIn(array);
+    try {
+      return fromResult(watched(options, null, () => wasm.js_hull_bake(
+        address, Math.floor(array.length / 3), options.maxVertices ?? 0, options.thickness ?? 0, options.flatness ?? 8)));
+    } finally {
+      release(address);
+    }
+  }
+
+  static fromBytes(bytes) {
+    ready();
+    const address = copyIn(bytes);
+    try {
+      check(wasm.js_hull_check(address, bytes.length));
+    } catch (error) {
+      release(address);
+      throw error;
+    }
+    return new Hull(PRIVATE, address, 'js_free', null);
+  }
+
+  transform(scale, pose = null) {
+    const address = this._address;
+    putVec3(0, scale);
+    putPose(3, pose);
+    return fromResult(wasm.js_hull_transform(address));
+  }
+
+  // Offsets in the slot as js_hull_info writes them.
+  #info() {
+    wasm.js_hull_info(this._address);
+    const s = SLOT;
+    return { size: F64[s], vertexCount: F64[s + 1], faceCount: F64[s + 2], halfEdgeCount: F64[s + 3], vertices: F64[s + 4],
+             sources: F64[s + 5], vertexEdges: F64[s + 6], halfEdges: F64[s + 7], faces: F64[s + 8] };
+  }
+
+  toBytes() {
+    const { size } = this.#info();
+    return U8.slice(this._address, this._address + size);
+  }
+
+  get vertexCount() {
+    return this.#info().vertexCount;
+  }
+
+  get faceCount() {
+    return this.#info().faceCount;
+  }
+
+  bounds() {
+    this.#info();
+    return slotAabb(9);
+  }
+
+  mass() {
+    this.#info();
+    const s = SLOT;
+    return { volume: F64[s + 15], area: F64[s + 16], center: slotVec3(17), inertia: F64.slice(s + 20, s + 26) };
+  }
+
+  vertices() {
+    const info = this.#info();
+    return copyOut(Float32Array, info.vertices, 3 * info.vertexCount);
+  }
+
+  sources() {
+    const info = this.#info();
+    return copyOut(Uint32Array, info.sources, info.vertexCount);
+  }
+
+  faces() {
+    const info = this.#info();
+    const faces = copyOut(Uint32Array, info.faces, 2 * info.faceCount);
+    const edges = copyOut(Uint32Array, info.halfEdges, 4 * info.halfEdgeCount);
+    const first = new Uint32Array(info.faceCount + 1), indices = new Uint32Array(info.halfEdgeCount);
+    let at = 0;
+    for (let f = 0; f < info.faceCount; f++) {
+      for (let e = faces[2 * f]; e < faces[2 * f] + faces[2 * f + 1]; e++) indices[at++] = edges[4 * e];
+      first[f + 1] = at;
+    }
+    return { first, indices };
+  }
+
+  triangles() {
+    const { first, indices } = this.faces();
+    const triangles = [];
+    for (let f = 0; f + 1 < first.length; f++) {
+      for (let i = first[f] + 2; i < first[f + 1]; i++) triangles.push(indices[first[f]], indices[i - 1], indices[i]);
+    }
+    return Uint32Array.from(triangles);
+  }
+
+  edges() {
+    const info = this.#info();
+    const half = copyOut(Uint32Array, info.halfEdges, 4 * info.halfEdgeCount);
+    const edges = [];
+    for (let e = 0; e < info.halfEdgeCount; e++) {
+      const twin = half[4 * e + 1];
+      if (e < twin) edges.push(half[4 * e], half[4 * twin]);
+    }
+    return Uint32Array.from(edges);
+  }
+
+  support(x, y, z, hint = NO_VERTEX) {
+    return wasm.js_hull_support(this._address, x, y, z, hint) >>> 0;
+  }
+
+  supportClimb(direction, start = 0) {
+    const info = this.#info();
+    const v = copyOut(Float32Array, info.vertices, 3 * info.vertexCount);
+    const half = copyOut(Uint32Array, info.halfEdges, 4 * info.halfEdgeCount);
+    const anyEdge = copyOut(Uint32Array, info.vertexEdges, info.vertexCount);
+    // Products of floats are exact in doubles; the sum of three is rounded twice.
+    const [x, y, z] = [0, 1, 2].map((i) => Math.fround(direction[i]));
+    const height = (i) => v[3 * i] * x + v[3 * i + 1] * y + v[3 * i + 2] * z;
+    const visited = [start < info.vertexCount ? start : 0];
+    for (;;) {
+      const here = visited[visited.length - 1];
+      let best = here, edge = anyEdge[here];
+      do {
+        const beside = half[4 * half[4 * edge + 1]];
+        if (height(beside) > height(best)) best = beside;
+        edge = half[4 * half[4 * edge + 1] + 2];
+      } while (edge !== anyEdge[here]);
+      if (best === here) return Uint32Array.from(visited);
+      visited.push(best);
+    }
+  }
+
+  castRay(origin, direction, maxT = Infinity) {
+    const address = this._address;
+    putVec3(0, origin);
+    putVec3(3, direction);
+    F64[SLOT + 6] = maxT;
+    if (!wasm.js_hull_cast_ray(address)) return null;
+    const face = F64[SLOT + 1];
+    return { t: F64[SLOT], face: face === NO_VERTEX ? null : face, normal: slotVec3(2) };
+  }
+
+  contains(point) {
+    return wasm.js_hull_contains(this._address, point[0], point[1], point[2]) !== 0;
+  }
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { Hull, Navmesh, loadPack, savePack } from '../src/index.js';
+import { courtyard, errorOf } from './support.js';
+
+test('a file holds what was put in, and gives the same bytes again', () => {
+  const { mesh, source, soup } = courtyard();
+  const volumes = [{ type: 'cylinder', area: 5, base: [20, -1, 20], radius: 3, height: 9 }];
+  const navmesh = Navmesh.bake(mesh, { volumes, cellSize: 0.25 }), hull = Hull.bake(mesh.vertices);
+  const { links } = navmesh.findLinks(soup);
+  navmesh.addJumpLinks(links);
+  const meta = { name: 'a level.obj', sourceVertices: source.vertexCount, sourceTriangles: source.triangleCount, bounds: mesh.bounds(), up: 'z' };
+  const bytes = savePack({ meta, soup, hull, navmesh, volumes });
+  const pack = loadPack(bytes);
+  assert.deepEqual(pack.meta, meta);
+  assert.deepEqual(pack.volumes, volumes);
+  assert.deepEqual(pack.links, links);
+  assert.equal(pack.navmesh.options.cellSize, 0.25);
+  assert.equal(pack.navmesh.offMeshLinks().length, links.length);
+  assert.deepEqual([...new Set(pack.chunks.map((chunk) => chunk.type))], ['META', 'SOUP', 'HULL', 'NAVM', 'NAVT', 'LINK', 'MARK']);
+  assert.deepEqual(savePack(pack), bytes);
+  assert.deepEqual(loadPack(savePack({ soup })).navmesh, null);
+});
+
+test('every damage is refused', () => {
+  const bytes = savePack({ soup: courtyard().soup });
+  assert.equal(errorOf(() => loadPack(new Uint8Array(64))).result, 'TL_ERR_MAGIC');
+  assert.equal(errorOf(() => loadPack(bytes.slice(0, -64))).result, 'TL_ERR_TRUNCATED');
+  for (let at = 200; at < bytes.length; at += 9973) {
+    const damaged = bytes.slice();
+    damaged[at] ^= 4;
+    assert.ok(['TL_ERR_HASH', 'TL_ERR_CORRUPT'].includes(errorOf(() => loadPack(damaged)).result), String(at));
+  }
+  assert.equal(errorOf(() => loadPack(new Uint8Array(0))).result.startsWith('TL_ERR_'), true);
+});
