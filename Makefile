@@ -5,6 +5,7 @@
 #   make install    install command, library and headers under PREFIX (/usr/local unless told)
 #   make python-test   set up, build and test the Python package, in a virtual environment of its own
 #   make docs       the documentation site, in build/docs/html
+#   make viewer     set up, build the viewer's page, and serve it to the browser; talus view fills it with a level
 #   make bench      set up, build, and run every benchmark; make bench-rays runs one
 
 # make's own default for CC is cc; CXX is needed by the tests that compare with C++ peers.
@@ -26,7 +27,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench bench-simd bench-python sanitize tsan fuzz cross python-test docs format wasm js-test bench-web lint install clean
+.PHONY: all demo test benchmarks bench bench-simd bench-python sanitize tsan fuzz cross python-test docs format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
 
 all:
 	tools/setup tools
@@ -41,6 +42,7 @@ test:
 	$(CONFIGURE) -DTALUS_TESTS=ON
 	cmake --build $(BUILD) --parallel $(JOBS)
 	ctest --test-dir $(BUILD) --parallel $(JOBS) --output-on-failure $(TEST_FLAGS)
+	$(if $(TEST_FLAGS),,tools/test-viewer $(abspath $(BUILD))/cli/talus)
 
 benchmarks:
 	tools/setup tools tests bench
@@ -90,6 +92,19 @@ python-test:
 docs:
 	tools/setup docs
 	tools/docs build/docs
+# The viewer: one HTML page with all in it, build/viewer/viewer.html, which make install puts beside the command.
+viewer-page: wasm
+	cd web && npm install --no-save --no-audit --no-fund --ignore-scripts
+	cd web && npm run --silent build
+
+viewer: viewer-page
+	cd web && PORT=$(or $(PORT),5173) npm run --silent serve
+
+viewer-test: viewer-page
+	tools/setup tools browser
+	$(CONFIGURE) -DTALUS_TESTS=OFF
+	cmake --build $(BUILD) --parallel $(JOBS) --target talus_command
+	tools/test-viewer $(abspath $(BUILD))/cli/talus
 
 format:
 	git ls-files '*.c' '*.h' '*.inl' '*.cpp' '*.hpp' | xargs clang-format -i

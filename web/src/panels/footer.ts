@@ -1,0 +1,40 @@
+// The line at the bottom: how a bake goes on, and then what it made and how long each stage took.
+
+import type { App } from '../app';
+import { colourOfId, css } from '../scene/palette';
+import { count, fill, h, milliseconds } from './dom';
+
+export function footer(app: App): HTMLElement {
+  const bar = h('progress', { max: 1, value: 0, 'aria-label': 'Progress of the bake' });
+  const stage = h('span', { class: 'muted', id: 'stage' });
+  const cancel = h('button', { id: 'cancel', onclick: () => app.cancel() }, 'Cancel');
+  const work = h('div', { class: 'row', style: 'margin: 0' }, bar, stage, cancel);
+  const numbers = h('span', { class: 'numbers', id: 'numbers' });
+  const times = h('div', { class: 'times', id: 'times', role: 'img' });
+  const total = h('span', { id: 'total' });
+  app.session.watch(({ progress, baking, working, bake, level }) => {
+    const busy = baking || working !== null;
+    work.hidden = !busy;
+    if (busy) {
+      if (progress && progress.total > 0) bar.value = progress.done / progress.total;
+      else bar.removeAttribute('value');
+      stage.textContent = progress?.stage ?? working ?? 'starting';
+    }
+    numbers.textContent = level === null ? ''
+      : `${count(level.triangles)} triangles` + (bake === null ? '' :
+        ` · ${count(bake.polygons)} polygons in ${count(bake.tiles)} tile${bake.tiles === 1 ? '' : 's'}` +
+        ` · ${Number(bake.area.toPrecision(5)).toLocaleString('en')} m²`);
+    const sum = bake?.stages.reduce((all, one) => all + one.milliseconds, 0) ?? 0;
+    times.hidden = sum === 0 || busy;
+    if (bake && sum > 0) {
+      times.setAttribute('aria-label', 'Time of each stage: ' +
+        bake.stages.map((one) => `${one.stage} ${milliseconds(one.milliseconds)}`).join(', '));
+      fill(times, ...bake.stages.map((one, i) => h('span', {
+        style: `flex: ${one.milliseconds}; background: ${css(colourOfId(i + 3))}`,
+        title: `${one.stage}: ${milliseconds(one.milliseconds)}`,
+      })));
+    }
+    total.textContent = !bake || busy ? '' : bake.milliseconds > 0 ? `bake ${milliseconds(bake.milliseconds)}` : 'as baked in the file';
+  });
+  return h('footer', {}, work, numbers, times, total);
+}
