@@ -39,6 +39,7 @@ static void areas_add_up(void **state)
         tl_arena arena;
         tl_contour_work work;
         trace_contours(&compact, &config, &arena, &work);
+        TEST_RESULT(tl_contours_simplify(&work), TL_OK);
         TEST_RESULT(tl_contours_repair(&work), TL_OK);
         tl_nav_contours contours;
         TEST_RESULT(tl_nav_bake_contours(&config, &compact, NULL, &contours, NULL), TL_OK);

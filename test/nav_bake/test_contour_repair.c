@@ -85,6 +85,7 @@ static void no_conflict_is_left(void **state)
         tl_arena arena;
         tl_contour_work work;
         trace_contours(&compact, &config, &arena, &work);
+        TEST_RESULT(tl_contours_simplify(&work), TL_OK);
         uint64_t before = count_conflicts(&work);
         uint8_t *kept = malloc(work.vertex_count + 1u);
         memcpy(kept, work.keep, work.vertex_count);

@@ -6,18 +6,6 @@
 
 #include "nav_bake/contours/contours.h"
 
-static void trace(tl_nav_compact *compact, const tl_nav_config *config, tl_arena *arena, tl_contour_work *work)
-{
-    TEST_RESULT(tl_nav_distance_field(NULL, compact, NULL), TL_OK);
-    TEST_RESULT(tl_nav_bake_regions(config, NULL, compact, NULL), TL_OK);
-    tl_arena_init(arena, NULL);
-    memset(work, 0, sizeof *work);
-    work->config = config;
-    work->compact = compact;
-    work->arena = arena;
-    TEST_RESULT(tl_contours_trace(work), TL_OK);
-}
-
 static void example_square(void **state)
 {
     (void)state;
@@ -26,7 +14,7 @@ static void example_square(void **state)
     tl_nav_config config = region_config(TL_NAV_MONOTONE, 0, 100);
     tl_arena arena;
     tl_contour_work work;
-    trace(&compact, &config, &arena, &work);
+    trace_contours(&compact, &config, &arena, &work);
     TEST_CHECK(work.loop_count == 1 && work.vertex_count == 10 && work.loops[0].area2 == 12);
     // Clockwise from the first floor's x- edge: up along z, right, down, left. Heights: the highest floor around.
     static const int expected[10][3] = { { 1, 0, 1 }, { 1, 0, 2 }, { 1, 0, 3 }, { 2, 1, 3 }, { 3, 2, 3 },
@@ -49,7 +37,7 @@ static void example_one_column(void **state)
     tl_nav_config config = region_config(TL_NAV_LAYERS, 0, 0);
     tl_arena arena;
     tl_contour_work work;
-    trace(&compact, &config, &arena, &work);
+    trace_contours(&compact, &config, &arena, &work);
     TEST_CHECK(work.loop_count == 1 && work.vertex_count == 4 && work.loops[0].area2 == 2 && work.vertices[2].y == 5);
     tl_arena_free(&arena);
     fixture_compact_free(&compact);
@@ -69,7 +57,7 @@ static void twins(void **state)
         tl_nav_config config = region_config((tl_nav_partition)(round % 3), 10, 50);
         tl_arena arena;
         tl_contour_work work;
-        trace(&compact, &config, &arena, &work);
+        trace_contours(&compact, &config, &arena, &work);
         for (uint32_t k = 0; k < work.vertex_count; k++) {
             uint32_t twin = work.twin[k], next = tl_contour_next(&work, k);
             uint32_t across = work.across[k], own = work.loops[work.loop_of[k]].region;
@@ -111,7 +99,7 @@ static void border_vertices(void **state)
     tl_nav_config config = region_config(TL_NAV_MONOTONE, 0, 0);
     tl_arena arena;
     tl_contour_work work;
-    trace(&compact, &config, &arena, &work);
+    trace_contours(&compact, &config, &arena, &work);
     TEST_CHECK(work.loop_count == 1 && work.vertex_count == 32 && work.loops[0].area2 == 2 * 64);
     uint32_t flagged = 0;
     for (uint32_t k = 0; k < work.vertex_count; k++) {

@@ -24,17 +24,7 @@ typedef struct edited {
 // Tiles in row order.
 static tl_navmesh *build_afresh(const edited *e)
 {
-    tl_navmesh *navmesh = NULL;
-    TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
-    for (uint32_t z = 0; z < TILES; z++) {
-        for (uint32_t x = 0; x < TILES; x++) {
-            if (e->present[z][x]) {
-                tl_nav_tile *tile = fixture_build_tile(&e->level, (int32_t)x, (int32_t)z, NULL);
-                TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
-            }
-        }
-    }
-    return navmesh;
+    return fixture_build_present(&e->level, TILES, e->present[0]);
 }
 
 static bool sink(uint32_t *label, uint32_t i, uint32_t j)

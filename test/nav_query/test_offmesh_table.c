@@ -56,16 +56,7 @@ static void edit_links(edited *e, test_random *random)
 // Tiles in row order, links afterwards.
 static tl_navmesh *build_afresh(const edited *e, tl_nav_ref links_out[MAX_LINKS])
 {
-    tl_navmesh *navmesh = NULL;
-    TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
-    for (uint32_t z = 0; z < TILES; z++) {
-        for (uint32_t x = 0; x < TILES; x++) {
-            if (e->present[z][x]) {
-                tl_nav_tile *tile = fixture_build_tile(&e->level, (int32_t)x, (int32_t)z, NULL);
-                TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
-            }
-        }
-    }
+    tl_navmesh *navmesh = fixture_build_present(&e->level, TILES, e->present[0]);
     for (uint32_t i = 0; i < e->link_count; i++) {
         TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &e->offmesh[i], &links_out[i], NULL), TL_OK);
     }

@@ -231,25 +231,16 @@ typedef struct pool_tally {
 
 static pool_tally g_tallies[QUERY_COUNT];
 
-static tl_nav_query *make_query(uint32_t max_nodes)
-{
-    tl_nav_query_def def = tl_default_nav_query_def();
-    tl_nav_query *query = NULL;
-    def.max_nodes = max_nodes;
-    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
-    return query;
-}
-
 // All queries from one place to another, with every pool.
 static void ask_all(pool_case *c)
 {
     static const uint32_t POOLS[] = { 2, 3, 4, 5, 6, 7, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64 };
     for (int i = 0; i < QUERY_COUNT; i++) {
-        c->query = make_query(LARGE_POOL);
+        c->query = fixture_query(LARGE_POOL);
         const pool_answer expected = QUERIES[i].ask(c);
         tl_nav_query_destroy(c->query);
         for (size_t k = 0; k < sizeof POOLS / sizeof *POOLS; k++) {
-            c->query = make_query(POOLS[k]);
+            c->query = fixture_query(POOLS[k]);
             for (int again = 0; again < 2; again++) { // what the first left behind must not matter
                 const pool_answer answer = QUERIES[i].ask(c);
                 pool_tally *tally = &g_tallies[i];

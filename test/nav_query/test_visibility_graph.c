@@ -8,19 +8,10 @@
 #include <math.h>
 #include <talus/nav_prepare.h>
 
-static tl_nav_query *make_query(uint32_t max_nodes)
-{
-    tl_nav_query_def def = tl_default_nav_query_def();
-    tl_nav_query *query = NULL;
-    def.max_nodes = max_nodes;
-    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
-    return query;
-}
-
 // Random pairs on two navmeshes of the same tiles; returns how many had a path that turns.
 static uint32_t compare(const tl_navmesh *prepared, const tl_navmesh *plain, test_random *random, uint32_t pairs)
 {
-    tl_nav_query *query = make_query(4096);
+    tl_nav_query *query = fixture_query(4096);
     fixture_refs all = fixture_all_refs(plain);
     uint32_t turning = 0;
     for (uint32_t i = 0; i < pairs && all.count > 0; i++) {
@@ -99,10 +90,10 @@ static void test_nodes(void **state)
     TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, NULL), TL_OK);
     TEST_CHECK(tl_navmesh_is_prepared(navmesh));
     fixture_refs all = fixture_all_refs(navmesh);
-    tl_nav_query *large = make_query(4096);
+    tl_nav_query *large = fixture_query(4096);
     uint32_t gave_up = 0, complete = 0;
     for (uint32_t max_nodes = 2; max_nodes < 60; max_nodes++) {
-        tl_nav_query *small = make_query(max_nodes);
+        tl_nav_query *small = fixture_query(max_nodes);
         tl_nav_location start = fixture_random_location(navmesh, &all, &random);
         tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
         tl_nav_shortest_path found, expected;
@@ -179,7 +170,7 @@ static void test_slices(void **state)
                                          { 0, 0, TL_DEF_COOKIE } };
     tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } };
     tl_nav_location goal = { tl_navmesh_polygon_ref(navmesh, 0, 7), { 10, 0, 10 } };
-    tl_nav_query *query = make_query(1000);
+    tl_nav_query *query = fixture_query(1000);
     for (uint32_t i = 0; i < 3; i++) {
         tl_nav_path_progress progress;
         tl_nav_shortest_path path;
@@ -204,7 +195,7 @@ static void test_links(void **state)
     const char *const rows[] = { "0#0", "0#0", "000" };
     fixture_level level = fixture_make(rows, 3);
     tl_navmesh *navmesh = fixture_build(&level, NULL);
-    tl_nav_query *query = make_query(1000);
+    tl_nav_query *query = fixture_query(1000);
     tl_nav_location start, goal;
     tl_vec3 near_by = tl_vec3_make(0.5f, 1.0f, 0.5f);
     TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, NULL), TL_OK);

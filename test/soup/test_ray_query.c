@@ -15,21 +15,10 @@ static tl_ray make_ray(tl_vec3 origin, tl_vec3 direction, float tmax)
     return ray;
 }
 
-// The triangle (0,0,0) (4,0,0) (0,0,4), whose front looks down, at y = 0.
-static model one_triangle(void)
-{
-    model m = { 0 };
-    model_vertex(&m, 0, 0, 0);
-    model_vertex(&m, 4, 0, 0);
-    model_vertex(&m, 0, 0, 4);
-    model_triangle(&m, 0, 1, 2);
-    return m;
-}
-
 static void test_hit_describes_place(void **state)
 {
     (void)state;
-    model m = one_triangle();
+    model m = model_one_triangle();
     tl_soup *soup = model_soup(&m, NULL);
     tl_ray ray = make_ray(vec(1, 3, 2), vec(0, -2, 0), 10);
     tl_ray_hit hit;
@@ -56,7 +45,7 @@ static bool hits(const tl_soup *soup, tl_vec3 origin, tl_vec3 direction, float t
 static void test_ends_and_edges_are_inclusive(void **state)
 {
     (void)state;
-    model m = one_triangle();
+    model m = model_one_triangle();
     tl_soup *soup = model_soup(&m, NULL);
     tl_vec3 down = vec(0, -1, 0);
     TEST_CHECK(hits(soup, vec(0, 1, 0), down, 2)); // corners
@@ -86,7 +75,7 @@ static void test_ends_and_edges_are_inclusive(void **state)
 static void test_what_hits_nothing(void **state)
 {
     (void)state;
-    model m = one_triangle();
+    model m = model_one_triangle();
     tl_soup *soup = model_soup(&m, NULL);
     TEST_CHECK(!hits(soup, vec(1, 1, 1), vec(0, 0, 0), INFINITY));
     TEST_CHECK(!hits(soup, vec(1, 1, 1), vec(0, -1, 0), -1));

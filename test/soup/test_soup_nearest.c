@@ -16,16 +16,6 @@ static tl_vec3 vec(float x, float y, float z)
     return tl_vec3_make(x, y, z);
 }
 
-static model one_triangle(void)
-{
-    model m = { 0 };
-    model_vertex(&m, 0, 0, 0);
-    model_vertex(&m, 4, 0, 0);
-    model_vertex(&m, 0, 0, 4);
-    model_triangle(&m, 0, 1, 2);
-    return m;
-}
-
 static void check_one(const tl_soup *soup, tl_vec3 at, tl_vec3 point, float distance, tl_triangle_feature feature,
                       bool back)
 {
@@ -45,7 +35,7 @@ static void check_one(const tl_soup *soup, tl_vec3 at, tl_vec3 point, float dist
 static void test_examples(void **state)
 {
     (void)state;
-    model m = one_triangle();
+    model m = model_one_triangle();
     tl_soup *soup = model_soup(&m, NULL);
     check_one(soup, vec(1, 3, 1), vec(1, 0, 1), 3, TL_TRIANGLE_FACE, true);
     check_one(soup, vec(1, -3, 1), vec(1, 0, 1), 3, TL_TRIANGLE_FACE, false);

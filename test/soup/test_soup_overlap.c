@@ -181,16 +181,6 @@ static void test_against_all_triangles(void **state)
     TEST_CHECK(r.crowded > query_count / 100 && r.full > query_count / 10 && r.close < r.decided / 100);
 }
 
-static model one_triangle(void)
-{
-    model m = { 0 };
-    model_vertex(&m, 0, 0, 0);
-    model_vertex(&m, 4, 0, 0);
-    model_vertex(&m, 0, 0, 4);
-    model_triangle(&m, 0, 1, 2);
-    return m;
-}
-
 static bool touches(const tl_soup *soup, tl_convex shape, tl_vec3 at, const tl_ray_filter *filter)
 {
     tl_transform pose = tl_transform_identity();
@@ -211,7 +201,7 @@ static bool refuse(uint32_t triangle, uint16_t material, void *user)
 static void test_examples(void **state)
 {
     (void)state;
-    model m = one_triangle();
+    model m = model_one_triangle();
     tl_soup *soup = model_soup(&m, NULL);
     tl_convex ball = tl_convex_sphere(vec(0, 0, 0), 1), box = tl_convex_box(vec(0, 0, 0), vec(1, 1, 1), 0);
     tl_convex capsule = tl_convex_capsule(vec(0, -1, 0), vec(0, 1, 0), 0.5f);
@@ -240,7 +230,7 @@ static void test_examples(void **state)
 static void test_refused_by_name(void **state)
 {
     (void)state;
-    model m = one_triangle();
+    model m = model_one_triangle();
     tl_soup *soup = model_soup(&m, NULL);
     bool overlaps;
     tl_transform pose = tl_transform_identity();

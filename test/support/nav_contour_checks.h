@@ -28,7 +28,7 @@ static inline void make_contours(tl_nav_compact *compact, const tl_nav_config *c
     TEST_RESULT(tl_nav_bake_contours(config, compact, NULL, contours, NULL), TL_OK);
 }
 
-/// Traces and simplifies the contours of a compact heightfield, all in `arena`, which is fresh.
+/// Traces the contours of a compact heightfield, all in `arena`, which is fresh.
 static inline void trace_contours(tl_nav_compact *compact, const tl_nav_config *config, tl_arena *arena,
                                   tl_contour_work *work)
 {
@@ -40,7 +40,6 @@ static inline void trace_contours(tl_nav_compact *compact, const tl_nav_config *
     work->compact = compact;
     work->arena = arena;
     TEST_RESULT(tl_contours_trace(work), TL_OK);
-    TEST_RESULT(tl_contours_simplify(work), TL_OK);
 }
 
 static inline int64_t contour_orient(const tl_contour_vertex *a, const tl_contour_vertex *b, const tl_contour_vertex *c)

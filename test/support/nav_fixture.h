@@ -505,4 +505,27 @@ static inline tl_navmesh *fixture_gap(tl_nav_ref *link_out)
     return navmesh;
 }
 
+/// A navmesh of those of a level's tiles x tiles tiles that are present, added in row order.
+static inline tl_navmesh *fixture_build_present(const fixture_level *level, uint32_t tiles, const bool *present)
+{
+    tl_navmesh *navmesh = NULL;
+    TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
+    for (uint32_t i = 0; i < tiles * tiles; i++) {
+        if (present[i]) {
+            tl_nav_tile *tile = fixture_build_tile(level, (int32_t)(i % tiles), (int32_t)(i / tiles), NULL);
+            TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
+        }
+    }
+    return navmesh;
+}
+
+static inline tl_nav_query *fixture_query(uint32_t max_nodes)
+{
+    tl_nav_query_def def = tl_default_nav_query_def();
+    tl_nav_query *query = NULL;
+    def.max_nodes = max_nodes;
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
+    return query;
+}
+
 #endif

@@ -212,4 +212,15 @@ static const char *const model_levels[] = { "levels/nav_test.obj",    "levels/du
                                             "levels/undulating.obj",  "levels/test_map01.obj",
                                             "levels/proto-level.obj", "levels/collision_mesh_01.obj" };
 
+/// The triangle (0,0,0) (4,0,0) (0,0,4), whose front faces down, at y = 0.
+static inline model model_one_triangle(void)
+{
+    model m = { 0 };
+    model_vertex(&m, 0, 0, 0);
+    model_vertex(&m, 4, 0, 0);
+    model_vertex(&m, 0, 0, 4);
+    model_triangle(&m, 0, 1, 2);
+    return m;
+}
+
 #endif
