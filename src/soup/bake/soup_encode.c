@@ -7,6 +7,7 @@
 #include "soup/bake/soup_encode.h"
 
 #include "base/assert.h"
+#include "base/min_max.h"
 
 #include <float.h>
 #include <string.h>
@@ -68,20 +69,25 @@ static void place_children(tl_soup_encoder *b, tl_wide_node *wide)
 }
 
 // Room for the wide nodes of the next level.
-static bool make_level_room(tl_soup_encoder *b, const node_range *level, const tl_allocator *allocator)
+static tl_result make_level_room(tl_soup_encoder *b, const node_range *level, const tl_allocator *allocator)
 {
     uint64_t needed = b->node_count;
     for (uint32_t i = level->first; i < level->end; i++) {
         needed += b->wide[i].inner_count;
     }
-    while (b->wide_capacity < needed) {
-        tl_wide_node *grown = tl_grow_array(allocator, b->wide, &b->wide_capacity, sizeof *grown);
-        if (grown == NULL) {
-            return false;
-        }
-        b->wide = grown;
+    if (needed <= b->wide_capacity) {
+        return TL_OK;
     }
-    return true;
+    const uint64_t capacity = tl_max_u64(needed, 2 * b->wide_capacity);
+    tl_wide_node *grown = tl_allocate_array(allocator, capacity, sizeof *grown);
+    if (grown == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_result result = tl_stage_copy(b->stage, grown, b->wide, b->node_count * sizeof *grown);
+    tl_release_array(allocator, b->wide, b->wide_capacity, sizeof *b->wide);
+    b->wide = grown;
+    b->wide_capacity = capacity;
+    return result;
 }
 
 // Finds the wide nodes breadth first, and with them all sizes.
@@ -97,9 +103,7 @@ static tl_result cut_tree(tl_soup_encoder *b, const tl_allocator *allocator)
         b->depth++;
         TL_TRY(tl_stage_run(b->stage, find_children_of_block, tl_block_count(level.end - level.first, BLOCK_NODES),
                             &level, NODE_BATCH, 0));
-        if (!make_level_room(b, &level, allocator)) {
-            return TL_ERR_MEMORY;
-        }
+        TL_TRY(make_level_room(b, &level, allocator));
         for (uint32_t i = level.first; i < level.end; i++) {
             place_children(b, &b->wide[i]);
             TL_TRY(tl_stage_tick(b->stage, i));

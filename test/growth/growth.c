@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+//
+// One operation on one hostile input of a size: what tools/check-growth counts the instructions of.
+//
+//   growth OPERATION FAMILY SIZE        prints the result's name
+//
+// Only growth_measured is counted: making the input, and what the operation needs, is not.
+
+#include <talus/talus.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct level {
+    tl_vec3 *vertices;
+    uint32_t *indices;
+    uint32_t vertex_count, triangle_count;
+    tl_contour_vertex *outline;
+    uint32_t outline_count;
+} level;
+
+static uint64_t state = 88172645463325252u;
+
+static float random_between(float low, float high)
+{
+    state ^= state << 13;
+    state ^= state >> 7;
+    state ^= state << 17;
+    return low + (high - low) * ((float)(state >> 40) * 0x1p-24f);
+}
+
+static uint32_t add_vertex(level *l, float x, float y, float z)
+{
+    l->vertices[l->vertex_count] = tl_vec3_make(x, y, z);
+    return l->vertex_count++;
+}
+
+static void add_triangle(level *l, uint32_t a, uint32_t b, uint32_t c)
+{
+    uint32_t *to = l->indices + 3 * (size_t)l->triangle_count++;
+    to[0] = a;
+    to[1] = b;
+    to[2] = c;
+}
+
+static void add_floor(level *l, float x, float y, float z, float width, float depth)
+{
+    const uint32_t a = add_vertex(l, x, y, z);
+    (void)add_vertex(l, x, y, z + depth);
+    (void)add_vertex(l, x + width, y, z + depth);
+    (void)add_vertex(l, x + width, y, z);
+    add_triangle(l, a, a + 1, a + 2);
+    add_triangle(l, a, a + 2, a + 3);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Families. Each fits a box of 20 m, so that a navmesh of it has the same columns at every size.
+
+static void make_fan(level *l, uint32_t n, float height)
+{
+    const uint32_t hub = add_vertex(l, 10, height, 10);
+    for (uint32_t i = 0; i <= n; i++) {
+        const float turn = 6.2831853f * (float)i / (float)n;
+        (void)add_vertex(l, 10 + 9 * cosf(turn), height > 0 ? random_between(0, 1) : 0, 10 + 9 * sinf(turn));
+    }
+    for (uint32_t i = 1; i <= n; i++) {
+        add_triangle(l, hub, i + 1, i);
+    }
+}
+
+static bool make_mesh(level *l, const char *family, uint32_t n)
+{
+    if (strcmp(family, "fan") == 0) {
+        make_fan(l, n, 0);
+    } else if (strcmp(family, "cone") == 0) {
+        make_fan(l, n, 5);
+    } else if (strcmp(family, "stack") == 0) {
+        for (uint32_t i = 0; i < n / 2; i++) {
+            add_floor(l, 5, 20.0f * (float)i / (float)n, 5, 2, 2);
+        }
+    } else if (strcmp(family, "same") == 0) {
+        for (uint32_t i = 0; i < n / 2; i++) {
+            add_floor(l, 5, 1, 5, 2, 2);
+        }
+    } else if (strcmp(family, "comb") == 0) {
+        for (uint32_t i = 0; i < n / 2; i++) {
+            add_floor(l, 20.0f * (float)i / (float)n * 2, 0, 0, 10.0f / (float)n, 20);
+        }
+    } else if (strcmp(family, "tangle") == 0) {
+        for (uint32_t i = 0; i < 3 * n; i++) {
+            (void)add_vertex(l, random_between(0, 20), random_between(0, 20), random_between(0, 20));
+        }
+        for (uint32_t i = 0; i < n; i++) {
+            add_triangle(l, 3 * i, 3 * i + 1, 3 * i + 2);
+        }
+    } else if (strcmp(family, "chain") == 0) {
+        for (uint32_t i = 0; i < n; i++) {
+            const float size = ldexpf(1.0f + (float)(i / 100) * 0.001f, 3 - (int)(i % 100));
+            const uint32_t a = add_vertex(l, size, 0, 0);
+            (void)add_vertex(l, size * 1.5f, 0, 0);
+            (void)add_vertex(l, size, size, size * 0.5f);
+            add_triangle(l, a, a + 1, a + 2);
+        }
+    } else {
+        return false;
+    }
+    return true;
+}
+
+static void add_corner(level *l, float x, float z)
+{
+    l->outline[l->outline_count++] = (tl_contour_vertex){ (int32_t)x, 0, (int32_t)z, 0 };
+}
+
+static bool make_outline(level *l, const char *family, uint32_t n)
+{
+    if (strcmp(family, "teeth") == 0) {
+        for (uint32_t i = 0; i < n / 2; i++) {
+            add_corner(l, 4.0f * (float)i, 0);
+            add_corner(l, 4.0f * (float)i + 1, 4000);
+        }
+        add_corner(l, 2.0f * (float)n, 5000);
+        add_corner(l, 0, 5000);
+    } else if (strcmp(family, "star") == 0) {
+        for (uint32_t i = 0; i < n; i++) {
+            const float turn = -6.2831853f * (float)i / (float)n, radius = i % 2 == 0 ? 500000.0f : 300000.0f;
+            add_corner(l, radius * cosf(turn), radius * sinf(turn));
+        }
+    } else if (strcmp(family, "spiral") == 0) {
+        for (uint32_t i = 0; i < n / 2; i++) {
+            const float turn = -40.0f * (float)i / (float)n, radius = 1000 + 900000.0f * (float)i / (float)n;
+            add_corner(l, radius * cosf(turn), radius * sinf(turn));
+        }
+        for (uint32_t i = n / 2; i-- > 0;) {
+            const float turn = -40.0f * (float)i / (float)n, radius = 40000 + 900000.0f * (float)i / (float)n;
+            add_corner(l, radius * cosf(turn), radius * sinf(turn));
+        }
+    } else {
+        return false;
+    }
+    return true;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Operations.
+
+typedef struct work {
+    const char *operation;
+    level l;
+    tl_mesh_view view;
+    tl_soup *soup;
+    tl_result result;
+} work;
+
+#if defined(__GNUC__)
+#define ALONE __attribute__((noinline))
+#else
+#define ALONE
+#endif
+
+static tl_result bake_soup_of(work *w)
+{
+    tl_soup_def def = tl_default_soup_def();
+    def.layout = strcmp(w->operation, "soup-compact") == 0 ? TL_SOUP_COMPACT : TL_SOUP_FAST;
+    def.partition = strcmp(w->operation, "soup-kd") == 0 ? TL_SOUP_KD_TREE : TL_SOUP_BVH;
+    def.split_budget = strcmp(w->operation, "soup-split") == 0 ? 0.3f : 0.0f;
+    return tl_soup_bake(&w->view, &def, &w->soup, NULL);
+}
+
+static tl_result bake_nav_of(const work *w)
+{
+    tl_nav_def def = tl_default_nav_def();
+    def.cell_size = 0.3f;
+    const tl_nav_input input = { .mesh = w->view };
+    tl_nav_tiles tiles;
+    tl_result result = tl_nav_bake(&def, &input, &tiles, NULL);
+    tl_nav_tiles_free(&tiles);
+    return result;
+}
+
+static tl_result bake_polygons_of(const work *w)
+{
+    tl_contour contour = { .vertex_count = w->l.outline_count, .region = 1, .area = 1 };
+    const tl_contour_set set = { .vertices = w->l.outline,
+                                 .vertex_count = w->l.outline_count,
+                                 .contours = &contour,
+                                 .contour_count = 1,
+                                 .cell_size = 1.0f,
+                                 .cell_height = 1.0f };
+    tl_polygon_mesh mesh;
+    tl_result result = tl_polygon_mesh_bake(&set, NULL, &mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
+    return result;
+}
+
+void growth_measured(work *w);
+
+ALONE void growth_measured(work *w)
+{
+    if (strncmp(w->operation, "soup", 4) == 0 && strcmp(w->operation, "soup-check") != 0) {
+        w->result = bake_soup_of(w);
+    } else if (strcmp(w->operation, "soup-check") == 0) {
+        w->result = tl_soup_check(w->soup, tl_soup_size(w->soup), NULL);
+    } else if (strcmp(w->operation, "mesh") == 0) {
+        tl_mesh mesh;
+        w->result = tl_mesh_bake(&w->view, NULL, &mesh, NULL);
+        tl_mesh_free(&mesh);
+    } else if (strcmp(w->operation, "weld") == 0) {
+        tl_mesh_def def = tl_default_mesh_def();
+        def.weld_tolerance = 0.001f;
+        tl_mesh mesh;
+        w->result = tl_mesh_bake(&w->view, &def, &mesh, NULL);
+        tl_mesh_free(&mesh);
+    } else if (strcmp(w->operation, "adjacency") == 0) {
+        tl_adjacency adjacency;
+        w->result = tl_adjacency_bake(&w->view, NULL, &adjacency, NULL);
+        tl_adjacency_free(&adjacency);
+    } else if (strcmp(w->operation, "hull") == 0) {
+        tl_hull *hull = NULL;
+        w->result = tl_hull_bake(w->view.vertices, w->view.vertex_count, NULL, &hull, NULL);
+        tl_blob_free(hull);
+    } else if (strcmp(w->operation, "nav") == 0) {
+        w->result = bake_nav_of(w);
+    } else if (strcmp(w->operation, "polygons") == 0) {
+        w->result = bake_polygons_of(w);
+    } else {
+        w->result = TL_ERR_UNSUPPORTED;
+    }
+}
+
+int main(int count, char **arguments)
+{
+    const uint32_t n = count == 4 ? (uint32_t)strtoul(arguments[3], NULL, 10) : 0;
+    if (n < 8) {
+        fprintf(stderr, "growth OPERATION FAMILY SIZE\n");
+        return 2;
+    }
+    work w = { .operation = arguments[1] };
+    w.l.vertices = malloc((4 * (size_t)n + 16) * sizeof *w.l.vertices);
+    w.l.indices = malloc((4 * (size_t)n + 16) * 3 * sizeof *w.l.indices);
+    w.l.outline = malloc((2 * (size_t)n + 16) * sizeof *w.l.outline);
+    if (w.l.vertices == NULL || w.l.indices == NULL || w.l.outline == NULL ||
+        !(strcmp(w.operation, "polygons") == 0 ? make_outline : make_mesh)(&w.l, arguments[2], n)) {
+        fprintf(stderr, "no such family\n");
+        return 2;
+    }
+    w.view = (tl_mesh_view){ w.l.vertices, w.l.vertex_count, w.l.indices, w.l.triangle_count, NULL };
+    if (strcmp(w.operation, "soup-check") == 0 && bake_soup_of(&w) != TL_OK) {
+        return 1;
+    }
+    growth_measured(&w);
+    printf("%s\n", tl_result_name(w.result));
+    tl_blob_free(w.soup);
+    free(w.l.vertices);
+    free(w.l.indices);
+    free(w.l.outline);
+    return 0;
+}
