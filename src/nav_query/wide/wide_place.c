@@ -136,18 +136,53 @@ static void offer_crossings(place_search *search, const border *a, const border 
     offer_on_line(search, &line, foot + sqrt(half));
 }
 
+// A circle around the polygon that is visited, so much larger that what rounds stays within.
+typedef struct cell_circle {
+    tl_nav_spot middle;
+    double radius;
+} cell_circle;
+
+static cell_circle circle_of_cell(const place_search *search)
+{
+    const tl_nav_wall_cell *cell = &search->cell;
+    cell_circle circle = { cell->corners[0], 0.0 };
+    double far_sq = 0.0;
+    for (uint32_t i = 1; i < cell->count; i++) {
+        far_sq = fmax(far_sq, tl_nav_spot_distance_sq(circle.middle, cell->corners[i]));
+    }
+    const double size = fabs(circle.middle.x) + fabs(circle.middle.z) + search->reach + sqrt(far_sq);
+    circle.radius = sqrt(far_sq) + 2.0 * search->clearance->slack + 1e-5 * size;
+    return circle;
+}
+
+// The borders of a wall that come near the cell: no candidate lies on another. Where many small polygons lie close
+// together none does, and the walls need not be taken in pairs.
+static uint32_t near_borders_of(const place_search *search, uint32_t wall, cell_circle circle, border out[4])
+{
+    uint32_t near = 0, count = borders_of(tl_nav_segment_of_wall(&search->cell.near.walls[wall]), search->reach, out);
+    for (uint32_t i = 0; i < count; i++) {
+        const double x = circle.middle.x - out[i].at.x, z = circle.middle.z - out[i].at.z;
+        const double off =
+            is_circle(&out[i]) ? sqrt(x * x + z * z) - search->reach : out[i].ahead.x * z - out[i].ahead.z * x;
+        if (fabs(off) <= circle.radius) {
+            out[near++] = out[i];
+        }
+    }
+    return near;
+}
+
 static void offer_borders(place_search *search)
 {
+    const cell_circle circle = circle_of_cell(search);
     for (uint32_t i = 0; i < search->cell.near.wall_count; i++) {
         border own[4];
-        uint32_t own_count = borders_of(tl_nav_segment_of_wall(&search->cell.near.walls[i]), search->reach, own);
+        uint32_t own_count = near_borders_of(search, i, circle, own);
         for (uint32_t b = 0; b < own_count; b++) {
             offer_nearest(search, &own[b]);
         }
-        for (uint32_t k = 0; k < i; k++) {
+        for (uint32_t k = 0; k < i && own_count > 0; k++) {
             border other[4];
-            uint32_t other_count =
-                borders_of(tl_nav_segment_of_wall(&search->cell.near.walls[k]), search->reach, other);
+            uint32_t other_count = near_borders_of(search, k, circle, other);
             for (uint32_t pair = 0; pair < own_count * other_count; pair++) {
                 offer_crossings(search, &own[pair / other_count], &other[pair % other_count]);
             }
