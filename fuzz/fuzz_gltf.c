@@ -25,7 +25,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     tl_imported_mesh mesh, second;
     tl_io_error error;
-    const tl_mesh_source source = { "fuzz.glb", NULL, data, size, "glb", false }; // no folder, so no files beside it
+    const tl_mesh_source source = {
+        "fuzz.glb", NULL, data, size, "glb", false, { 0.0 }
+    }; // no folder, so no files beside it
     tl_result result = tl_gltf_read(&source, NULL, &mesh, &error);
     if (result != TL_OK) {
         char words[1024];

@@ -385,8 +385,11 @@ static tl_result push_gltf_nodes(gltf_reader *reader, const uint32_t *nodes, siz
 static tl_result walk_gltf_nodes(gltf_reader *reader)
 {
     const tl_gltf_data *data = reader->file.data;
-    tl_affine identity = tl_affine_identity();
-    tl_result result = push_gltf_nodes(reader, data->roots, data->root_count, &identity);
+    tl_affine root = tl_affine_identity();
+    for (int i = 0; i < 3; i++) {
+        root.row[i][3] = 0.0 - reader->file.source->origin[i];
+    }
+    tl_result result = push_gltf_nodes(reader, data->roots, data->root_count, &root);
     while (reader->stack_count > 0 && result == TL_OK) {
         pending_gltf_node pending = reader->stack[--reader->stack_count];
         const tl_gltf_node *node = &data->nodes[pending.node];

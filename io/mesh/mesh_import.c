@@ -194,10 +194,13 @@ static tl_result read_mesh_bytes(const void *bytes, size_t size, const char *pat
     }
     const char *kind = !named_obj && !stream && tl_import_is_mesh_name(path) ? extension + 1 : other;
     if (kind != NULL) {
-        const tl_mesh_source source = { name, stream ? NULL : path, bytes, size, kind, allow };
+        const tl_mesh_source source = { name, stream ? NULL : path, bytes, size, kind, allow, { o[0], o[1], o[2] } };
         bool gltf = is_gltf_kind(kind) || (other != NULL && is_gltf_kind(other));
         result = tl_read_isolated(gltf ? tl_gltf_read : tl_assimp_read, &source, &options->limits, host, mesh, error);
         mesh->format = gltf ? "glTF" : "Assimp";
+        if (gltf) {
+            memcpy(mesh->origin, o, sizeof mesh->origin); // its nodes' places are doubles, from which it was subtracted
+        }
         return result;
     }
     if (sniff_obj(bytes, size)) {

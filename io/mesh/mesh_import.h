@@ -38,7 +38,7 @@ typedef struct tl_import_limits {
 typedef struct tl_import_options {
     tl_up_axis up_axis;
     double origin[3]; ///< in the file's units and axes: this point becomes 0,0,0. OBJ subtracts it before it rounds to
-                      ///< floats; formats that store floats have rounded already
+                      ///< floats, glTF from its nodes' places; other formats have rounded already
     bool auto_origin; ///< `origin` is chosen: on axes where the level lies far out, its middle, in whole units; else 0
     float unit_scale; ///< metres a file unit, finite and > 0; 0.01 for a file in centimetres
     bool allow_no_triangles; ///< a file with vertices only is no error (point clouds)

@@ -17,6 +17,7 @@ typedef struct tl_mesh_source {
     size_t size;
     const char *kind;        ///< its extension without the point ("stl")
     bool allow_no_triangles; ///< a point cloud is no failure
+    double origin[3];        ///< this point of the file becomes 0,0,0: a reader that does so says it in mesh->origin
 } tl_mesh_source;
 
 /// A reader. See tl_import_mesh for what is done and which errors there are.

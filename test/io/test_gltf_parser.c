@@ -23,7 +23,7 @@ static tl_result parse(const char *json, size_t size, tl_gltf_data *data, tl_io_
     for (size_t i = 0; i < size; i++) {
         text[i] = json[i] == '\'' ? '"' : json[i];
     }
-    tl_mesh_source source = { "level.gltf", NULL, text, size, "gltf", false };
+    tl_mesh_source source = { "level.gltf", NULL, text, size, "gltf", false, { 0.0 } };
     tl_result result = tl_gltf_parse(&source, NULL, data, error);
     free(text); // of a text nothing is kept; of a GLB its binary chunk
     return result;
@@ -188,7 +188,7 @@ static tl_result parse_glb(const unsigned char *glb, size_t size, tl_gltf_data *
 {
     unsigned char *copy = malloc(size); // so that a sanitizer sees its end
     memcpy(copy, glb, size);
-    tl_mesh_source source = { "level.glb", NULL, copy, size, "glb", false };
+    tl_mesh_source source = { "level.glb", NULL, copy, size, "glb", false, { 0.0 } };
     tl_result result = tl_gltf_parse(&source, NULL, data, error);
     bool inside = result != TL_OK || data->binary == NULL ||
                   (data->binary >= copy && data->binary_size <= size - (size_t)(data->binary - copy));

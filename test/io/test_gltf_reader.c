@@ -239,7 +239,7 @@ static void test_cases(void **state)
         tl_imported_mesh mesh;
         tl_io_error error;
         memset(&error, 0, sizeof error);
-        tl_mesh_source source = { "level.glb", NULL, glb, make_glb(c->json, glb), "glb", false };
+        tl_mesh_source source = { "level.glb", NULL, glb, make_glb(c->json, glb), "glb", false, { 0.0 } };
         tl_result result = tl_gltf_read(&source, NULL, &mesh, &error);
         bool by_name = c->needs_unpacking && result == TL_ERR_UNSUPPORTED &&
                        strstr(error.message, "EXT_meshopt_compression") != NULL;
@@ -268,7 +268,7 @@ static void test_damage(void **state)
     static const size_t picked[] = { 4, 6, 8, 9, 10 };
     for (size_t p = 0; p < sizeof picked / sizeof picked[0]; p++) {
         size_t size = make_glb(cases[picked[p]].json, glb);
-        tl_mesh_source source = { "level.glb", NULL, glb, size, "glb", false };
+        tl_mesh_source source = { "level.glb", NULL, glb, size, "glb", false, { 0.0 } };
         tl_imported_mesh mesh;
         test_allocator allocator;
         for (uint64_t fail_at = 1, calls = 2; fail_at <= calls; fail_at++) {

@@ -357,6 +357,25 @@ static void test_matrix(void **state)
     TEST_CHECK(wrong == 0 && right >= 44);
 }
 
+// A node far out keeps its place to the millimetre, where a float steps by half a metre.
+static void test_far_nodes(void **state)
+{
+    (void)state;
+    static const char json[] =
+        GLTF_HEAD GLTF_NODES("{'mesh':0,'translation':[4649000.125,-7,5000000.375]}") GLTF_MESH(0, ",'indices':1");
+    static byte_buffer file;
+    file.size = 0;
+    make_glb(&file, json);
+    tl_import_options options = tl_default_import_options();
+    const double origin[3] = { 4649000.0, 0.0, 5000000.0 };
+    memcpy(options.origin, origin, sizeof origin);
+    tl_imported_mesh mesh;
+    TEST_RESULT(tl_import_mesh_bytes(file.bytes, file.size, "far.glb", &options, &mesh, NULL), TL_OK);
+    TEST_CHECK(mesh.vertices[0].x == 0.125f && mesh.vertices[0].y == -7.0f && mesh.vertices[0].z == 0.375f);
+    TEST_CHECK(memcmp(mesh.origin, origin, sizeof origin) == 0);
+    tl_imported_mesh_free(&mesh);
+}
+
 static void test_cut_3ds(void **state)
 {
     (void)state;
@@ -394,6 +413,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_matrix),
         cmocka_unit_test(test_cut_3ds),
+        cmocka_unit_test(test_far_nodes),
         cmocka_unit_test(test_statements),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

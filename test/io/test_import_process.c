@@ -29,7 +29,7 @@ static void test_crash(void **state)
     TEST_CHECK(page != MAP_FAILED);
     tl_imported_mesh mesh;
     tl_io_error error;
-    tl_mesh_source source = { "level.ply", NULL, page, 4096, "ply", false };
+    tl_mesh_source source = { "level.ply", NULL, page, 4096, "ply", false, { 0.0 } };
     TEST_RESULT(tl_read_isolated(tl_assimp_read, &source, NULL, NULL, &mesh, &error), TL_ERR_FORMAT);
     TEST_CHECK(error.result == TL_ERR_FORMAT && strcmp(error.path, "level.ply") == 0 && mesh.vertices == NULL);
     TEST_CHECK(strstr(error.message, "reader failed") != NULL);
@@ -45,7 +45,7 @@ static bool cancel_third(const char *stage, uint64_t done, uint64_t total, void 
     return ++*calls < 3;
 }
 
-static const tl_mesh_source any_source = { "level.x", NULL, "", 0, "x", false };
+static const tl_mesh_source any_source = { "level.x", NULL, "", 0, "x", false, { 0.0 } };
 
 static tl_result wait_for_ever(const tl_mesh_source *source, const tl_allocator *allocator, tl_imported_mesh *mesh_out,
                                tl_io_error *error_out)
@@ -234,7 +234,7 @@ static void test_lies(void **state)
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         tl_imported_mesh mesh;
         tl_io_error error;
-        tl_mesh_source source = { "level.x", NULL, "", 0, kinds[i], false };
+        tl_mesh_source source = { "level.x", NULL, "", 0, kinds[i], false, { 0.0 } };
         tl_result result = tl_read_isolated(tell_lies, &source, NULL, NULL, &mesh, &error);
         TEST_CHECK((result == TL_OK) == (i == 0));
         if (result != TL_OK) {
@@ -267,7 +267,7 @@ static void test_large(void **state)
     }
     tl_imported_mesh direct;
     tl_imported_mesh piped;
-    tl_mesh_source source = { "a.ply", NULL, text, size, "ply", false };
+    tl_mesh_source source = { "a.ply", NULL, text, size, "ply", false, { 0.0 } };
     TEST_RESULT(tl_assimp_read(&source, NULL, &direct, NULL), TL_OK);
     TEST_RESULT(tl_read_isolated(tl_assimp_read, &source, NULL, NULL, &piped, NULL), TL_OK);
     TEST_CHECK(direct.triangle_count == 2 * SIDE * SIDE && direct.polygon_count == SIDE * SIDE);

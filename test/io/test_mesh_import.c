@@ -381,7 +381,7 @@ static void check_against_assimp(const char *path, uint64_t *corners, uint64_t *
     TEST_RESULT(tl_import_mesh(path, NULL, &ours, NULL), TL_OK);
     tl_file_map map;
     TEST_RESULT(tl_file_map_open(path, 0, &map, NULL), TL_OK);
-    tl_mesh_source source = { path, path, map.bytes, map.size, "obj", false };
+    tl_mesh_source source = { path, path, map.bytes, map.size, "obj", false, { 0.0 } };
     TEST_RESULT(tl_assimp_read(&source, NULL, &theirs, NULL), TL_OK);
     tl_file_map_close(&map);
     TEST_CHECK(ours.triangle_count == theirs.triangle_count);
