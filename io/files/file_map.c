@@ -118,8 +118,8 @@ static tl_result take_descriptor(int descriptor, const char *path, uint64_t max_
     return TL_OK;
 }
 
-static tl_result open_bytes(const char *path, uint64_t max_bytes, bool may_map, tl_file_map *map_out,
-                            tl_io_error *error_out)
+static tl_result open_file_bytes(const char *path, uint64_t max_bytes, bool may_map, tl_file_map *map_out,
+                                 tl_io_error *error_out)
 {
     memset(map_out, 0, sizeof *map_out);
     if (strcmp(path, "-") == 0) {
@@ -139,12 +139,12 @@ static tl_result open_bytes(const char *path, uint64_t max_bytes, bool may_map, 
 
 tl_result tl_file_read(const char *path, uint64_t max_bytes, tl_file_map *map_out, tl_io_error *error_out)
 {
-    return open_bytes(path, max_bytes, false, map_out, error_out);
+    return open_file_bytes(path, max_bytes, false, map_out, error_out);
 }
 
 tl_result tl_file_map_open(const char *path, uint64_t max_bytes, tl_file_map *map_out, tl_io_error *error_out)
 {
-    return open_bytes(path, max_bytes, true, map_out, error_out);
+    return open_file_bytes(path, max_bytes, true, map_out, error_out);
 }
 
 void tl_file_map_close(tl_file_map *map)

@@ -70,7 +70,8 @@ static tl_result read_handle(HANDLE file, const char *path, uint64_t max_bytes, 
     return TL_OK;
 }
 
-static tl_result map_handle(HANDLE file, const char *path, uint64_t max_bytes, tl_file_map *map, tl_io_error *error)
+static tl_result take_handle(HANDLE file, const char *path, uint64_t max_bytes, bool may_map, tl_file_map *map,
+                             tl_io_error *error)
 {
     LARGE_INTEGER size;
     if (GetFileType(file) != FILE_TYPE_DISK || !GetFileSizeEx(file, &size) || size.QuadPart <= 0) {
@@ -82,6 +83,9 @@ static tl_result map_handle(HANDLE file, const char *path, uint64_t max_bytes, t
     }
     if (bytes > SIZE_MAX) {
         return fail_map_memory(path, error);
+    }
+    if (!may_map) {
+        return read_handle(file, path, max_bytes, map, error);
     }
     HANDLE mapping = CreateFileMappingW(file, NULL, PAGE_READONLY, 0, 0, NULL);
     const void *view = mapping != NULL ? MapViewOfFile(mapping, FILE_MAP_READ, 0, 0, 0) : NULL;
@@ -103,7 +107,8 @@ static bool is_folder(const wchar_t *path)
     return attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_DIRECTORY) != 0;
 }
 
-tl_result tl_file_map_open(const char *path, uint64_t max_bytes, tl_file_map *map_out, tl_io_error *error_out)
+static tl_result open_file_bytes(const char *path, uint64_t max_bytes, bool may_map, tl_file_map *map_out,
+                                 tl_io_error *error_out)
 {
     memset(map_out, 0, sizeof *map_out);
     if (strcmp(path, "-") == 0) {
@@ -124,9 +129,19 @@ tl_result tl_file_map_open(const char *path, uint64_t max_bytes, tl_file_map *ma
     if (file == INVALID_HANDLE_VALUE) {
         return tl_io_fail_system(error_out, path, "open", tl_windows_errno());
     }
-    const tl_result result = map_handle(file, path, max_bytes, map_out, error_out);
+    const tl_result result = take_handle(file, path, max_bytes, may_map, map_out, error_out);
     CloseHandle(file);
     return result;
+}
+
+tl_result tl_file_read(const char *path, uint64_t max_bytes, tl_file_map *map_out, tl_io_error *error_out)
+{
+    return open_file_bytes(path, max_bytes, false, map_out, error_out);
+}
+
+tl_result tl_file_map_open(const char *path, uint64_t max_bytes, tl_file_map *map_out, tl_io_error *error_out)
+{
+    return open_file_bytes(path, max_bytes, true, map_out, error_out);
 }
 
 void tl_file_map_close(tl_file_map *map)

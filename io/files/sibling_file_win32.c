@@ -102,7 +102,7 @@ static tl_result open_resolved(const char *path, const char *name, const char *s
         } else if (!file.is_regular) {
             result = refuse_sibling(error_out, shown, name, "it is no regular file");
         } else {
-            result = tl_file_map_open(joined, 0, map_out, error_out);
+            result = tl_file_read(joined, 0, map_out, error_out);
         }
     }
     free(file.path);

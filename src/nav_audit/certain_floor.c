@@ -23,7 +23,7 @@
 #include <string.h>
 
 // Blocks from the middle to a side, at most: beyond, blocks are several columns wide.
-enum { MAX_SIDE = 26, MAX_WIDTH = 2 * MAX_SIDE + 1 };
+enum { MAX_FLOOR_SIDE = 26, MAX_FLOOR_WIDTH = 2 * MAX_FLOOR_SIDE + 1 };
 
 // A floor that varies less than this share of a voxel is flat: it may still round to two neighbouring voxels.
 #define FLAT_SHARE 0.02f
@@ -83,7 +83,7 @@ static uint32_t find_parent(const tl_audit_window *window, const tl_audit_block 
     return window->count; // the middle, its own
 }
 
-static void add_block(tl_audit_window *window, int32_t x, int32_t z, uint32_t radius)
+static void add_level_block(tl_audit_window *window, int32_t x, int32_t z, uint32_t radius)
 {
     const int32_t columns = (int32_t)window->block_columns;
     const bool walked = any_column(removes_middle, x, z, columns, radius);
@@ -100,7 +100,7 @@ static void add_block(tl_audit_window *window, int32_t x, int32_t z, uint32_t ra
 tl_result tl_audit_window_create(uint32_t radius, float cell_size, const tl_allocator *allocator,
                                  tl_audit_window *window_out)
 {
-    const uint32_t columns = (radius + 2) / MAX_SIDE;
+    const uint32_t columns = (radius + 2) / MAX_FLOOR_SIDE;
     tl_audit_window *w = window_out;
     w->count = 0;
     w->block_columns = 2 * ((columns + 1) / 2) + 1;
@@ -117,7 +117,7 @@ tl_result tl_audit_window_create(uint32_t radius, float cell_size, const tl_allo
         for (int32_t z = -ring; z <= ring; z++) {
             const int32_t step = z == -ring || z == ring || ring == 0 ? 1 : 2 * ring;
             for (int32_t x = -ring; x <= ring; x += step) {
-                add_block(w, x, z, radius);
+                add_level_block(w, x, z, radius);
             }
         }
     }
@@ -189,7 +189,7 @@ bool tl_audit_is_certain(const tl_audit_job *job, const tl_audit_window *window,
 {
     const tl_nav_config *config = &job->scene.config;
     const float edge = config->cell_size * (float)window->block_columns, climb = level_climb(config);
-    level_floor floors[MAX_WIDTH * MAX_WIDTH];
+    level_floor floors[MAX_FLOOR_WIDTH * MAX_FLOOR_WIDTH];
     TL_ASSERT(window->count <= TL_COUNT_OF(floors));
     if (config->walkable_climb == 0) {
         return false; // two floors of one height may round to two voxels, which no climb of 0 crosses

@@ -74,6 +74,11 @@ static void whole_files(void)
     tl_file_map map;
     tl_io_error error;
     EXPECT(tl_file_map_open(in_folder("large"), 1000, &map, &error) == TL_ERR_LIMIT && map.bytes == NULL);
+    EXPECT(tl_file_read(in_folder("large"), 1000, &map, &error) == TL_ERR_LIMIT && map.bytes == NULL);
+    // A copy stays what it is when the file is written anew.
+    EXPECT(tl_file_read(in_folder("large"), 0, &map, &error) == TL_OK && map.size == size && !map.mapped);
+    EXPECT(tl_atomic_write(in_folder("large"), "small", 5, NULL) == TL_OK && memcmp(map.bytes, large, size) == 0);
+    tl_file_map_close(&map);
     free(large);
 }
 
