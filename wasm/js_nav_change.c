@@ -31,7 +31,7 @@ tl_result TL_JS_EXPORT(js_offmesh_add)(tl_js_navmesh *self)
 {
     const tl_nav_offmesh link = tl_js_offmesh(0);
     tl_nav_ref ref;
-    const tl_result result = tl_navmesh_add_offmesh(self->navmesh, &link, &ref);
+    const tl_result result = tl_navmesh_add_offmesh(self->navmesh, &link, &ref, &tl_js_report);
     tl_js_put_u64(0, ref);
     return result;
 }
