@@ -403,17 +403,16 @@ static void print_mesh(const tl_cli *cli, const tl_level *level, const tl_adjace
 static json_t *mesh_json(const tl_cli *cli, const tl_level *level, const tl_adjacency *adjacency)
 {
     const tl_imported_mesh *m = &level->imported;
-    return json_pack("{so ss ss ss sI sI sI sI sI sI sI sI sI sI sI so so so}", "file", tl_json_text(level->path),
-                     "kind", "mesh", "format", m->format, "isolation", tl_isolation_name(m->isolation), "bytes",
-                     (json_int_t)m->source_bytes, "faces", (json_int_t)m->face_count, "polygons",
-                     (json_int_t)m->polygon_count, "triangles", (json_int_t)m->triangle_count, "vertices",
-                     (json_int_t)m->vertex_count, "distinct_vertices", (json_int_t)level->mesh.vertex_count,
-                     "materials", (json_int_t)m->names.count - 1, "degenerate_triangles",
-                     (json_int_t)level->report.degenerate_triangles, "duplicate_triangles",
-                     (json_int_t)level->report.duplicate_triangles, "paired_edges", (json_int_t)adjacency->paired_edges,
-                     "open_edges", (json_int_t)adjacency->border_edges, "material_names", materials_json(&m->names),
-                     "area", tl_json_double(surface_area(&level->mesh)), "bounds",
-                     tl_json_placed_bounds(cli->frame, level->mesh.bounds));
+    return json_pack(
+        "{so ss ss ss sI sI sI sI sI sI sI sI sI sI sI so so so}", "file", tl_json_text(level->path), "kind", "mesh",
+        "format", m->format, "isolation", tl_isolation_name(m->isolation), "bytes", (json_int_t)m->source_bytes,
+        "faces", (json_int_t)m->face_count, "polygons", (json_int_t)m->polygon_count, "triangles",
+        (json_int_t)m->triangle_count, "vertices", (json_int_t)m->vertex_count, "distinct_vertices",
+        (json_int_t)level->mesh.vertex_count, "materials", (json_int_t)m->names.count - 1, "degenerate_triangles",
+        (json_int_t)level->report.degenerate_triangles, "duplicate_triangles",
+        (json_int_t)level->report.duplicate_triangles, "paired_edges", (json_int_t)adjacency->paired_edges,
+        "open_edges", (json_int_t)adjacency->border_edges, "material_names", materials_json(&m->names), "area",
+        tl_json_double(surface_area(&level->mesh)), "bounds", tl_json_placed_bounds(cli->frame, level->mesh.bounds));
 }
 
 static tl_exit info_of_mesh(tl_cli *cli, const char *path, const tl_level_settings *settings)
