@@ -43,7 +43,7 @@ tl_result tl_js_navmesh_query(tl_js_navmesh *self, tl_nav_query **query_out)
     if (self->query == NULL) {
         tl_nav_query_def def = tl_default_nav_query_def();
         def.max_nodes = self->max_nodes;
-        result = tl_nav_query_create(&def, &self->query, NULL);
+        result = tl_nav_query_create(&def, &self->query, &tl_js_report);
     }
     *query_out = self->query;
     return result;

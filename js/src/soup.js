@@ -143,18 +143,19 @@ export class Soup extends Handle {
     const hits = filtered(filter, (f) => wasm.js_soup_cast_rays(soup, room, count, f)) >>> 0;
     const result = batchArrays(count, out);
     const { t, triangle, uv, normal, material, back } = result;
+    // The module's own views, held for the loop: nothing grows meanwhile.
+    const f32 = F32, u32 = U32, u16 = U16, u8 = U8;
     for (let i = 0, w = hits / 4; i < count; i++, w += HIT_WORDS) {
-      t[i] = F32[w];
-      triangle[i] = U32[w + 1];
-      uv[2 * i] = F32[w + 2];
-      uv[2 * i + 1] = F32[w + 3];
-      normal[3 * i] = F32[w + 4];
-      normal[3 * i + 1] = F32[w + 5];
-      normal[3 * i + 2] = F32[w + 6];
-      material[i] = U16[2 * w + 14];
-      back[i] = U8[4 * w + 30];
+      t[i] = f32[w];
+      triangle[i] = u32[w + 1];
+      uv[2 * i] = f32[w + 2];
+      uv[2 * i + 1] = f32[w + 3];
+      normal[3 * i] = f32[w + 4];
+      normal[3 * i + 1] = f32[w + 5];
+      normal[3 * i + 2] = f32[w + 6];
+      material[i] = u16[2 * w + 14];
+      back[i] = u8[4 * w + 30];
     }
-    wasm.js_trim();
     return result;
   }
 

@@ -451,10 +451,12 @@ test('works by keyboard and by touch', async () => {
   assert.equal(await viewer.ask(({ app }) => app.view.get().tool), 'path');
   const before = await viewer.ask(({ app }) => app.stage.getCamera().eye);
   await viewer.page.keyboard.down('w');
-  await viewer.page.waitForTimeout(300);
+  await viewer.until(({ app }, from) => Math.hypot(...app.stage.getCamera().eye.map((v, i) => v - from[i])) > 0.5, before);
   await viewer.page.keyboard.up('w');
+  await viewer.page.waitForTimeout(150);
   const after = await viewer.ask(({ app }) => app.stage.getCamera().eye);
-  assert.ok(Math.hypot(...after.map((v, i) => v - before[i])) > 0.5, 'flew');
+  await viewer.page.waitForTimeout(150);
+  assert.deepEqual(await viewer.ask(({ app }) => app.stage.getCamera().eye), after, 'a key that is let go moves nothing');
   await viewer.page.keyboard.press('f');
   const unnamed = await viewer.page.evaluate(() => [...document.querySelectorAll('button, input, select')]
     .filter((one) => one.type !== 'file' && !one.textContent.trim() && !one.getAttribute('aria-label') && !(one.labels?.length > 0))
