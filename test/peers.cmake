@@ -68,7 +68,9 @@ endforeach()
 # The whole pipeline over the built-in levels and real ones.
 set(talus_test_settings_sweep_needs talus_sample talus_io)
 set(talus_test_nav_links_proof_needs talus_sample talus_io)
-set(talus_test_why_points_needs talus_sample talus_io)
+foreach(stem why_points audit_mutations)
+    set(talus_test_${stem}_needs talus_sample talus_io)
+endforeach()
 
 # The same bytes from any order, thread count and compiler.
 set(talus_test_nav_golden_needs talus_sample talus_io)
