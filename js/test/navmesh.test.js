@@ -138,6 +138,7 @@ test('off-mesh links, jump links, audit, why, sight', () => {
   assert.ok(navmesh.findPath(START, GOAL).length < 30);
   navmesh.removeOffMeshLink(ref);
   assert.equal(errorOf(() => navmesh.removeOffMeshLink(ref)).result, 'TL_ERR_STALE');
+  assert.equal(errorOf(() => navmesh.addOffMeshLink({ start: START, end: GOAL, radius: -1 })).field, 'radius');
   const { links, report } = navmesh.findLinks(soup);
   assert.equal(links.length, report.kinds.drop.kept + report.kinds.jump.kept + report.kinds.climb.kept);
   assert.ok(links.length > 5);
