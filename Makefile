@@ -27,7 +27,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench bench-simd bench-python sanitize tsan fuzz cross python-test docs format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
+.PHONY: all demo test benchmarks bench bench-simd bench-python sanitize tsan fuzz cross growth python-test docs format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
 
 all:
 	tools/setup tools
@@ -84,6 +84,10 @@ cross:
 bench-python:
 	tools/setup tools python
 	tools/python-bench build/python
+
+growth:
+	tools/setup tools growth
+	tools/check-growth
 
 python-test:
 	tools/setup tools python

@@ -154,10 +154,10 @@ static void limits_are_named_before_any_work(void **state)
     const tl_aabb wide = { { -10000, 0, -10000 }, { 10000, 100, 10000 } };
     def = tl_default_nav_def();
     expect_limit(&def, wide, "cell_size");
+    def.tile_size = 1;
+    expect_limit(&def, wide, "tile_size"); // 66,667 * 66,667 places
     def.tile_size = 64;
-    expect_limit(&def, wide, "tile_size"); // 1042 * 1042 tiles
-    def.tile_size = 128;
-    TEST_RESULT(tl_nav_config_from_def(&def, wide, 520, 520, &config, NULL), TL_OK);
+    TEST_RESULT(tl_nav_config_from_def(&def, wide, 1041, 1041, &config, NULL), TL_OK); // more than may hold triangles
     def.tile_size = 1u << 30;
     expect_limit(&def, wide, "tile_size");
 
