@@ -32,7 +32,7 @@ endfunction()
 
 # What reads strangers' files is compiled so that a defect ends the program instead of serving who wrote the file: canaries
 # on stacks, checked copies, read-only relocations, and the command at an address that nobody knows. The core goes
-# without: canaries cost a ray 2% of its instructions, and what a check has accepted is safe without them.
+# without: its inner loops are what callers pay for, and what a check has accepted is safe to query.
 function(talus_harden target)
     if(NOT TALUS_HARDEN OR TALUS_SANITIZE OR NOT CMAKE_C_COMPILER_ID MATCHES "GNU|Clang" OR NOT UNIX OR APPLE)
         return()
