@@ -41,6 +41,15 @@ static void swap_frame(tl_byte_swap *swap)
     tl_swap_head(swap, HEAD, TL_COUNT_OF(HEAD), &head, sizeof head);
 }
 
+// Rules and, behind them, the seeds.
+static void swap_pruning(tl_byte_swap *swap)
+{
+    static const tl_word_run HEAD[] = { { 4, 2 }, { 8, 2 }, { 4, 10 } };
+    tl_pack_pruning head;
+    tl_swap_head(swap, HEAD, TL_COUNT_OF(HEAD), &head, sizeof head);
+    tl_swap_words(swap, sizeof head, 3 * (uint64_t)head.seed_count, 4);
+}
+
 typedef struct blob_kind {
     uint32_t magic;
     uint32_t chunk_type; // 0: none of the file's own
@@ -57,6 +66,7 @@ static const blob_kind KINDS[] = {
     { TL_PACK_NAVMESH_MAGIC, TL_PACK_NAVM, swap_settings },
     { TL_PACK_FRAME_MAGIC, TL_PACK_FRAM, swap_frame },
     { TL_PACK_VOLUMES_MAGIC, TL_PACK_MARK, swap_settings },
+    { TL_PACK_PRUNING_MAGIC, TL_PACK_PRUN, swap_pruning },
 };
 
 static const blob_kind *find_kind(const void *bytes, uint64_t size, bool foreign)
@@ -101,7 +111,8 @@ tl_result tl_blob_swap(void *bytes, uint64_t size, bool to_host, tl_report *repo
 bool tl_pack_swap_chunk(void *bytes, uint64_t size, uint32_t type, bool to_host)
 {
     const blob_kind *kind = find_kind(bytes, size, to_host);
-    return kind == NULL || kind->chunk_type != type || swap_kind(kind, bytes, size, to_host);
+    const uint32_t blob_type = type == TL_PACK_PRUT ? TL_PACK_NAVT : type; // both hold tiles
+    return kind == NULL || kind->chunk_type != blob_type || swap_kind(kind, bytes, size, to_host);
 }
 
 // ---------------------------------------------------------------------------------------------------------

@@ -209,6 +209,41 @@ static void test_chunks_of_the_file(void **state)
     go(marks, tl_pack_volumes_check);
     TEST_RESULT(tl_pack_frame_encode(TL_PACK_AXES_Z_UP, (const double[]){ 1e6, 2.5, -3 }, NULL, &frame, NULL), TL_OK);
     go(frame, tl_pack_frame_check);
+    tl_nav_prune_def rules = tl_default_nav_prune_def();
+    rules.seeds = corners;
+    rules.seed_count = 3;
+    rules.min_area = 2.5;
+    tl_pack_pruning *pruning;
+    TEST_RESULT(tl_pack_pruning_encode(&rules, NULL, &pruning, NULL), TL_OK);
+    go(pruning, tl_pack_pruning_check);
+}
+
+// Every chunk that holds a blob is turned round with the file, under each type that it may have.
+static void test_chunk_types(void **state)
+{
+    (void)state;
+    byte_order_level *level = hills();
+    tl_nav_tiles tiles;
+    tl_navmesh *navmesh;
+    bake_hills(level, &tiles, &navmesh);
+    tl_pack_pruning *pruning;
+    TEST_RESULT(tl_pack_pruning_encode(NULL, NULL, &pruning, NULL), TL_OK);
+    const tl_blob *blobs[] = { &tiles.tiles[0]->blob, &tiles.tiles[0]->blob, &pruning->blob };
+    const uint32_t types[] = { TL_PACK_NAVT, TL_PACK_PRUT, TL_PACK_PRUN };
+    for (int i = 0; i < 3; i++) {
+        uint8_t *chunk = copy_blob(blobs[i], blobs[i]->size);
+        TEST_CHECK(tl_pack_swap_chunk(chunk, blobs[i]->size, types[i], false));
+        uint8_t *blob = copy_blob(blobs[i], blobs[i]->size);
+        TEST_RESULT(tl_blob_swap(blob, blobs[i]->size, false, NULL), TL_OK);
+        TEST_CHECK(memcmp(chunk, blob, (size_t)blobs[i]->size) == 0);
+        TEST_CHECK(memcmp(chunk, blobs[i], (size_t)blobs[i]->size) != 0);
+        free(chunk);
+        free(blob);
+    }
+    tl_blob_free(pruning);
+    tl_navmesh_destroy(navmesh);
+    tl_nav_tiles_free(&tiles);
+    free(level);
 }
 
 typedef struct memory_bytes {
@@ -329,13 +364,10 @@ static void test_detour_of_both_orders(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_soups),
-        cmocka_unit_test(test_hulls),
-        cmocka_unit_test(test_navmesh_blobs),
-        cmocka_unit_test(test_chunks_of_the_file),
-        cmocka_unit_test(test_file),
-        cmocka_unit_test(test_damaged_file),
-        cmocka_unit_test(test_detour_of_both_orders),
+        cmocka_unit_test(test_soups),         cmocka_unit_test(test_hulls),
+        cmocka_unit_test(test_navmesh_blobs), cmocka_unit_test(test_chunks_of_the_file),
+        cmocka_unit_test(test_chunk_types),   cmocka_unit_test(test_file),
+        cmocka_unit_test(test_damaged_file),  cmocka_unit_test(test_detour_of_both_orders),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
