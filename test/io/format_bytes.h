@@ -26,10 +26,11 @@ static void put(byte_buffer *to, const void *bytes, size_t size)
     to->size += size;
 }
 
+// Little-endian; what is longer than eight bytes ends with zeros.
 static void put_number(byte_buffer *to, uint64_t value, size_t bytes)
 {
     for (size_t i = 0; i < bytes; i++) {
-        const unsigned char byte = (unsigned char)(value >> (8 * i));
+        const unsigned char byte = i < 8 ? (unsigned char)(value >> (8 * i)) : 0;
         put(to, &byte, 1);
     }
 }

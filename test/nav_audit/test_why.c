@@ -282,7 +282,7 @@ static void random_points(void **state)
     (void)state;
     question q;
     test_random random = { 7 };
-    uint32_t walkable = 0, causes[TL_NAV_CAUSE_CHANGED + 1] = { 0 };
+    uint32_t walkable = 0, causes[TL_NAV_CAUSE_WALL + 1] = { 0 };
     for (uint32_t i = 0; i < 60; i++) {
         begin(&q);
         test_level_make(&q.level, tl_vec3_make(0, 0, 0));
