@@ -115,7 +115,9 @@ static void limit_memory(uint64_t bytes)
     (void)bytes; // the shadow is data too
 #else
     uint64_t total = current_data() + bytes;
-    struct rlimit memory = { (rlim_t)total, (rlim_t)total };
+    // Where a limit is a word of 32 bits, larger ones are more than there are addresses.
+    const rlim_t words = total < (uint64_t)RLIM_INFINITY ? (rlim_t)total : RLIM_INFINITY;
+    struct rlimit memory = { words, words };
     setrlimit(RLIMIT_DATA, &memory);
 #endif
 }

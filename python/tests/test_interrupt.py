@@ -47,8 +47,10 @@ def test_other_threads_go_on() -> None:
 
 
 CHILD = """
+import signal
 import sys
 import numpy as np
+signal.signal(signal.SIGINT, signal.default_int_handler)  # whoever runs the tests may have it ignored
 sys.path[:0] = {path!r}
 import talus
 from test_interrupt import terrain

@@ -20,8 +20,11 @@
 #pragma clang attribute push(__attribute__((target("sse4.2"))), apply_to = function)
 #elif TL_SIMD_LEVEL == 2
 #pragma clang attribute push(__attribute__((target("avx2,fma,bmi"))), apply_to = function)
+#elif TL_SIMD_LEVEL == 3 && __clang_major__ == 18 // alone it wants to be told that registers are of 512 bits
+#pragma clang attribute push(                                                                                          \
+    __attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,evex512,avx2,fma,bmi,popcnt"))), apply_to = function)
 #elif TL_SIMD_LEVEL == 3
-#pragma clang attribute push(__attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi"))),               \
+#pragma clang attribute push(__attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,popcnt"))),        \
                              apply_to = function)
 #endif
 #else
