@@ -24,6 +24,10 @@
 /// wrong side: one rounding, and some more.
 #define TL_FLOAT_OUTWARD (2.0 * (double)TL_FLOAT_ROUNDING)
 
+/// Share of the data's size by which a shape that only says what need not be looked at is drawn larger: 160 roundings
+/// of floats, where what must stay within it goes through some ten. It costs time at most, never an answer.
+#define TL_CULLING_MARGIN 1e-5
+
 /// Error of each component of a cross product of two differences of floats in double, as a share of the sum of its two
 /// absolute products: two differences, a product, a sum.
 #define TL_CROSS_ERROR TL_DOUBLE_GAMMA(4)

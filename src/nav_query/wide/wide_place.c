@@ -151,7 +151,7 @@ static cell_circle circle_of_cell(const place_search *search)
         far_sq = fmax(far_sq, tl_nav_spot_distance_sq(circle.middle, cell->corners[i]));
     }
     const double size = fabs(circle.middle.x) + fabs(circle.middle.z) + search->reach + sqrt(far_sq);
-    circle.radius = sqrt(far_sq) + 2.0 * search->clearance->slack + 1e-5 * size;
+    circle.radius = sqrt(far_sq) + 2.0 * search->clearance->slack + TL_CULLING_MARGIN * size;
     return circle;
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/assert.h"
 #include "base/host.h"
+#include "soup/ray/ray_filter.h"
 #include "soup/ray/ray_job.h"
 
 enum { SLICE_RAYS = 1 << 14 };
@@ -39,6 +40,6 @@ void tl_soup_cast_rays(const tl_soup *soup, const tl_ray *rays, uint32_t count, 
                        const tl_host *host, tl_ray_hit *hits_out)
 {
     TL_ASSERT(soup != NULL && (count == 0 || (rays != NULL && hits_out != NULL)));
-    tl_ray_batch batch = { soup, rays, count, filter, hits_out };
+    tl_ray_batch batch = { soup, rays, count, tl_ray_filter_in_use(soup, filter), hits_out };
     tl_run_tasks(host, cast_slice, tl_block_count(count, SLICE_RAYS), &batch);
 }

@@ -56,7 +56,7 @@ static TL_ALWAYS_INLINE bool begin_lane(lane_walk *w, walk_lane *lane)
         const tl_ray *ray = &batch->rays[lane->index];
         tl_ray_job *job = &lane->job;
         job->soup = batch->soup;
-        job->filter = tl_ray_filter_in_use(batch->soup, batch->filter);
+        job->filter = batch->filter;
         job->is_segment = false;
         job->t = ray->tmax;
         job->buffers = NULL;
