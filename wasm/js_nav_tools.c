@@ -129,6 +129,7 @@ tl_result TL_JS_EXPORT(js_audit_run)(const tl_js_navmesh *self, const tl_soup *s
     def.areas = tl_js_input.areas;
     def.volumes = tl_js_input.volumes;
     def.volume_count = tl_js_input.volume_count;
+    def.pruned = self->removed;
     def.host = *tl_js_host();
     const tl_result result = tl_nav_audit_run(&def, self->navmesh, soup, &audit, &tl_js_report);
     const double numbers[] = { audit.finding_count,         (double)audit.probe.radius,
@@ -166,8 +167,9 @@ tl_result TL_JS_EXPORT(js_why)(const tl_js_navmesh *self)
 {
     tl_nav_def def = self->def;
     def.host = *tl_js_host();
+    const tl_nav_pruning pruning = { self->removed, tl_js_pruned_area(self) };
     tl_nav_why_answer a;
-    const tl_result result = tl_nav_why(&def, &tl_js_input, self->navmesh, NULL, tl_js_vec3(0), &a, &tl_js_report);
+    const tl_result result = tl_nav_why(&def, &tl_js_input, self->navmesh, &pruning, tl_js_vec3(0), &a, &tl_js_report);
     uint32_t at = tl_js_put_vec3(tl_js_put(0, a.walkable), a.floor);
     at = tl_js_put(tl_js_put(at, a.proven), a.reason_count);
     at = tl_js_put(tl_js_put(tl_js_put(at, a.tile_x), a.tile_z), a.bake_count);

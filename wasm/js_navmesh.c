@@ -26,7 +26,9 @@ void tl_js_navmesh_destroy(tl_js_navmesh *self)
     }
     tl_nav_query_destroy(self->query);
     tl_navmesh_destroy(self->navmesh);
+    tl_navmesh_destroy(self->removed);
     tl_nav_obstacles_destroy(self->obstacles);
+    tl_blob_free(self->pruning);
     free(self->links);
     for (uint32_t i = 0; i < self->copy_count; i++) {
         free(self->copies[i]);
@@ -80,7 +82,27 @@ static void settle_bounds(tl_nav_def *def)
     }
 }
 
-static tl_result prune_tiles(tl_nav_tiles *tiles, uint32_t prune_at)
+double tl_js_pruned_area(const tl_js_navmesh *self)
+{
+    return self->pruning != NULL ? self->pruning->min_area : 0.0;
+}
+
+// The tiles of what was pruned become a navmesh of their own.
+static tl_result keep_removed(tl_js_navmesh *self, tl_nav_tiles *removed)
+{
+    tl_result result = removed->tile_count > 0 ? tl_navmesh_create(NULL, &self->removed) : TL_OK;
+    if (result == TL_OK && removed->tile_count > 0) {
+        result =
+            tl_navmesh_add_tiles(self->removed, removed->tiles, removed->tile_count, TL_NAV_TILE_OWNED, &tl_js_report);
+        if (result == TL_OK) {
+            removed->tile_count = 0; // the navmesh has them now
+        }
+    }
+    tl_nav_tiles_free(removed);
+    return result;
+}
+
+static tl_result prune_tiles(tl_js_navmesh *self, tl_nav_tiles *tiles, uint32_t prune_at)
 {
     // Slot: how many seeds, whether islands inside solids go, the smallest area, then the seeds' address.
     const uint32_t seed_count = tl_js_u32(prune_at);
@@ -95,10 +117,15 @@ static tl_result prune_tiles(tl_nav_tiles *tiles, uint32_t prune_at)
     def.solids = inside ? &tl_js_input.mesh : NULL;
     def.min_area = min_area;
     def.host = *tl_js_host();
+    tl_result result = tl_pack_pruning_encode(&def, NULL, &self->pruning, &tl_js_report);
+    if (result != TL_OK) {
+        return result;
+    }
+    tl_nav_tiles removed;
     tl_nav_prune_report report;
-    const tl_result result = tl_nav_prune(&def, tiles, NULL, &report);
+    result = tl_nav_prune(&def, tiles, &removed, &report);
     tl_js_report = report.base;
-    return result;
+    return result == TL_OK ? keep_removed(self, &removed) : result;
 }
 
 static tl_result bake_tiles(tl_js_navmesh *self, uint32_t prune_at)
@@ -113,7 +140,7 @@ static tl_result bake_tiles(tl_js_navmesh *self, uint32_t prune_at)
     }
     self->tiles_x = tiles.tiles_x;
     self->tiles_z = tiles.tiles_z;
-    result = prune_tiles(&tiles, prune_at);
+    result = prune_tiles(self, &tiles, prune_at);
     if (result == TL_OK) {
         result = tl_navmesh_add_tiles(self->navmesh, tiles.tiles, tiles.tile_count, TL_NAV_TILE_OWNED, &tl_js_report);
     }
@@ -172,8 +199,9 @@ tl_js_navmesh *TL_JS_EXPORT(js_navmesh_empty)(void)
     return self;
 }
 
-/// Adds a tile that js_alloc gave memory; it is the navmesh's from then on, also on failure.
-tl_result TL_JS_EXPORT(js_navmesh_add_copy)(tl_js_navmesh *self, void *bytes, uint32_t size)
+/// Adds a tile that js_alloc gave memory, to the navmesh or to what was pruned from it; the memory is the navmesh's
+/// from then on, also on failure.
+tl_result TL_JS_EXPORT(js_navmesh_add_copy)(tl_js_navmesh *self, void *bytes, uint32_t size, int32_t pruned)
 {
     if (self->copy_count == self->copy_capacity) {
         const uint32_t capacity = 2 * self->copy_capacity + 16;
@@ -190,7 +218,11 @@ tl_result TL_JS_EXPORT(js_navmesh_add_copy)(tl_js_navmesh *self, void *bytes, ui
     if (result == TL_OK && ((const tl_blob *)bytes)->size != size) {
         result = TL_ERR_TRUNCATED;
     }
-    return result == TL_OK ? tl_navmesh_add_tile(self->navmesh, bytes, TL_NAV_TILE_BORROWED) : result;
+    if (result == TL_OK && pruned && self->removed == NULL) {
+        result = tl_navmesh_create(NULL, &self->removed);
+    }
+    tl_navmesh *target = pruned ? self->removed : self->navmesh;
+    return result == TL_OK ? tl_navmesh_add_tile(target, bytes, TL_NAV_TILE_BORROWED) : result;
 }
 
 /// Slot: the def with the bounds that were baked, then the grid of tiles.
@@ -258,20 +290,20 @@ static int compare_slots(const void *left, const void *right)
     return (a->layer > b->layer) - (a->layer < b->layer);
 }
 
-uint32_t *tl_js_tile_order(const tl_js_navmesh *self)
+uint32_t *tl_js_tile_order(const tl_navmesh *navmesh)
 {
-    const uint32_t slots = tl_navmesh_slot_count(self->navmesh);
+    const uint32_t slots = tl_navmesh_slot_count(navmesh);
     uint32_t *order = malloc((slots + 1) * sizeof *order);
     if (order == NULL) {
         return NULL;
     }
     uint32_t count = 0;
     for (uint32_t slot = 0; slot < slots; slot++) {
-        if (tl_navmesh_slot_tile(self->navmesh, slot) != NULL) {
+        if (tl_navmesh_slot_tile(navmesh, slot) != NULL) {
             order[count++] = slot;
         }
     }
-    sorted_navmesh = self->navmesh;
+    sorted_navmesh = navmesh;
     qsort(order, count, sizeof *order, compare_slots);
     return order;
 }
@@ -279,7 +311,7 @@ uint32_t *tl_js_tile_order(const tl_js_navmesh *self)
 /// The slots of all tiles, in order, to be freed with js_free; how many js_navmesh_counts says. NULL: out of memory.
 uint32_t *TL_JS_EXPORT(js_tile_order)(const tl_js_navmesh *self)
 {
-    return tl_js_tile_order(self);
+    return tl_js_tile_order(self->navmesh);
 }
 
 /// Slot: where the tile of a slot lies, what it is, and its arrays.

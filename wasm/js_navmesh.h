@@ -16,6 +16,8 @@ typedef struct tl_js_navmesh {
     uint32_t tiles_x, tiles_z;
     tl_nav_obstacles *obstacles; ///< NULL: it was baked without
     tl_nav_links *links;         ///< found ones, for the file; NULL: none
+    tl_pack_pruning *pruning;    ///< the rules it was pruned by; NULL: it was not
+    tl_navmesh *removed;         ///< what was pruned; NULL: nothing
     void **copies;               ///< blocks of borrowed tiles
     uint32_t copy_count, copy_capacity;
     // The last path.
@@ -31,8 +33,11 @@ void tl_js_navmesh_destroy(tl_js_navmesh *self);
 /// The query of `self`, made where there is none.
 tl_result tl_js_navmesh_query(tl_js_navmesh *self, tl_nav_query **query_out);
 
+/// The smallest area by which it was pruned, square metres; 0: it was not.
+double tl_js_pruned_area(const tl_js_navmesh *self);
+
 /// Tiles in the order of a file: by z, x and layer. Slot numbers, tl_navmesh_tile_count of them; NULL: out of memory.
 /// Freed with free().
-uint32_t *tl_js_tile_order(const tl_js_navmesh *self);
+uint32_t *tl_js_tile_order(const tl_navmesh *navmesh);
 
 #endif

@@ -53,6 +53,36 @@ tl_result TL_JS_EXPORT(js_pack_navmesh)(const void *bytes, uint32_t size, tl_js_
     return result;
 }
 
+/// Slot: the origin, then the axes.
+tl_result TL_JS_EXPORT(js_pack_frame)(const void *bytes, uint32_t size)
+{
+    const tl_result result = tl_pack_frame_check(bytes, size, &tl_js_report);
+    if (result == TL_OK) {
+        const tl_pack_frame *frame = bytes;
+        tl_js_put(tl_js_put(tl_js_put(tl_js_put(0, frame->origin[0]), frame->origin[1]), frame->origin[2]),
+                  frame->axes);
+    }
+    return result;
+}
+
+/// The rules by which the navmesh was pruned: a copy is kept.
+tl_result TL_JS_EXPORT(js_pack_pruning)(const void *bytes, uint32_t size, tl_js_navmesh *self)
+{
+    const tl_result result = tl_pack_pruning_check(bytes, size, &tl_js_report);
+    if (result != TL_OK) {
+        return result;
+    }
+    const tl_pack_pruning *rules = bytes;
+    tl_nav_prune_def def = tl_default_nav_prune_def();
+    const tl_mesh_view some_solids = { 0 };
+    def.seeds = tl_pack_pruning_seeds(rules);
+    def.seed_count = rules->seed_count;
+    def.seed_extents = rules->seed_extents;
+    def.solids = rules->drop_inside_solids ? &some_solids : NULL;
+    def.min_area = rules->min_area;
+    return tl_pack_pruning_encode(&def, NULL, &self->pruning, &tl_js_report);
+}
+
 /// Slot: how many volumes there are.
 tl_result TL_JS_EXPORT(js_pack_volumes)(const void *bytes, uint32_t size)
 {
@@ -90,54 +120,89 @@ static void add_item(tl_pack_item *items, uint32_t *count, uint32_t type, uint32
 
 typedef struct pack_parts {
     tl_pack_meta *meta;
+    tl_pack_frame *frame;
     const void *soup, *hull;
     const tl_js_navmesh *navmesh;
     tl_pack_navmesh *settings;
     tl_pack_volumes *volumes;
 } pack_parts;
 
+// False: out of memory.
+static bool add_tiles(tl_pack_item *items, uint32_t *count, uint32_t type, const tl_navmesh *navmesh)
+{
+    if (navmesh == NULL) {
+        return true;
+    }
+    uint32_t *order = tl_js_tile_order(navmesh);
+    const uint32_t tiles = order != NULL ? tl_navmesh_tile_count(navmesh) : 0;
+    for (uint32_t i = 0; i < tiles; i++) {
+        add_item(items, count, type, i, tl_navmesh_slot_tile(navmesh, order[i]));
+    }
+    free(order);
+    return order != NULL;
+}
+
+static uint32_t count_tiles(const tl_navmesh *navmesh)
+{
+    return navmesh != NULL ? tl_navmesh_tile_count(navmesh) : 0;
+}
+
 static tl_result write_parts(const pack_parts *parts)
 {
-    const tl_js_navmesh *navmesh = parts->navmesh;
-    const uint32_t tiles = navmesh != NULL ? tl_navmesh_tile_count(navmesh->navmesh) : 0;
-    uint32_t *order = navmesh != NULL ? tl_js_tile_order(navmesh) : NULL;
-    tl_pack_item *items = malloc((tiles + 6) * sizeof *items);
+    static const tl_js_navmesh none;
+    const tl_js_navmesh *navmesh = parts->navmesh != NULL ? parts->navmesh : &none;
+    tl_pack_item *items = malloc((count_tiles(navmesh->navmesh) + count_tiles(navmesh->removed) + 8) * sizeof *items);
     tl_result result = TL_ERR_MEMORY;
-    if (items != NULL && (navmesh == NULL || order != NULL)) {
-        uint32_t count = 0;
+    uint32_t count = 0;
+    if (items != NULL) {
         add_item(items, &count, TL_PACK_META, 0, parts->meta);
+        add_item(items, &count, TL_PACK_FRAM, 0, parts->frame);
         add_item(items, &count, TL_PACK_SOUP, 0, parts->soup);
         add_item(items, &count, TL_PACK_HULL, 0, parts->hull);
         add_item(items, &count, TL_PACK_NAVM, 0, parts->settings);
-        for (uint32_t i = 0; i < tiles; i++) {
-            add_item(items, &count, TL_PACK_NAVT, i, tl_navmesh_slot_tile(navmesh->navmesh, order[i]));
-        }
-        add_item(items, &count, TL_PACK_LINK, 0, navmesh != NULL ? navmesh->links : NULL);
+        const bool kept = add_tiles(items, &count, TL_PACK_NAVT, navmesh->navmesh);
+        add_item(items, &count, TL_PACK_LINK, 0, navmesh->links);
         add_item(items, &count, TL_PACK_MARK, 0, parts->volumes);
+        add_item(items, &count, TL_PACK_PRUN, 0, navmesh->pruning);
+        if (kept && add_tiles(items, &count, TL_PACK_PRUT, navmesh->removed)) {
+            result = TL_OK;
+        }
+    }
+    if (result == TL_OK) {
         tl_js_buffer *buffer = tl_js_buffer_begin();
         result = tl_pack_write(items, count, NULL, append_bytes, buffer, &tl_js_report);
         tl_js_put_pointer(tl_js_put(0, (double)buffer->used), buffer->bytes);
     }
-    free(order);
     free(items);
     return result;
 }
 
-/// Slot: whether there is a meta chunk, its counts, bounds and up axis. `name` is zero-terminated. Volumes are the
-/// input's. Pointers may be NULL. Slot afterwards: how many bytes, and where.
-tl_result TL_JS_EXPORT(js_pack_write)(const char *name, const void *soup, const void *hull,
-                                      const tl_js_navmesh *navmesh)
+// Slot: as of js_pack_write.
+static tl_result encode_origin(const char *name, pack_parts *parts)
 {
-    pack_parts parts = { NULL, soup, hull, navmesh, NULL, NULL };
     tl_result result = TL_OK;
     if (tl_js_slot[0] != 0.0) {
         const uint32_t up = tl_js_u32(9);
         result = tl_pack_meta_encode(name, (uint64_t)tl_js_slot[1], (uint64_t)tl_js_slot[2], tl_js_aabb(3), NULL,
-                                     &parts.meta, &tl_js_report);
+                                     &parts->meta, &tl_js_report);
         if (result == TL_OK) {
-            parts.meta->source_up = up;
+            parts->meta->source_up = up;
         }
     }
+    if (result == TL_OK && tl_js_slot[10] != 0.0) {
+        result = tl_pack_frame_encode((tl_pack_axes)tl_js_u32(14), &tl_js_slot[11], NULL, &parts->frame, &tl_js_report);
+    }
+    return result;
+}
+
+/// Slot: whether there is a meta chunk, its counts, bounds and up axis; whether there is a frame, its origin and axes.
+/// `name` is zero-terminated. Volumes are the input's. Pointers may be NULL. Slot afterwards: how many bytes, and
+/// where.
+tl_result TL_JS_EXPORT(js_pack_write)(const char *name, const void *soup, const void *hull,
+                                      const tl_js_navmesh *navmesh)
+{
+    pack_parts parts = { NULL, NULL, soup, hull, navmesh, NULL, NULL };
+    tl_result result = encode_origin(name, &parts);
     if (result == TL_OK && navmesh != NULL) {
         result = tl_pack_navmesh_encode(&navmesh->def, navmesh->tiles_x, navmesh->tiles_z,
                                         tl_navmesh_tile_count(navmesh->navmesh), NULL, &parts.settings, &tl_js_report);
@@ -150,6 +215,7 @@ tl_result TL_JS_EXPORT(js_pack_write)(const char *name, const void *soup, const 
         result = write_parts(&parts);
     }
     tl_blob_free(parts.meta);
+    tl_blob_free(parts.frame);
     tl_blob_free(parts.settings);
     tl_blob_free(parts.volumes);
     return result;

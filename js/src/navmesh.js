@@ -40,6 +40,9 @@ export class Navmesh extends Handle {
 
   static bake(mesh, options = {}) {
     const watch = stopwatch();
+    if (options.obstacles && (options.reachableFrom?.length || options.dropInsideSolids || options.islandMinArea)) {
+      throw argumentError('obstacles', 'a navmesh whose tiles change cannot be pruned; leave one of the two out');
+    }
     return withInput(mesh, options, () => {
       const seeds = Float32Array.from((options.reachableFrom ?? []).flatMap((p) => [p[0], p[1], p[2]]));
       const seedsAt = seeds.length > 0 ? copyIn(seeds) : 0;
@@ -71,7 +74,7 @@ export class Navmesh extends Handle {
     if (address === 0) fail(3);
     const navmesh = new Navmesh(PRIVATE, address, null);
     try {
-      for (const tile of tiles) check(wasm.js_navmesh_add_copy(address, copyIn(tile), tile.length));
+      for (const tile of tiles) check(wasm.js_navmesh_add_copy(address, copyIn(tile), tile.length, 0));
     } catch (error) {
       navmesh.free();
       throw error;

@@ -31,6 +31,35 @@ function readMeta(chunk) {
            up: F64[s + 9] === 1 ? 'z' : 'y' };
 }
 
+const AXES = ['y', 'z', 'y-left', 'z-left'];
+
+function readFrame(chunk) {
+  check(wasm.js_pack_frame(chunk.address, chunk.size));
+  return { origin: [...F64.slice(SLOT, SLOT + 3)], axes: AXES[F64[SLOT + 3]] };
+}
+
+/** How a direction of the level is turned to y up, right-handed, and back. */
+const TURNS = {
+  y: { in: ([x, y, z]) => [x, y, z], out: ([x, y, z]) => [x, y, z] },
+  z: { in: ([x, y, z]) => [x, z, -y], out: ([x, y, z]) => [x, -z, y] },
+  'y-left': { in: ([x, y, z]) => [x, y, -z], out: ([x, y, z]) => [x, y, -z] },
+  'z-left': { in: ([x, y, z]) => [x, z, y], out: ([x, y, z]) => [x, z, y] },
+};
+
+function turnOf(frame) {
+  const turn = TURNS[frame.axes];
+  if (turn === undefined) throw argumentError('frame.axes', `give one of ${AXES.join(', ')}`);
+  return turn;
+}
+
+export function pointFromLevel(frame, point) {
+  return frame === null ? Array.from(point) : turnOf(frame).in(frame.origin.map((value, i) => point[i] - value));
+}
+
+export function pointToLevel(frame, point) {
+  return frame === null ? Array.from(point) : turnOf(frame).out(point).map((value, i) => value + frame.origin[i]);
+}
+
 function readVolumes(chunk) {
   check(wasm.js_pack_volumes(chunk.address, chunk.size));
   return Array.from({ length: F64[SLOT] }, (_, i) => {
@@ -44,10 +73,12 @@ function readVolumes(chunk) {
 
 const bytesOf = (chunk) => U8.slice(chunk.address, chunk.address + chunk.size);
 
-function readNavmesh(settings, tiles, links) {
+function readNavmesh(settings, { tiles, links, rules, pruned }) {
   return Navmesh._create((navmesh) => {
     check(wasm.js_pack_navmesh(settings.address, settings.size, navmesh));
-    for (const tile of tiles) check(wasm.js_navmesh_add_copy(navmesh, copyIn(bytesOf(tile)), tile.size));
+    for (const tile of tiles) check(wasm.js_navmesh_add_copy(navmesh, copyIn(bytesOf(tile)), tile.size, 0));
+    if (rules !== undefined) check(wasm.js_pack_pruning(rules.address, rules.size, navmesh));
+    for (const tile of pruned) check(wasm.js_navmesh_add_copy(navmesh, copyIn(bytesOf(tile)), tile.size, 1));
     if (links !== undefined) {
       putOffMeshLink({});
       check(wasm.js_links_add(navmesh, links.address, links.size));
@@ -67,13 +98,15 @@ export function loadPack(bytes) {
     check(wasm.js_pack_open(address, bytes.byteLength));
     const chunks = readChunks(F64[SLOT]);
     const of = (type) => chunks.find((chunk) => chunk.type === type);
-    const [meta, soup, hull, settings, links, volumes] = ['META', 'SOUP', 'HULL', 'NAVM', 'LINK', 'MARK'].map(of);
-    const tiles = chunks.filter((chunk) => chunk.type === 'NAVT');
+    const [meta, frame, soup, hull, settings, links, volumes, rules] =
+      ['META', 'FRAM', 'SOUP', 'HULL', 'NAVM', 'LINK', 'MARK', 'PRUN'].map(of);
+    const [tiles, pruned] = ['NAVT', 'PRUT'].map((type) => chunks.filter((chunk) => chunk.type === type));
     return {
       meta: meta ? readMeta(meta) : null,
+      frame: frame ? readFrame(frame) : null,
       soup: soup ? keep(Soup.fromBytes(bytesOf(soup))) : null,
       hull: hull ? keep(Hull.fromBytes(bytesOf(hull))) : null,
-      navmesh: settings ? keep(readNavmesh(settings, tiles, links)) : null,
+      navmesh: settings ? keep(readNavmesh(settings, { tiles, links, rules, pruned })) : null,
       links: links ? readLinks(links.address, links.size) : [],
       volumes: volumes ? readVolumes(volumes) : [],
       chunks: chunks.map(({ type, id, size }) => ({ type, id, size })),
@@ -88,7 +121,7 @@ export function loadPack(bytes) {
 
 const addressOf = (part) => (part ? part._address : 0);
 
-export function savePack({ meta = null, soup = null, hull = null, navmesh = null, volumes = null } = {}) {
+export function savePack({ meta = null, frame = null, soup = null, hull = null, navmesh = null, volumes = null } = {}) {
   ready();
   return withInput(null, { volumes }, () => {
     const name = copyIn(new TextEncoder().encode(`${meta?.name ?? ''}\0`));
@@ -99,6 +132,11 @@ export function savePack({ meta = null, soup = null, hull = null, navmesh = null
       F64[SLOT + 2] = meta?.sourceTriangles ?? 0;
       putAabb(3, meta?.bounds ?? { min: [0, 0, 0], max: [0, 0, 0] });
       F64[SLOT + 9] = meta?.up === 'z' ? 1 : 0;
+      F64[SLOT + 10] = frame !== null ? 1 : 0;
+      if (frame !== null) {
+        turnOf(frame);
+        F64.set([...frame.origin, AXES.indexOf(frame.axes)], SLOT + 11);
+      }
       check(wasm.js_pack_write(name, addressOf(soup), addressOf(hull), addressOf(navmesh)));
       const [size, at] = F64.subarray(SLOT, SLOT + 2);
       return U8.slice(at, at + size);

@@ -9,7 +9,7 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSy
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import test from 'node:test';
-import { Hull, Mesh, Navmesh, Soup, loadPack, sampleLevel, sampleLevels, savePack } from '../src/index.js';
+import { Hull, Mesh, Navmesh, Soup, loadPack, pointFromLevel, sampleLevel, sampleLevels, savePack } from '../src/index.js';
 import './support.js';
 
 const command = process.env.TALUS_COMMAND;
@@ -67,6 +67,23 @@ test('the command is there', { skip: command ? false : 'TALUS_COMMAND is not set
 for (const { name } of command ? sampleLevels() : []) {
   test(`${name}: the same file`, () => compare(sampleLevel(name), 0));
 }
+if (command) test('a pruned level far away: the same file', () => {
+  const mesh = sampleLevel('courtyard'), obj = join(folder, 'far.obj'), out = join(folder, 'far.talus');
+  writeObj(obj, mesh);
+  const words = ['bake', obj, '-o', out, '--up', 'z-left', '--origin', '1,-2,3', '--island-min-area', '40'];
+  const run = spawnSync(command, words, { encoding: 'utf8' });
+  assert.equal(run.status, 0, run.stderr);
+  const frame = { origin: [1, -2, 3], axes: 'z-left' };
+  const turned = new Float32Array(mesh.vertices.length);
+  for (let i = 0; i < turned.length; i += 3) turned.set(pointFromLevel(frame, mesh.vertices.subarray(i, i + 3)), i);
+  const baked = new Mesh(turned, mesh.indices.map((_, i, all) => all[i % 3 === 0 ? i : i % 3 === 1 ? i + 1 : i - 1]));
+  const { mesh: welded } = baked.weld();
+  const soup = Soup.bake(baked), navmesh = Navmesh.bake(welded, { islandMinArea: 40 });
+  const meta = { name: 'far.obj', sourceVertices: mesh.vertexCount, sourceTriangles: mesh.triangleCount, bounds: navmesh.options.bounds, up: 'y' };
+  const bytes = savePack({ meta, frame, soup, navmesh });
+  assert.ok(loadPack(bytes).chunks.some(({ type }) => type === 'PRUN'));
+  assert.equal(Buffer.compare(bytes, new Uint8Array(readFileSync(out))), 0, 'the files differ');
+});
 if (command) test('dungeon in tiles: the same file', () => compare(sampleLevel('dungeon', { seed: 3 }), 48));
 
 const levels = process.env.TALUS_DATA_DIR ? join(process.env.TALUS_DATA_DIR, 'levels') : '';

@@ -148,7 +148,9 @@ test('off-mesh links, jump links, audit, why, sight', () => {
   const audit = navmesh.audit(soup, { pathCount: 100 });
   assert.equal(audit.pathCount, 100);
   assert.deepEqual(audit.findings, []);
-  const empty = Navmesh.bake(mesh, { islandMinArea: 1e6 }).audit(soup, { pathCount: 10 });
+  const pruned = Navmesh.bake(mesh, { islandMinArea: 1e6 });
+  assert.deepEqual(pruned.audit(soup, { pathCount: 10 }).findings, []);
+  const empty = Navmesh.fromTiles([], pruned.options).audit(soup, { pathCount: 10 });
   assert.equal(empty.findings[0].kind, 'missing');
   const why = navmesh.why(mesh, [0.3, 0, 20]);
   assert.deepEqual([why.walkable, why.reasons[0].cause, why.reasons[0].option, why.proven], [false, 'radius', 'agentRadius', true]);

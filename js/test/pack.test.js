@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { Hull, Navmesh, loadPack, savePack } from '../src/index.js';
+import { Hull, Navmesh, loadPack, pointFromLevel, pointToLevel, savePack } from '../src/index.js';
 import { courtyard, errorOf } from './support.js';
 
 test('a file holds what was put in, and gives the same bytes again', () => {
@@ -22,6 +22,33 @@ test('a file holds what was put in, and gives the same bytes again', () => {
   assert.deepEqual([...new Set(pack.chunks.map((chunk) => chunk.type))], ['META', 'SOUP', 'HULL', 'NAVM', 'NAVT', 'LINK', 'MARK']);
   assert.deepEqual(savePack(pack), bytes);
   assert.deepEqual(loadPack(savePack({ soup })).navmesh, null);
+});
+
+test('what was pruned is in the file, and explained', () => {
+  const { mesh } = courtyard();
+  const navmesh = Navmesh.bake(mesh, { islandMinArea: 1e6 });
+  assert.equal(navmesh.polygonCount, 0);
+  const whole = Navmesh.bake(mesh), [corner] = [whole.randomPoint(1).point];
+  const reasonsOf = (asked) => asked.why(mesh, corner).reasons.map((reason) => reason.cause);
+  assert.deepEqual(reasonsOf(navmesh), ['pruned']);
+  const bytes = savePack({ navmesh }), pack = loadPack(bytes);
+  assert.deepEqual(pack.chunks.map((chunk) => chunk.type).slice(-2), ['PRUN', 'PRUT']);
+  assert.deepEqual(reasonsOf(pack.navmesh), ['pruned']);
+  assert.deepEqual(savePack(pack), bytes);
+  assert.equal(errorOf(() => Navmesh.bake(mesh, { islandMinArea: 1, obstacles: true, tileSize: 32 })).field, 'obstacles');
+});
+
+test('the coordinates of the level are kept', () => {
+  const { soup } = courtyard();
+  for (const axes of ['y', 'z', 'y-left', 'z-left']) {
+    const frame = { origin: [500000.25, -7, 5400000.5], axes };
+    const pack = loadPack(savePack({ soup, frame }));
+    assert.deepEqual(pack.frame, frame);
+    assert.deepEqual(pointToLevel(frame, pointFromLevel(frame, [500001.5, 2, 5400004])), [500001.5, 2, 5400004]);
+  }
+  assert.deepEqual(pointFromLevel({ origin: [1, 2, 3], axes: 'z' }, [2, 4, 6]), [1, 3, -2]);
+  assert.equal(loadPack(savePack({ soup })).frame, null);
+  assert.equal(errorOf(() => savePack({ soup, frame: { origin: [0, 0, 0], axes: 'x' } })).field, 'frame.axes');
 });
 
 test('every damage is refused', () => {

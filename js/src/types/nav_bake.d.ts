@@ -66,7 +66,7 @@ export interface NavInput {
 }
 
 export type NavBakeOptions = NavOptions & NavInput & BakeHooks & {
-  /** Keep what temporary obstacles need (`addObstacle`). Needs a tileSize. Default false. */
+  /** Keep what temporary obstacles need (`addObstacle`). Needs a tileSize; such a navmesh is not pruned. Default false. */
   obstacles?: boolean;
   /** Islands without one of these points are removed, unless there are none. */
   reachableFrom?: readonly Vec3Like[];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-import type { Aabb } from './base.js';
+import type { Aabb, Vec3, Vec3Like } from './base.js';
 import type { Hull } from './convex.js';
 import type { JumpLink } from './nav_tools.js';
 import type { Navmesh } from './navmesh.js';
@@ -17,8 +17,19 @@ export interface PackMeta {
   up: 'y' | 'z';
 }
 
+/**
+ * The level's own coordinates: a point of the level less `origin`, turned from `axes`, is a point of what was baked,
+ * which is y-up and right-handed.
+ */
+export interface PackFrame {
+  /** Metres, in the level's axes. */
+  origin: Vec3;
+  /** 'y' and 'z' are right-handed; 'y-left' as in Unity, 'z-left' as in Unreal. */
+  axes: 'y' | 'z' | 'y-left' | 'z-left';
+}
+
 export interface PackChunk {
-  /** Four characters: META, SOUP, HULL, NAVM, NAVT, LINK, MARK, or the user's own. */
+  /** Four characters: META, FRAM, SOUP, HULL, NAVM, NAVT, LINK, MARK, PRUN, PRUT, or the user's own. */
   type: string;
   id: number;
   size: number;
@@ -27,6 +38,8 @@ export interface PackChunk {
 /** What a .talus file holds. The objects are the caller's to free. */
 export interface Pack {
   meta: PackMeta | null;
+  /** null: the level's coordinates are those of what was baked. */
+  frame: PackFrame | null;
   soup: Soup | null;
   hull: Hull | null;
   navmesh: Navmesh | null;
@@ -44,8 +57,15 @@ export function loadPack(bytes: ArrayBuffer | Uint8Array): Pack;
 /** Writes a .talus file: the bytes that `talus bake` writes of the same parts. */
 export function savePack(parts: {
   meta?: PackMeta | null;
+  frame?: PackFrame | null;
   soup?: Soup | null;
   hull?: Hull | null;
   navmesh?: Navmesh | null;
   volumes?: readonly NavVolume[] | null;
 }): Uint8Array;
+
+/** A point of the level, metres, to a point of what was baked; `frame` null: the same point. */
+export function pointFromLevel(frame: PackFrame | null, point: Vec3Like): Vec3;
+
+/** A point of what was baked, such as a path's corner, to a point of the level. */
+export function pointToLevel(frame: PackFrame | null, point: Vec3Like): Vec3;
