@@ -17,7 +17,6 @@ export class Controller implements App {
   readonly session = new Store<Session>({
     level: null, bake: null, progress: null, baking: false, working: null, bakeNumber: 0, tilesNumber: 0, message: null,
   });
-  readonly engine: EngineHost;
   readonly layers: Layers;
   source: LevelSource | null = null;
   private asked: BakeSettings | null = null;
@@ -25,8 +24,7 @@ export class Controller implements App {
   private write = 0;
   private lastHash = '';
 
-  constructor(readonly view: Store<View>, readonly stage: Stage, wasm: WebAssembly.Module) {
-    this.engine = new EngineHost(wasm);
+  constructor(readonly view: Store<View>, readonly stage: Stage, readonly engine: EngineHost) {
     this.engine.onProgress = (progress) => {
       const { baking, working } = this.session.get();
       if (baking || working) this.session.set({ progress });

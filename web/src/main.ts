@@ -5,6 +5,7 @@ import { Controller } from './controller';
 import { readEmbedded } from './boot/embedded';
 import { showFailure } from './boot/failure';
 import { loadWasm } from './boot/wasm';
+import { EngineHost } from './engine/host';
 import { ENDINGS, LevelError, readLevel } from './load/level_file';
 import { fill, h } from './panels/dom';
 import { footer } from './panels/footer';
@@ -149,9 +150,9 @@ async function start(root: HTMLElement): Promise<void> {
   const canvas = h('canvas', { tabIndex: 0, 'aria-label': 'The level in three dimensions' });
   const viewBox = h('main', { class: 'view' }, canvas);
   root.append(viewBox);
-  const stage = new Stage(canvas);
   const wasm = await loadWasm();
-  const app = new Controller(new Store<View>(first), stage, wasm.module);
+  const engine = new EngineHost(wasm.module); // its worker starts while the graphics do
+  const app = new Controller(new Store<View>(first), new Stage(canvas), engine);
   const files = fileOpener(app, viewBox);
   const chooser = levelChooser(app, files.open);
   const help = helpDialog();
@@ -171,11 +172,10 @@ async function start(root: HTMLElement): Promise<void> {
   (window as unknown as { talusViewer: unknown }).talusViewer = { app, tools, simd: wasm.simd };
   if (faults.length > 0) app.say(`The link could not be read whole: ${faults.join('; ')}`, 'error');
 
-  const samples = app.engine.samples();
   if (embedded) await app.open(embedded.source, true);
   else if (first.level.startsWith('sample:')) await app.open({ kind: 'sample', name: first.level.slice(7) }, true);
   else app.say(`This link shows ${first.level}: drop that file here to see it.`);
-  chooser.setSamples(await samples);
+  chooser.setSamples(await engine.samples());
 }
 
 const root = document.getElementById('app')!;

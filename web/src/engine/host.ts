@@ -31,6 +31,9 @@ interface Reply {
   progress?: Progress;
 }
 
+/** Milliseconds after which a bake is long enough for the next spare worker to start beside it. */
+const SPARE_AFTER = 400;
+
 /** A worker with an engine in it. */
 class Runner {
   private worker = new EngineWorker();
@@ -77,11 +80,16 @@ class Runner {
 export class EngineHost {
   private current: Runner | null = null;
   private candidate: Runner | null = null;
-  private spare: Runner;
+  private spare: Runner | null;
   onProgress: (progress: Progress) => void = () => {};
 
   constructor(private wasm: WebAssembly.Module) {
     this.spare = new Runner(wasm);
+  }
+
+  private get idle(): Runner {
+    if (!this.spare || this.spare.dead) this.spare = new Runner(this.wasm);
+    return this.spare;
   }
 
   /** Whether there is an engine that answers. */
@@ -102,7 +110,7 @@ export class EngineHost {
 
   /** The built-in levels: known before any is open. */
   samples(): Promise<Answer<'samples'>> {
-    return this.spare.call('samples', []);
+    return this.idle.call('samples', []);
   }
 
   /**
@@ -110,8 +118,9 @@ export class EngineHost {
    */
   async replace<T>(work: (call: EngineHost['call']) => Promise<T>): Promise<T> {
     this.cancel();
-    const runner = this.spare.dead ? new Runner(this.wasm) : this.spare;
-    this.spare = new Runner(this.wasm);
+    const runner = this.idle;
+    this.spare = null;
+    setTimeout(() => this.idle, SPARE_AFTER);
     this.candidate = runner;
     runner.onProgress = (progress) => this.onProgress(progress);
     try {

@@ -23,11 +23,10 @@ export class Stage {
   private beforeFrame = new Set<() => void>();
 
   constructor(readonly canvas: HTMLCanvasElement) {
-    // Asked first, because three.js reports a missing context on the console only.
-    const probe = document.createElement('canvas').getContext('webgl2');
-    if (!probe) throw new NoWebGl('This browser or its graphics driver offers no WebGL 2.');
-    probe.getExtension('WEBGL_lose_context')?.loseContext();
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    // Made here, because three.js reports a missing context on the console only.
+    const context = canvas.getContext('webgl2', { antialias: true, stencil: false, powerPreference: 'high-performance' });
+    if (!context) throw new NoWebGl('This browser or its graphics driver offers no WebGL 2.');
+    this.renderer = new THREE.WebGLRenderer({ canvas, context });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     // Colours are what the palette says, as the page's own: no conversion on the way.
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
