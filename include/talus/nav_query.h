@@ -51,7 +51,7 @@ TL_API void tl_navmesh_destroy(tl_navmesh *navmesh);
 /// beside it, over their common sides, and the other layers of its own place, over cuts with the same ends.
 ///
 /// The tile must be known to be whole: fresh from tl_nav_tile_encode, or passed by tl_nav_tile_check. It must not
-/// change while it is in: to change flags, remove it and add the changed one. Two portals are linked where they overlap
+/// change while it is in: to change flags and areas there is nav_state.h. Two portals are linked where they overlap
 /// by more than a point and their heights come within agent_max_climb, the larger of both tiles', and one cell height
 /// of one another. On failure nothing is changed and the tile stays the caller's: TL_ERR_ARGUMENT (there is a tile
 /// already, or origin, cell sizes or tile_size differ from the other tiles'), TL_ERR_LIMIT (TL_NAV_MAX_TILES),
@@ -128,7 +128,7 @@ TL_API tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, ui
 typedef struct tl_nav_offmesh {
     tl_vec3 start, end; ///< metres
     /// Metres, >= 0: an end is anchored to the polygon's point that is nearest to it in the box of this half size
-    /// around it (tl_navmesh_find_nearest without a filter).
+    /// around it (tl_navmesh_find_nearest), whatever its flags.
     float radius;
     /// The link costs as much as fixed_cost + cost_factor * its length in metres, both >= 0. A link that costs less
     /// than its length is a short cut through space, near which searches look at more polygons: prefer factors of 1 or

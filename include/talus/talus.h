@@ -21,6 +21,7 @@
 #include <talus/nav_prune.h>
 #include <talus/nav_query.h>
 #include <talus/nav_sight.h>
+#include <talus/nav_state.h>
 #include <talus/nav_tile.h>
 #include <talus/nav_wide.h>
 #include <talus/pack.h>

@@ -34,11 +34,13 @@ typedef struct tl_nav_edit {
 typedef struct tl_nav_kept_walls tl_nav_kept_walls; // prepared_walls.h
 
 typedef struct tl_nav_slot {
-    const tl_nav_tile *tile; ///< NULL: free
-    uint32_t salt;           ///< 1 to 65535
-    uint32_t next;           ///< in the chain of its bucket, or of the free slots
-    tl_nav_edit last_edit;   ///< that changed what a search sees here
-    uint64_t inner_links;    ///< ways between polygons of the tile
+    const tl_nav_tile *tile;  ///< as queries see it; NULL: free
+    tl_nav_tile *changed;     ///< that tile, where it is a copy with other flags or areas (state/); else NULL
+    const tl_nav_tile *baked; ///< the tile as it was added, where `changed` stands in its place; else NULL
+    uint32_t salt;            ///< 1 to 65535
+    uint32_t next;            ///< in the chain of its bucket, or of the free slots
+    tl_nav_edit last_edit;    ///< that changed what a search sees here
+    uint64_t inner_links;     ///< ways between polygons of the tile
     tl_nav_tile_ownership ownership;
     uint32_t anchor_count; ///< ends of off-mesh links on its polygons
     tl_nav_side_links sides[TL_NAV_SIDE_COUNT];
@@ -61,7 +63,18 @@ typedef struct tl_nav_derived {
     /// Drops what a change of the tile at a place makes wrong. NULL: nothing is dropped, the data knows its edit.
     void (*invalidate)(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
     void (*free_all)(tl_navmesh *navmesh);
+    /// After an edit of flags or areas alone, which the data knows nothing of: what was right for the edit before is
+    /// right now. NULL: it never asks for the edit.
+    void (*outlive)(tl_navmesh *navmesh, uint64_t edit_before);
 } tl_nav_derived;
+
+/// How many of the things that a filter may meet, polygons and off-mesh links, have each flag.
+typedef struct tl_nav_flag_counts {
+    uint64_t all; ///< of them
+    uint64_t with_bit[64];
+    uint64_t all_flags; ///< that every one has; all of them when there is none
+    uint64_t any_flags; ///< that at least one has
+} tl_nav_flag_counts;
 
 struct tl_navmesh {
     tl_allocator allocator;
@@ -80,8 +93,7 @@ struct tl_navmesh {
     const tl_nav_derived *derived[TL_NAV_DERIVED_KINDS]; ///< NULL: there is none
     tl_nav_visibility_graph *graph;                      ///< NULL, or that of the edit whose number it holds
     uint32_t last_fan;                                   ///< the last number that fans.c gave
-    uint64_t all_flags;                                  ///< that every polygon of every tile so far has
-    uint64_t any_flags;                                  ///< that some polygon of some tile so far has
+    tl_nav_flag_counts flags;                            ///< of all polygons and off-mesh links
     float extent;                                        ///< metres: the largest |x| or |z| of any tile so far
     double kept_reach;                                   ///< metres: slots' kept walls lie within it
     double kept_touch;                                   ///< what touched when they were found (clearance.h)
@@ -91,6 +103,32 @@ struct tl_navmesh {
     float cell_size, cell_height;
     uint32_t tile_size;
 };
+
+/// Counts what comes (sign 1) or goes (-1) with those flags. tl_nav_settle_flags afterwards.
+static inline void tl_nav_count_flags(tl_nav_flag_counts *counts, uint64_t flags, int sign)
+{
+    const uint64_t step = sign > 0 ? 1 : UINT64_MAX;
+    counts->all += step;
+    for (uint32_t bit = 0; flags != 0; bit++, flags >>= 1) {
+        counts->with_bit[bit] += (flags & 1) != 0 ? step : 0;
+    }
+}
+
+static inline void tl_nav_settle_flags(tl_nav_flag_counts *counts)
+{
+    counts->all_flags = 0;
+    counts->any_flags = 0;
+    for (uint32_t bit = 0; bit < 64; bit++) {
+        counts->all_flags |= counts->with_bit[bit] == counts->all ? (uint64_t)1 << bit : 0;
+        counts->any_flags |= counts->with_bit[bit] > 0 ? (uint64_t)1 << bit : 0;
+    }
+}
+
+/// Counts the flags of a tile that comes or goes.
+void tl_nav_count_tile_flags(tl_navmesh *navmesh, const tl_nav_tile *tile, int sign);
+
+/// Makes a slot's tile the one that was added.
+void tl_nav_drop_changes(tl_nav_slot *slot);
 
 enum { TL_NAV_REF_POLYGON_BITS = 28, TL_NAV_REF_SLOT_BITS = 20 };
 
@@ -118,10 +156,10 @@ static inline void tl_nav_note_edit(tl_navmesh *navmesh, uint32_t slot)
 static inline bool tl_nav_all_pass(const tl_navmesh *navmesh, const tl_nav_filter *filter)
 {
     if (filter == NULL) {
-        return navmesh->all_flags != 0;
+        return navmesh->flags.all_flags != 0;
     }
-    return (navmesh->all_flags & filter->include_flags) != 0 && (navmesh->any_flags & filter->exclude_flags) == 0 &&
-           filter->pass == NULL;
+    return (navmesh->flags.all_flags & filter->include_flags) != 0 &&
+           (navmesh->flags.any_flags & filter->exclude_flags) == 0 && filter->pass == NULL;
 }
 
 /// Slot and polygon of a reference; false when it is stale.
@@ -130,5 +168,7 @@ bool tl_nav_split_ref(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *slot_
 /// The first slot of the tiles at a place, then the next one, or TL_NAV_NO_SLOT. In no order.
 uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t tile_z);
 uint32_t tl_nav_next_slot(const tl_navmesh *navmesh, uint32_t slot);
+/// The slot of one layer at a place, or TL_NAV_NO_SLOT.
+uint32_t tl_nav_find_layer_slot(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z);
 
 #endif

@@ -9,6 +9,7 @@
 
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/navmesh.h"
+#include "nav_query/navmesh/offmesh_anchor.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/navmesh/tile_walk.h"
 
@@ -22,6 +23,7 @@ typedef struct nearest_search {
     tl_vec3 best_point;
     bool on_island; // only polygons of `island` count, anywhere, by their plain distance
     uint32_t island;
+    bool any_flags; // polygons that no filter passes count too
 } nearest_search;
 
 // The vertical part of the measure for a floor `above` metres over the centre (negative: under it).
@@ -58,7 +60,7 @@ static float min_measure(const nearest_search *search, const tl_nav_tile *tile, 
 static void try_nearest(nearest_search *search, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
-    if (!tl_nav_passes(search->filter, tile, polygon) ||
+    if ((!search->any_flags && !tl_nav_passes(search->filter, tile, polygon)) ||
         (search->on_island && tl_nav_island_of(search->navmesh, slot, polygon) != search->island)) {
         return;
     }
@@ -205,8 +207,18 @@ tl_result tl_navmesh_find_nearest(const tl_navmesh *navmesh, const tl_nav_filter
     }
     tl_aabb box = { tl_sub(center, half_extents), tl_add(center, half_extents) };
     nearest_search search = {
-        navmesh, filter, center, box, INFINITY, TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f }, false, 0
+        navmesh, filter, center, box, INFINITY, TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f }, false, 0, false
     };
+    search_tiles(&search);
+    return write_nearest(&search, location_out);
+}
+
+tl_result tl_nav_find_nearest_of_any_flags(const tl_navmesh *navmesh, tl_vec3 center, tl_vec3 half_extents,
+                                           tl_nav_location *location_out)
+{
+    const tl_aabb box = { tl_sub(center, half_extents), tl_add(center, half_extents) };
+    nearest_search search = { navmesh, NULL, center, box, INFINITY, TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f },
+                              false,   0,    true };
     search_tiles(&search);
     return write_nearest(&search, location_out);
 }
@@ -232,7 +244,8 @@ tl_result tl_navmesh_find_nearest_reachable(const tl_navmesh *navmesh, const tl_
     }
     tl_aabb everywhere = { { -INFINITY, -INFINITY, -INFINITY }, { INFINITY, INFINITY, INFINITY } };
     nearest_search search = {
-        navmesh, filter, point, everywhere, INFINITY, TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f }, true, 0
+        navmesh, filter, point, everywhere, INFINITY, TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f },
+        true,    0,      false
     };
     search.island = tl_nav_island_of(navmesh, slot, polygon);
     for (slot = 0; slot < navmesh->slot_count; slot++) {

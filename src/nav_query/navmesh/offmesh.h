@@ -81,8 +81,6 @@ static inline tl_nav_offmesh_entry *tl_nav_find_offmesh(const tl_nav_offmesh_tab
     return exists ? &table->entries[index] : NULL;
 }
 
-/// Adds the flags of all off-mesh links to those that a filter may meet.
-void tl_nav_note_offmesh_flags(tl_navmesh *navmesh);
 void tl_nav_free_offmesh(tl_navmesh *navmesh);
 
 #endif

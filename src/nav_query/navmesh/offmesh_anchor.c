@@ -107,8 +107,9 @@ static void anchor_end(tl_navmesh *navmesh, uint32_t end)
     tl_nav_offmesh_entry *entry = &navmesh->offmesh.entries[end / 2];
     float radius = entry->offmesh.radius;
     tl_nav_location found;
-    if (tl_navmesh_find_nearest(navmesh, NULL, end % 2 == 0 ? entry->offmesh.start : entry->offmesh.end,
-                                tl_vec3_make(radius, radius, radius), &found) != TL_OK) {
+    // Flags change while the game runs; anchors are to depend on the tiles alone.
+    if (tl_nav_find_nearest_of_any_flags(navmesh, end % 2 == 0 ? entry->offmesh.start : entry->offmesh.end,
+                                         tl_vec3_make(radius, radius, radius), &found) != TL_OK) {
         return;
     }
     tl_nav_anchor *anchor = &entry->ends[end % 2];

@@ -23,6 +23,9 @@ void tl_nav_anchor_near(tl_navmesh *navmesh, uint32_t slot, bool tile_leaves);
 void tl_nav_anchor_link(tl_navmesh *navmesh, uint32_t index);
 /// Takes both ends of a link off their polygons.
 void tl_nav_release_anchors(tl_navmesh *navmesh, uint32_t index);
+/// tl_navmesh_find_nearest among all polygons, those that no filter passes too (nearest_polygon.c).
+tl_result tl_nav_find_nearest_of_any_flags(const tl_navmesh *navmesh, tl_vec3 center, tl_vec3 half_extents,
+                                           tl_nav_location *location_out);
 /// Puts all anchored ends into fresh buckets.
 void tl_nav_fill_buckets(tl_nav_offmesh_table *table);
 

@@ -104,21 +104,6 @@ static tl_result check_offmesh(const tl_nav_offmesh *offmesh, tl_report *report)
     return TL_OK;
 }
 
-static void note_flags(tl_navmesh *navmesh, const tl_nav_offmesh *offmesh)
-{
-    navmesh->all_flags &= offmesh->flags;
-    navmesh->any_flags |= offmesh->flags;
-}
-
-void tl_nav_note_offmesh_flags(tl_navmesh *navmesh)
-{
-    for (uint32_t i = 0; i < navmesh->offmesh.used; i++) {
-        if (navmesh->offmesh.entries[i].is_used) {
-            note_flags(navmesh, &navmesh->offmesh.entries[i].offmesh);
-        }
-    }
-}
-
 tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmesh *offmesh, tl_nav_ref *link_out,
                                  tl_report *report)
 {
@@ -147,7 +132,8 @@ tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmesh *offm
     entry->ends[0].slot = TL_NAV_NO_SLOT;
     entry->ends[1].slot = TL_NAV_NO_SLOT;
     table->count++;
-    note_flags(navmesh, offmesh);
+    tl_nav_count_flags(&navmesh->flags, offmesh->flags, 1);
+    tl_nav_settle_flags(&navmesh->flags);
     tl_nav_anchor_link(navmesh, index);
     if (tl_nav_is_anchored(entry)) {
         tl_nav_join_anchors(navmesh, entry);
@@ -172,6 +158,8 @@ tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link)
     }
     uint32_t index = (uint32_t)(entry - table->entries);
     tl_nav_release_anchors(navmesh, index);
+    tl_nav_count_flags(&navmesh->flags, entry->offmesh.flags, -1);
+    tl_nav_settle_flags(&navmesh->flags);
     entry->is_used = false;
     table->count--;
     if (entry->salt < TL_NAV_LAST_LINK_SALT) {

@@ -79,7 +79,8 @@ static void keep_same(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z, tl_na
     uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z);
     while (slot != TL_NAV_NO_SLOT) {
         const uint32_t next = tl_nav_next_slot(navmesh, slot);
-        const tl_nav_tile *tile = navmesh->slots[slot].tile;
+        const tl_nav_slot *at = &navmesh->slots[slot];
+        const tl_nav_tile *tile = at->baked != NULL ? at->baked : at->tile; // what games changed does not count
         const uint32_t same = find_same(stack, tile);
         if (same < stack->count) {
             tl_blob_free(stack->tiles[same]);

@@ -45,12 +45,23 @@ tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **navmesh_
     return TL_OK;
 }
 
+void tl_nav_drop_changes(tl_nav_slot *slot)
+{
+    if (slot->changed != NULL) {
+        tl_blob_free(slot->changed);
+        slot->tile = slot->baked;
+        slot->changed = NULL;
+        slot->baked = NULL;
+    }
+}
+
 static void free_slot_content(tl_navmesh *navmesh, tl_nav_slot *slot)
 {
     for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         tl_nav_free_side(&navmesh->allocator, &slot->sides[side]);
     }
     // A borrowed tile may be gone by now: its counts are not asked of it.
+    tl_nav_drop_changes(slot);
     tl_nav_areas_free(&navmesh->allocator, slot->areas, slot->rings.polygon_count);
     tl_nav_rings_free(&navmesh->allocator, &slot->rings);
     slot->areas = NULL;
@@ -114,7 +125,7 @@ uint32_t tl_nav_next_slot(const tl_navmesh *navmesh, uint32_t slot)
     return first_in_chain(navmesh, navmesh->slots[slot].next, tile->tile_x, tile->tile_z);
 }
 
-static uint32_t find_layer(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
+uint32_t tl_nav_find_layer_slot(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
 {
     uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z);
     while (slot != TL_NAV_NO_SLOT && navmesh->slots[slot].tile->layer != layer) {
@@ -399,22 +410,24 @@ static void number_fans(tl_navmesh *navmesh, uint32_t new_slot, int32_t tile_x, 
     }
 }
 
+void tl_nav_count_tile_flags(tl_navmesh *navmesh, const tl_nav_tile *tile, int sign)
+{
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        tl_nav_count_flags(&navmesh->flags, tl_nav_tile_flags(tile, p), sign);
+    }
+    tl_nav_settle_flags(&navmesh->flags);
+}
+
 // What is known of all tiles so far.
 static void note_tile(tl_navmesh *navmesh, const tl_nav_tile *tile)
 {
     if (navmesh->tile_count == 0) {
-        navmesh->all_flags = UINT64_MAX;
-        navmesh->any_flags = 0;
-        tl_nav_note_offmesh_flags(navmesh);
         navmesh->extent = 0.0f;
     }
     const tl_aabb *box = &tile->bounds;
     navmesh->extent = tl_maxf(navmesh->extent, tl_maxf(fabsf(box->min.x), fabsf(box->max.x)));
     navmesh->extent = tl_maxf(navmesh->extent, tl_maxf(fabsf(box->min.z), fabsf(box->max.z)));
-    for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        navmesh->all_flags &= tl_nav_tile_flags(tile, p);
-        navmesh->any_flags |= tl_nav_tile_flags(tile, p);
-    }
+    tl_nav_count_tile_flags(navmesh, tile, 1);
 }
 
 // Begins a change of the tile at a place, for all that is derived from tiles too.
@@ -433,7 +446,7 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     if (navmesh == NULL || tile == NULL || (navmesh->tile_count > 0 && !same_lattice(navmesh, tile))) {
         return TL_ERR_ARGUMENT;
     }
-    if (find_layer(navmesh, tile->tile_x, tile->layer, tile->tile_z) != TL_NAV_NO_SLOT) {
+    if (tl_nav_find_layer_slot(navmesh, tile->tile_x, tile->layer, tile->tile_z) != TL_NAV_NO_SLOT) {
         return TL_ERR_ARGUMENT;
     }
     uint32_t index = 0;
@@ -510,6 +523,7 @@ static void remove_slot(tl_navmesh *navmesh, uint32_t index)
     navmesh->link_count -= slot->inner_links;
     navmesh->polygon_count -= slot->tile->polygon_count;
     tl_nav_area_table_change(navmesh, index, -1);
+    tl_nav_count_tile_flags(navmesh, slot->tile, -1);
     free_slot_content(navmesh, slot);
     tl_nav_anchor_near(navmesh, index, true);
     tl_nav_split_islands(navmesh);
@@ -526,7 +540,7 @@ tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t 
     if (navmesh == NULL) {
         return TL_ERR_ARGUMENT;
     }
-    uint32_t index = find_layer(navmesh, tile_x, layer, tile_z);
+    uint32_t index = tl_nav_find_layer_slot(navmesh, tile_x, layer, tile_z);
     if (index == TL_NAV_NO_SLOT) {
         return TL_NOT_FOUND;
     }
@@ -551,7 +565,7 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
 
 const tl_nav_tile *tl_navmesh_find_layer(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
 {
-    uint32_t slot = find_layer(navmesh, tile_x, layer, tile_z);
+    uint32_t slot = tl_nav_find_layer_slot(navmesh, tile_x, layer, tile_z);
     return slot != TL_NAV_NO_SLOT ? navmesh->slots[slot].tile : NULL;
 }
 

@@ -38,9 +38,17 @@ static void free_graph(tl_navmesh *navmesh)
     navmesh->graph = NULL;
 }
 
+// Corner vertices and what they see depend on no flags and no areas.
+static void outlive_state(tl_navmesh *navmesh, uint64_t edit_before)
+{
+    if (navmesh->graph != NULL && navmesh->graph->edit == edit_before) {
+        navmesh->graph->edit = navmesh->edit.number;
+    }
+}
+
 static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *def)
 {
-    static const tl_nav_derived derived = { NULL, free_graph };
+    static const tl_nav_derived derived = { NULL, free_graph, outlive_state };
     navmesh->derived[TL_NAV_DERIVED_GRAPH] = &derived;
     if (!tl_nav_has_current_graph(navmesh)) {
         free_graph(navmesh);

@@ -339,7 +339,7 @@ static tl_result check_wide_def(const tl_navmesh *navmesh, const tl_nav_wide_def
 // Sets how far walls are found; what was kept for another distance goes.
 static void set_reach(tl_navmesh *navmesh, float max_radius)
 {
-    static const tl_nav_derived derived = { invalidate_walls, drop_all_walls };
+    static const tl_nav_derived derived = { invalidate_walls, drop_all_walls, NULL };
     navmesh->derived[TL_NAV_DERIVED_WALLS] = &derived;
     double reach = 0.0;
     for (uint32_t i = 0; i < navmesh->slot_count; i++) {
