@@ -88,7 +88,7 @@ static tl_exit export_navmesh(tl_cli *cli, const tl_input *input, tl_detour_refs
             tiles[count++] = tile;
         }
     }
-    tl_exit code;
+    tl_exit code = TL_EXIT_OK;
     tl_detour_set set = { tiles, count, NULL, 0, refs };
     if (!collect_off_mesh(cli, input, &set, &code)) {
         free(tiles);
@@ -128,7 +128,7 @@ static tl_exit run_export(tl_cli *cli)
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
-    tl_exit code;
+    tl_exit code = TL_EXIT_OK;
     if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings, 1, 1, &code)) {
         return code;
     }
