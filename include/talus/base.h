@@ -124,11 +124,12 @@ typedef struct tl_tasks {
     void *user;            ///< handed to run
 } tl_tasks;
 
-/// Progress of a bake, and its cancellation.
+/// Progress of a bake or check, and its cancellation.
 ///
-/// `update` is called on the thread that called the bake only. `stage` is a static string; `done` runs from
-/// 0 (the stage begins) to `total` (it has ended), so a host with a clock can time each stage. Returning
-/// false cancels: the bake frees what it holds and returns TL_ERR_CANCELLED.
+/// It is called every 50 ms at least on a core of today, whatever the size of the input; one path search, one contour
+/// and one navmesh tile are not interrupted. `update` is called on the thread that called the bake only. `stage` is a
+/// static string; `done` runs from 0 (the stage begins) to `total` (it has ended), so a host with a clock can time each
+/// stage. Returning false cancels: the bake frees what it holds and returns TL_ERR_CANCELLED.
 typedef struct tl_progress {
     bool (*update)(const char *stage, uint64_t done, uint64_t total, void *user);
     void *user; ///< handed to update

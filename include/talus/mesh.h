@@ -101,9 +101,9 @@ typedef struct tl_adjacency {
 
 /// Finds each triangle's neighbours. Two triangles are neighbours across an edge when exactly those two have it,
 /// in opposite directions. O(triangles). Indices are trusted: give a tl_mesh, or a checked view. Errors:
-/// TL_ERR_ARGUMENT (no indices), TL_ERR_LIMIT (over TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY; `*adjacency_out` is zeroed
-/// then. `host` and `report_out` may be NULL. A collapsed edge (both ends the same vertex) counts as non-manifold
-/// unless it stands alone. Free with tl_adjacency_free.
+/// TL_ERR_ARGUMENT (no indices), TL_ERR_LIMIT (over TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY, TL_ERR_CANCELLED;
+/// `*adjacency_out` is zeroed then. `host` and `report_out` may be NULL. A collapsed edge (both ends the same vertex)
+/// counts as non-manifold unless it stands alone. Free with tl_adjacency_free.
 TL_API tl_result tl_adjacency_bake(const tl_mesh_view *view, const tl_host *host, tl_adjacency *adjacency_out,
                                    tl_report *report_out);
 
@@ -127,8 +127,8 @@ typedef struct tl_closed_parts {
 /// way as the other; a part, a connected component, is closed when its own triangles do so on every edge. So crates
 /// side by side, whose touching faces share edges, are closed, and so is a crate that shares an edge with an open
 /// floor. Corners are the same when their indices are: weld the mesh first. O(triangles). Indices are trusted. Errors:
-/// TL_ERR_ARGUMENT (no indices), TL_ERR_LIMIT (over TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY; `*parts_out` is zeroed then.
-/// `host` and `report_out` may be NULL. Free with tl_closed_parts_free.
+/// TL_ERR_ARGUMENT (no indices), TL_ERR_LIMIT (over TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY, TL_ERR_CANCELLED;
+/// `*parts_out` is zeroed then. `host` and `report_out` may be NULL. Free with tl_closed_parts_free.
 TL_API tl_result tl_closed_parts_find(const tl_mesh_view *view, const tl_host *host, tl_closed_parts *parts_out,
                                       tl_report *report_out);
 

@@ -5,6 +5,8 @@
 
 #include "base/radix_sort.h"
 
+#include "base/assert.h"
+
 #include <string.h>
 
 enum { DIGIT_BITS = 8, DIGIT_VALUES = 1 << DIGIT_BITS, DIGITS = 64 / DIGIT_BITS };
@@ -24,19 +26,43 @@ static void insertion_sort(tl_sort_item *items, uint32_t count)
     }
 }
 
-void tl_radix_sort(tl_sort_item *items, tl_sort_item *scratch, uint32_t count)
+static tl_result count_digits(const tl_sort_item *items, uint32_t count, uint32_t histogram[DIGITS][DIGIT_VALUES],
+                              tl_stage *stage)
+{
+    for (uint32_t begin = 0, end; begin < count; begin = end) {
+        end = tl_stage_step_end(begin, count);
+        for (uint32_t i = begin; i < end; i++) {
+            for (uint32_t digit = 0; digit < DIGITS; digit++) {
+                histogram[digit][(items[i].key >> (digit * DIGIT_BITS)) & (DIGIT_VALUES - 1)]++;
+            }
+        }
+        TL_TRY(tl_stage_add(stage, 0));
+    }
+    return TL_OK;
+}
+
+static tl_result scatter(const tl_sort_item *from, tl_sort_item *to, uint32_t count, uint32_t shift, uint32_t *offsets,
+                         tl_stage *stage)
+{
+    for (uint32_t begin = 0, end; begin < count; begin = end) {
+        end = tl_stage_step_end(begin, count);
+        for (uint32_t i = begin; i < end; i++) {
+            to[offsets[(from[i].key >> shift) & (DIGIT_VALUES - 1)]++] = from[i];
+        }
+        TL_TRY(tl_stage_add(stage, 0));
+    }
+    return TL_OK;
+}
+
+tl_result tl_radix_sort_in_stage(tl_sort_item *items, tl_sort_item *scratch, uint32_t count, tl_stage *stage)
 {
     if (count <= INSERTION_SORT_COUNT) {
         insertion_sort(items, count);
-        return;
+        return TL_OK;
     }
     uint32_t histogram[DIGITS][DIGIT_VALUES];
     memset(histogram, 0, sizeof histogram);
-    for (uint32_t i = 0; i < count; i++) {
-        for (uint32_t digit = 0; digit < DIGITS; digit++) {
-            histogram[digit][(items[i].key >> (digit * DIGIT_BITS)) & (DIGIT_VALUES - 1)]++;
-        }
-    }
+    TL_TRY(count_digits(items, count, histogram, stage));
     tl_sort_item *from = items;
     tl_sort_item *to = scratch;
     for (uint32_t digit = 0; digit < DIGITS; digit++) {
@@ -51,9 +77,7 @@ void tl_radix_sort(tl_sort_item *items, tl_sort_item *scratch, uint32_t count)
             offsets[value] = sum;
             sum += n;
         }
-        for (uint32_t i = 0; i < count; i++) {
-            to[offsets[(from[i].key >> shift) & (DIGIT_VALUES - 1)]++] = from[i];
-        }
+        TL_TRY(scatter(from, to, count, shift, offsets, stage));
         tl_sort_item *swap = from;
         from = to;
         to = swap;
@@ -61,6 +85,12 @@ void tl_radix_sort(tl_sort_item *items, tl_sort_item *scratch, uint32_t count)
     if (from != items) {
         memcpy(items, from, (size_t)count * sizeof *items);
     }
+    return TL_OK;
+}
+
+void tl_radix_sort(tl_sort_item *items, tl_sort_item *scratch, uint32_t count)
+{
+    (void)tl_radix_sort_in_stage(items, scratch, count, NULL); // nothing else can fail
 }
 
 uint32_t tl_float_sort_key(float value)

@@ -6,7 +6,7 @@
 #ifndef TALUS_SRC_BASE_RADIX_SORT_H
 #define TALUS_SRC_BASE_RADIX_SORT_H
 
-#include "base/exact_floats.h"
+#include "base/stage.h"
 
 #include <stdint.h>
 
@@ -18,6 +18,9 @@ typedef struct tl_sort_item {
 
 /// Sorts `items` ascending by key, stably. `scratch` holds `count` items too. O(count) for a fixed key width.
 void tl_radix_sort(tl_sort_item *items, tl_sort_item *scratch, uint32_t count);
+
+/// The same, with calls of progress. TL_ERR_CANCELLED: the items are in no order, and some are there twice.
+tl_result tl_radix_sort_in_stage(tl_sort_item *items, tl_sort_item *scratch, uint32_t count, tl_stage *stage);
 
 /// A float's bits as an unsigned integer of the same order (-0 before +0, NaN at the ends).
 uint32_t tl_float_sort_key(float value);

@@ -89,3 +89,12 @@ tl_result tl_stage_copy(tl_stage *stage, void *to, const void *from, uint64_t by
     const uint32_t pieces = (uint32_t)(bytes / COPY_BYTES + (bytes % COPY_BYTES != 0));
     return tl_stage_run(stage, copy_piece, pieces, &job, COPY_BATCH, 0);
 }
+
+tl_result tl_stage_zero(tl_stage *stage, void *to, uint64_t bytes)
+{
+    for (uint64_t at = 0; at < bytes; at += COPY_BYTES) {
+        memset((char *)to + at, 0, (size_t)tl_min_u64(COPY_BYTES, bytes - at));
+        TL_TRY(tl_stage_add(stage, 0));
+    }
+    return TL_OK;
+}

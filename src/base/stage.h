@@ -49,4 +49,7 @@ tl_result tl_stage_run(tl_stage *stage, tl_task_fn *task, uint32_t count, void *
 /// memcpy in tasks, with progress; adds nothing.
 tl_result tl_stage_copy(tl_stage *stage, void *to, const void *from, uint64_t bytes);
 
+/// memset to 0 on this thread, with progress; adds nothing.
+tl_result tl_stage_zero(tl_stage *stage, void *to, uint64_t bytes);
+
 #endif

@@ -11,6 +11,7 @@
 #include "base/host.h"
 #include "base/min_max.h"
 #include "base/radix_sort.h"
+#include "base/stage.h"
 #include "mesh/clean.h"
 
 #include <talus/mesh.h>
@@ -46,7 +47,8 @@ static void link_group(const tl_mesh_view *view, const tl_sort_item *group, uint
     }
 }
 
-static tl_result link_triangle_edges(const tl_mesh_view *view, tl_arena *arena, tl_adjacency *adjacency)
+static tl_result link_triangle_edges(const tl_mesh_view *view, tl_arena *arena, tl_stage *stage,
+                                     tl_adjacency *adjacency)
 {
     uint32_t edge_count = 3 * view->triangle_count;
     tl_sort_item *edges = TL_PUSH(arena, tl_sort_item, edge_count);
@@ -55,14 +57,20 @@ static tl_result link_triangle_edges(const tl_mesh_view *view, tl_arena *arena, 
         return TL_ERR_MEMORY;
     }
     for (uint32_t edge = 0; edge < edge_count; edge++) {
+        TL_TRY(tl_stage_tick(stage, edge));
         uint32_t from;
         uint32_t to;
         edge_corners(view, edge, &from, &to);
         tl_sort_item item = { (uint64_t)tl_min_u32(from, to) << 32 | tl_max_u32(from, to), edge, 0 };
         edges[edge] = item;
     }
-    tl_radix_sort(edges, scratch, edge_count);
+    TL_TRY(tl_radix_sort_in_stage(edges, scratch, edge_count, stage));
+    uint32_t ticked = 0;
     for (uint32_t begin = 0; begin < edge_count;) {
+        if (begin - ticked >= TL_STAGE_STEP) {
+            TL_TRY(tl_stage_add(stage, begin - ticked));
+            ticked = begin;
+        }
         uint32_t end = begin + 1;
         while (end < edge_count && edges[end].key == edges[begin].key) {
             end++;
@@ -88,7 +96,12 @@ tl_result tl_adjacency_bake(const tl_mesh_view *view, const tl_host *host, tl_ad
     adjacency_out->triangle_count = view->triangle_count;
     tl_arena arena;
     tl_arena_init(&arena, allocator);
-    tl_result result = adjacency_out->across != NULL ? link_triangle_edges(view, &arena, adjacency_out) : TL_ERR_MEMORY;
+    tl_stage stage;
+    tl_result result = adjacency_out->across != NULL
+                           ? tl_stage_begin(&stage, host, "adjacency", 3 * (uint64_t)view->triangle_count)
+                           : TL_ERR_MEMORY;
+    result = result == TL_OK ? link_triangle_edges(view, &arena, &stage, adjacency_out) : result;
+    result = result == TL_OK ? tl_stage_end(&stage) : result;
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes + 3 * (uint64_t)view->triangle_count * sizeof(uint32_t);
     }

@@ -15,11 +15,13 @@
 #include "base/host.h"
 #include "base/min_max.h"
 #include "base/radix_sort.h"
+#include "base/stage.h"
 #include "mesh/clean.h"
 
 #include <string.h>
 
 typedef struct parts_search {
+    tl_stage *stage;
     const tl_mesh_view *view;
     tl_sort_item *edges; // value: the triangle, extra: 1 when it runs from the lower vertex to the higher
     uint32_t edge_count;
@@ -37,13 +39,13 @@ static tl_result sort_part_edges(parts_search *s, tl_arena *arena)
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < 3 * view->triangle_count; i++) {
+        TL_TRY(tl_stage_tick(s->stage, i));
         const uint32_t from = view->indices[i], to = view->indices[i - i % 3 + (i + 1) % 3];
         const tl_sort_item item = { (uint64_t)tl_min_u32(from, to) << 32 | tl_max_u32(from, to), i / 3, from < to };
         s->edges[s->edge_count] = item;
         s->edge_count += from != to; // an edge without length runs both ways
     }
-    tl_radix_sort(s->edges, scratch, s->edge_count);
-    return TL_OK;
+    return tl_radix_sort_in_stage(s->edges, scratch, s->edge_count, s->stage);
 }
 
 static uint32_t group_end(const parts_search *s, uint32_t begin)
@@ -65,9 +67,21 @@ static uint32_t part_root(parts_search *s, uint32_t triangle)
     return tl_disjoint_sets_find(s->parent, triangle);
 }
 
-static void join_groups(parts_search *s)
+// Calls progress each TL_STAGE_STEP edges of a walk over groups, which end anywhere.
+static tl_result tick_edges(parts_search *s, uint32_t begin, uint32_t *ticked)
 {
+    if (begin - *ticked < TL_STAGE_STEP) {
+        return TL_OK;
+    }
+    *ticked = begin;
+    return tl_stage_add(s->stage, TL_STAGE_STEP / 2);
+}
+
+static tl_result join_groups(parts_search *s)
+{
+    uint32_t ticked = 0;
     for (uint32_t begin = 0; begin < s->edge_count;) {
+        TL_TRY(tick_edges(s, begin, &ticked));
         const uint32_t end = group_end(s, begin);
         int64_t sum = 0;
         for (uint32_t i = begin; i < end; i++) {
@@ -78,11 +92,14 @@ static void join_groups(parts_search *s)
         }
         begin = end;
     }
+    return TL_OK;
 }
 
-static void find_rims(parts_search *s)
+static tl_result find_rims(parts_search *s)
 {
+    uint32_t ticked = 0;
     for (uint32_t begin = 0; begin < s->edge_count;) {
+        TL_TRY(tick_edges(s, begin, &ticked));
         const uint32_t end = group_end(s, begin);
         for (uint32_t i = begin; i < end; i++) {
             s->balance[part_root(s, s->edges[i].value)] += direction_of(&s->edges[i]);
@@ -96,12 +113,14 @@ static void find_rims(parts_search *s)
         }
         begin = end;
     }
+    return TL_OK;
 }
 
 // Numbers the closed roots. A root comes before all others of its part.
-static void number_parts(parts_search *s, tl_closed_parts *parts)
+static tl_result number_parts(parts_search *s, tl_closed_parts *parts)
 {
     for (uint32_t t = 0; t < parts->triangle_count; t++) {
+        TL_TRY(tl_stage_tick(s->stage, t));
         const uint32_t root = part_root(s, t);
         parts->part_of[t] = TL_NO_PART;
         if (s->has_rim[root]) {
@@ -110,6 +129,7 @@ static void number_parts(parts_search *s, tl_closed_parts *parts)
             parts->part_of[t] = root == t ? parts->part_count++ : parts->part_of[root];
         }
     }
+    return TL_OK;
 }
 
 static double signed_volume(tl_vec3 apex, tl_vec3 a, tl_vec3 b, tl_vec3 c)
@@ -123,9 +143,10 @@ static double signed_volume(tl_vec3 apex, tl_vec3 a, tl_vec3 b, tl_vec3 c)
     return (ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)) / 6.0;
 }
 
-static void measure_parts(parts_search *s, tl_closed_parts *parts)
+static tl_result measure_parts(parts_search *s, tl_closed_parts *parts)
 {
     for (uint32_t t = 0; t < parts->triangle_count; t++) {
+        TL_TRY(tl_stage_tick(s->stage, t));
         if (parts->part_of[t] != TL_NO_PART) {
             const uint32_t *corner = s->view->indices + 3 * (size_t)t;
             const tl_vec3 *vertices = s->view->vertices;
@@ -134,14 +155,16 @@ static void measure_parts(parts_search *s, tl_closed_parts *parts)
                 signed_volume(apex, vertices[corner[0]], vertices[corner[1]], vertices[corner[2]]);
         }
     }
+    return TL_OK;
 }
 
-static tl_result find_closed_parts(const tl_mesh_view *view, tl_arena *arena, tl_closed_parts *parts)
+static tl_result find_closed_parts(const tl_mesh_view *view, tl_arena *arena, tl_stage *stage, tl_closed_parts *parts)
 {
     const tl_allocator *allocator = &parts->allocator;
     parts_search s;
     memset(&s, 0, sizeof s);
     s.view = view;
+    s.stage = stage;
     const uint32_t count = view->triangle_count;
     TL_TRY(sort_part_edges(&s, arena));
     s.parent = TL_PUSH(arena, uint32_t, count);
@@ -152,16 +175,15 @@ static tl_result find_closed_parts(const tl_mesh_view *view, tl_arena *arena, tl
         return TL_ERR_MEMORY;
     }
     tl_disjoint_sets_init(s.parent, count);
-    join_groups(&s);
-    find_rims(&s);
-    number_parts(&s, parts);
+    TL_TRY(join_groups(&s));
+    TL_TRY(find_rims(&s));
+    TL_TRY(number_parts(&s, parts));
     parts->volumes = tl_allocate_array(allocator, parts->part_count, sizeof *parts->volumes);
     if (parts->volumes == NULL) {
         return TL_ERR_MEMORY;
     }
     memset(parts->volumes, 0, parts->part_count * sizeof *parts->volumes);
-    measure_parts(&s, parts);
-    return TL_OK;
+    return measure_parts(&s, parts);
 }
 
 tl_result tl_closed_parts_find(const tl_mesh_view *view, const tl_host *host, tl_closed_parts *parts_out,
@@ -178,7 +200,10 @@ tl_result tl_closed_parts_find(const tl_mesh_view *view, const tl_host *host, tl
     parts_out->triangle_count = view->triangle_count;
     tl_arena arena;
     tl_arena_init(&arena, allocator);
-    const tl_result result = find_closed_parts(view, &arena, parts_out);
+    tl_stage stage;
+    tl_result result = tl_stage_begin(&stage, host, "closed parts", 3 * (uint64_t)view->triangle_count);
+    result = result == TL_OK ? find_closed_parts(view, &arena, &stage, parts_out) : result;
+    result = result == TL_OK ? tl_stage_end(&stage) : result;
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes + parts_out->triangle_count * sizeof *parts_out->part_of +
                                  parts_out->part_count * sizeof *parts_out->volumes;

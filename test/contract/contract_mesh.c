@@ -95,9 +95,9 @@ const contract_entry CONTRACT_TABLE_mesh[] = {
     { "tl_mesh_bake", DEF_CASES, 3, 1, MESH_FIELDS, mesh_bake, NULL },
     { "tl_mesh_free", CONTRACT_BIT(NULL_FREE), 0, 0, NULL, mesh_free, NULL },
     { "tl_mesh_as_view", 0, 0, 0, NULL, NULL, "returns a value; the mesh is the caller's duty" },
-    { "tl_adjacency_bake", HOST_CASES, 2, 1, NULL, adjacency_bake, NULL },
+    { "tl_adjacency_bake", HOST_CASES | CONTRACT_BIT(CANCELLED), 2, 1, NULL, adjacency_bake, NULL },
     { "tl_adjacency_free", CONTRACT_BIT(NULL_FREE), 0, 0, NULL, adjacency_free, NULL },
-    { "tl_closed_parts_find", HOST_CASES, 3, 1, NULL, closed_parts_find, NULL },
+    { "tl_closed_parts_find", HOST_CASES | CONTRACT_BIT(CANCELLED), 3, 1, NULL, closed_parts_find, NULL },
     { "tl_closed_parts_free", CONTRACT_BIT(NULL_FREE), 0, 0, NULL, closed_parts_free, NULL },
     { 0 },
 };

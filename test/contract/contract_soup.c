@@ -288,7 +288,7 @@ const contract_entry CONTRACT_TABLE_soup[] = {
     { "tl_soup_cast_shape", FILTERED | REFUSING | CONTRACT_BIT(NOT_FOUND) | CONTRACT_BIT(ZERO_ROTATION), 2, 1, NULL,
       cast_shape, NULL },
     { "tl_soup_locate", CONTRACT_BIT(GOOD) | REFUSING, 1, 1, NULL, locate, NULL },
-    { "tl_soup_check_closed", REPORTED | HOSTED, 1, 0, NULL, check_closed, NULL },
+    { "tl_soup_check_closed", REPORTED | HOSTED | CONTRACT_BIT(CANCELLED), 1, 0, NULL, check_closed, NULL },
     { "tl_soup_next_triangle", 0, 0, 0, NULL, NULL, "an iterator: test_soup_read.c" },
     { "tl_soup_next_pair", 0, 0, 0, NULL, NULL, "an iterator: test_soup_read.c" },
     { "tl_soup_triangles_in_box", 0, 0, 0, NULL, NULL, "no filter, no result: test_soup_read.c" },

@@ -127,7 +127,7 @@ static tl_hull *bake_pyramid(const tl_hull *right, float height, float bottom, t
     memcpy(faces, tl_hull_faces(right), right->face_count * sizeof *faces);
     tl_hull_polygons polygons = { 9, right->face_count, right->half_edge_count, numbers, half_edges, faces };
     tl_hull *hull;
-    TEST_RESULT(tl_hull_encode(&polygons, corners, 1, arena, &hull), TL_OK);
+    TEST_RESULT(tl_hull_encode(&polygons, corners, 1, arena, NULL, &hull), TL_OK);
     return hull;
 }
 

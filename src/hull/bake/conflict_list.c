@@ -27,24 +27,29 @@ static void file_under(tl_quickhull *hull, uint32_t face, uint32_t point, double
     }
 }
 
-void tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4])
+tl_result tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4])
 {
+    hull->waiting = hull->point_count;
     for (uint32_t p = 0; p < hull->point_count; p++) {
+        TL_TRY(tl_quickhull_count_work(hull, 1));
         if (p == seed[0] || p == seed[1] || p == seed[2] || p == seed[3]) {
+            hull->waiting--;
             continue;
         }
-        for (uint32_t f = 0; f < 4; f++) {
+        uint32_t f = 0;
+        for (; f < 4; f++) {
             double value;
             if (tl_quickhull_side(hull, &hull->faces[f], hull->local[p].position, &value) > 0) {
                 file_under(hull, f, p, value);
-                hull->waiting++;
                 break;
             }
         }
+        hull->waiting -= f == 4;
     }
+    return TL_OK;
 }
 
-void tl_quickhull_refile(tl_quickhull *hull)
+tl_result tl_quickhull_refile(tl_quickhull *hull)
 {
     // The new point lies in the planes of all created faces: it needs no test, and a test would be the costly case.
     uint32_t eye = hull->faces[hull->created[0]].vertex[2];
@@ -53,6 +58,7 @@ void tl_quickhull_refile(tl_quickhull *hull)
         while (p != TL_NONE) {
             uint32_t next = hull->local[p].next;
             tl_vec3 position = hull->local[p].position;
+            TL_TRY(tl_quickhull_count_work(hull, 1));
             uint32_t k = p != eye ? 0 : hull->created_count;
             for (; k < hull->created_count; k++) {
                 uint32_t face = hull->created[k];
@@ -69,6 +75,7 @@ void tl_quickhull_refile(tl_quickhull *hull)
     for (uint32_t i = 0; i < hull->visible_count; i++) {
         tl_quickhull_free_face(hull, hull->visible[i]);
     }
+    return TL_OK;
 }
 
 // A larger distance first; on ties the lower point, so that the order does not depend on the heap's shape.

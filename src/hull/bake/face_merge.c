@@ -64,15 +64,17 @@ static uint32_t next_straight_edge(const merge_state *m, uint32_t half_edge, uin
     return next;
 }
 
-static void find_borders(merge_state *m)
+static tl_result find_borders(merge_state *m)
 {
     const tl_quickhull *hull = m->hull;
     for (uint32_t f = 0; f < hull->face_count; f++) {
+        TL_TRY(tl_quickhull_count_work(m->hull, 1));
         for (uint32_t k = 0; k < 3; k++) {
             m->mark[4 * f + k] = FLAT;
         }
     }
     for (uint32_t f = 0; f < hull->face_count; f++) {
+        TL_TRY(tl_quickhull_count_work(m->hull, 1));
         const tl_quickhull_face *face = &hull->faces[f];
         for (uint32_t k = 0; k < 3 && hull->conflicts[f].live; k++) {
             uint32_t across = face->across[k], corner = tl_half_edge_corner(across);
@@ -88,10 +90,11 @@ static void find_borders(merge_state *m)
             }
         }
     }
+    return TL_OK;
 }
 
 // Walks each border once, from the lowest half-edge of it that starts an edge.
-static void find_groups(merge_state *m, uint32_t key_shift)
+static tl_result find_groups(merge_state *m, uint32_t key_shift)
 {
     const tl_quickhull *hull = m->hull;
     for (uint32_t h = 0; h < 4 * hull->face_count; h++) {
@@ -104,11 +107,13 @@ static void find_groups(merge_state *m, uint32_t key_shift)
             edge = next_straight_edge(m, edge, &last);
             lowest = origin(m, edge) < origin(m, lowest) ? edge : lowest;
             m->edge_count++;
+            TL_TRY(tl_quickhull_count_work(m->hull, 1));
         } while (edge != h);
         tl_sort_item *group = &m->groups[m->group_count++];
         group->value = lowest;
         group->key = (uint64_t)origin(m, lowest) << key_shift | origin(m, next_straight_edge(m, lowest, &last));
     }
+    return TL_OK;
 }
 
 // Vertices in the order of their points.
@@ -140,7 +145,7 @@ static tl_result number_polygons(merge_state *m, tl_hull_polygons *out)
     if (scratch == NULL || out->half_edges == NULL || out->faces == NULL) {
         return TL_ERR_MEMORY;
     }
-    tl_radix_sort(m->groups, scratch, m->group_count);
+    TL_TRY(tl_radix_sort_in_stage(m->groups, scratch, m->group_count, m->hull->stage));
     uint32_t count = 0;
     for (uint32_t f = 0; f < m->group_count; f++) {
         uint32_t first = count, edge = m->groups[f].value;
@@ -150,12 +155,14 @@ static tl_result number_polygons(merge_state *m, tl_hull_polygons *out)
             m->mark[edge] = count;
             out->half_edges[count++] = half_edge;
             edge = next;
+            TL_TRY(tl_quickhull_count_work(m->hull, 1));
         } while (edge != m->groups[f].value);
         out->half_edges[count - 1].next = first;
         out->faces[f].first = first;
         out->faces[f].count = count - first;
     }
     for (uint32_t e = 0; e < count; e++) {
+        TL_TRY(tl_quickhull_count_work(m->hull, 1));
         out->half_edges[e].twin = m->mark[out->half_edges[e].twin];
     }
     out->face_count = m->group_count;
@@ -180,8 +187,8 @@ tl_result tl_quickhull_merge_faces(tl_quickhull *hull, tl_hull_polygons *polygon
         key_shift++;
     }
     memset(polygons_out, 0, sizeof *polygons_out);
-    find_borders(&m);
-    find_groups(&m, key_shift);
+    TL_TRY(find_borders(&m));
+    TL_TRY(find_groups(&m, key_shift));
     TL_TRY(number_strict_corners(&m, polygons_out));
     return number_polygons(&m, polygons_out);
 }

@@ -3,6 +3,7 @@
 // The polygons of a finished hull, laid out as one block: topology and planes for whoever reads them, and for the
 // support query the rows of the scan, or the blocks of the climb and the direction table.
 
+#include "base/assert.h"
 #include "hull/bake/quickhull.h"
 #include "hull/support/hull_support.h"
 #include "math/predicates.h"
@@ -15,19 +16,25 @@
 // face as large as the hull the plane is then off by some 3e-14 of the size.
 #define TL_NORMAL_ERROR 2.8421709430404007e-14
 
-static uint32_t count_blocks(const tl_hull_polygons *polygons, uint32_t *degrees)
+// Vertices whose blocks are written between two calls of progress, at some 300 ns each.
+enum { VERTICES_PER_CALL = 1 << 14 };
+
+static tl_result count_blocks(const tl_hull_polygons *polygons, tl_stage *stage, uint32_t *degrees,
+                              uint32_t *blocks_out)
 {
-    uint32_t blocks = 0;
+    *blocks_out = 0;
     for (uint32_t h = 0; h < polygons->half_edge_count; h++) {
+        TL_TRY(tl_stage_tick(stage, h));
         degrees[polygons->half_edges[h].origin]++;
     }
     for (uint32_t v = 0; v < polygons->vertex_count; v++) {
-        blocks += tl_hull_blocks_of(degrees[v]);
+        *blocks_out += tl_hull_blocks_of(degrees[v]);
     }
-    return blocks;
+    return TL_OK;
 }
 
-static void write_topology(tl_hull *hull, const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies)
+static tl_result write_topology(tl_hull *hull, const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies,
+                                tl_stage *stage)
 {
     char *bytes = (char *)hull;
     tl_vec3 *vertices = (tl_vec3 *)(void *)(bytes + hull->vertices);
@@ -37,12 +44,14 @@ static void write_topology(tl_hull *hull, const tl_hull_polygons *polygons, cons
     tl_hull_face *faces = (tl_hull_face *)(void *)(bytes + hull->faces);
     hull->bounds = tl_aabb_empty();
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        TL_TRY(tl_stage_tick(stage, v));
         vertices[v] = points[polygons->points[v]];
         sources[v] = polygons->points[v] / copies;
         vertex_edges[v] = TL_NONE;
         hull->bounds = tl_aabb_add_point(hull->bounds, vertices[v]);
     }
     for (uint32_t h = 0; h < hull->half_edge_count; h++) {
+        TL_TRY(tl_stage_tick(stage, h));
         half_edges[h] = polygons->half_edges[h];
         if (vertex_edges[half_edges[h].origin] == TL_NONE) {
             vertex_edges[half_edges[h].origin] = h;
@@ -51,6 +60,7 @@ static void write_topology(tl_hull *hull, const tl_hull_polygons *polygons, cons
     for (uint32_t f = 0; f < hull->face_count; f++) {
         faces[f] = polygons->faces[f];
     }
+    return TL_OK;
 }
 
 // Twice the area's vector of a triangle, (b - a) x (c - a), to within TL_NORMAL_ERROR of its length. A face may be
@@ -97,7 +107,7 @@ tl_hull_plane tl_hull_fit_plane(const tl_hull *hull, tl_hull_face face)
     return plane;
 }
 
-static void write_planes(tl_hull *hull)
+static tl_result write_planes(tl_hull *hull, tl_stage *stage)
 {
     tl_hull_plane_block *blocks = (tl_hull_plane_block *)(void *)((char *)hull + hull->planes);
     for (uint32_t f = 0; f < hull->face_count; f++) {
@@ -107,7 +117,9 @@ static void write_planes(tl_hull *hull)
         block->y[f % 8] = plane.normal[1];
         block->z[f % 8] = plane.normal[2];
         block->offset[f % 8] = plane.offset;
+        TL_TRY(tl_stage_tick(stage, f));
     }
+    return TL_OK;
 }
 
 static void write_scan(tl_hull *hull)
@@ -122,7 +134,7 @@ static void write_scan(tl_hull *hull)
     hull->scan_error = tl_hull_scan_error(hull);
 }
 
-static void write_blocks(tl_hull *hull, const uint32_t *degrees)
+static tl_result write_blocks(tl_hull *hull, const uint32_t *degrees, tl_stage *stage)
 {
     tl_climb_block *blocks = (tl_climb_block *)(uintptr_t)tl_hull_blocks(hull);
     uint32_t behind = hull->vertex_count;
@@ -138,11 +150,29 @@ static void write_blocks(tl_hull *hull, const uint32_t *degrees)
             blocks[at].link[TL_CLIMB_LANES - 1] = TL_CLIMB_MORE | behind;
             at = behind++;
         }
+        TL_TRY(v % VERTICES_PER_CALL == 0 ? tl_stage_add(stage, 0) : TL_OK);
     }
+    return TL_OK;
+}
+
+static tl_result write_hull(tl_hull *hull, const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies,
+                            const uint32_t *degrees, tl_arena *arena, tl_stage *stage)
+{
+    TL_TRY(tl_stage_zero(stage, hull + 1, hull->blob.size - sizeof *hull));
+    TL_TRY(write_topology(hull, polygons, points, copies, stage));
+    TL_TRY(write_planes(hull, stage));
+    TL_TRY(tl_hull_measure_mass(hull, stage, &hull->mass));
+    hull->table_scale = tl_hull_table_scale(hull);
+    TL_TRY(write_blocks(hull, degrees, stage));
+    if (hull->scan_count > 0) {
+        write_scan(hull);
+        return TL_OK;
+    }
+    return tl_hull_fill_table(hull, arena, stage);
 }
 
 tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
-                         tl_hull **hull_out)
+                         tl_stage *stage, tl_hull **hull_out)
 {
     uint32_t *degrees = TL_PUSH_ZERO(arena, uint32_t, polygons->vertex_count);
     if (degrees == NULL) {
@@ -154,26 +184,16 @@ tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points
     head.vertex_count = polygons->vertex_count;
     head.face_count = polygons->face_count;
     head.half_edge_count = polygons->half_edge_count;
-    head.block_count = count_blocks(polygons, degrees);
+    TL_TRY(count_blocks(polygons, stage, degrees, &head.block_count));
     tl_hull_count_rings(&head, polygons->faces);
     size = tl_hull_lay_out(&head);
-    tl_hull *hull = tl_blob_allocate(&arena->allocator, TL_HULL_MAGIC, TL_HULL_VERSION, size);
+    tl_hull *hull = tl_blob_allocate_part(&arena->allocator, TL_HULL_MAGIC, TL_HULL_VERSION, size, sizeof *hull, size);
     if (hull == NULL) {
         return TL_ERR_MEMORY;
     }
     head.blob = hull->blob;
     memcpy(hull, &head, sizeof head);
-    write_topology(hull, polygons, points, copies);
-    write_planes(hull);
-    hull->mass = tl_hull_measure_mass(hull);
-    hull->table_scale = tl_hull_table_scale(hull);
-    write_blocks(hull, degrees);
-    tl_result result = TL_OK;
-    if (hull->scan_count > 0) {
-        write_scan(hull);
-    } else {
-        result = tl_hull_fill_table(hull, arena);
-    }
+    const tl_result result = write_hull(hull, polygons, points, copies, degrees, arena, stage);
     if (result != TL_OK) {
         tl_blob_free(hull);
         return result;

@@ -4,6 +4,7 @@
 // of each face's fan. The mean lies inside, so all terms are positive and nothing cancels. Source: David Eberly,
 // Polyhedral Mass Properties (Revisited), 2002; here in the form of tetrahedra.
 
+#include "base/assert.h"
 #include "hull/bake/quickhull.h"
 #include "hull/support/hull_support.h"
 
@@ -48,7 +49,7 @@ static void add_tetrahedron(moments *m, const double a[3], const double b[3], co
     }
 }
 
-tl_hull_mass tl_hull_measure_mass(const tl_hull *hull)
+tl_result tl_hull_measure_mass(const tl_hull *hull, tl_stage *stage, tl_hull_mass *mass_out)
 {
     tl_hull_mass mass;
     memset(&mass, 0, sizeof mass);
@@ -67,6 +68,7 @@ tl_hull_mass tl_hull_measure_mass(const tl_hull *hull)
     for (uint32_t f = 0; f < hull->face_count; f++) {
         tl_hull_face face = tl_hull_faces(hull)[f];
         double a[3], b[3], c[3];
+        TL_TRY(tl_stage_tick(stage, f));
         relative(hull, face.first, middle, a);
         for (uint32_t k = 1; k + 1 < face.count; k++) {
             relative(hull, face.first + k, middle, b);
@@ -76,7 +78,8 @@ tl_hull_mass tl_hull_measure_mass(const tl_hull *hull)
     }
     mass.area = 0.5 * m.area2;
     if (!(m.volume6 > 0.0)) {
-        return mass; // thinner than double rounding of its length: no volume, the mean as centre
+        *mass_out = mass; // thinner than double rounding of its length: no volume, the mean as centre
+        return TL_OK;
     }
     mass.volume = m.volume6 / 6.0;
     double center[3];
@@ -93,5 +96,6 @@ tl_hull_mass tl_hull_measure_mass(const tl_hull *hull)
     mass.inertia[3] = mass.volume * center[0] * center[1] - m.second[3] / 120.0;
     mass.inertia[4] = mass.volume * center[0] * center[2] - m.second[4] / 120.0;
     mass.inertia[5] = mass.volume * center[1] * center[2] - m.second[5] / 120.0;
-    return mass;
+    *mass_out = mass;
+    return TL_OK;
 }

@@ -17,9 +17,6 @@
 
 #include <string.h>
 
-// Steps between two calls of the progress hook.
-#define PROGRESS_STEPS 4096u
-
 // Capacity for faces: a first block, then each as large as all that may come, within this factor.
 #define FACES_A_STEP 64u
 #define FACE_GROWTH  8u
@@ -91,8 +88,8 @@ tl_result tl_quickhull_reserve(tl_quickhull *hull, uint32_t more)
         return TL_ERR_MEMORY;
     }
     if (hull->face_count > 0) {
-        memcpy(faces, hull->faces, hull->face_count * sizeof *faces);
-        memcpy(conflicts, hull->conflicts, hull->face_count * sizeof *conflicts);
+        TL_TRY(tl_stage_copy(hull->stage, faces, hull->faces, hull->face_count * sizeof *faces));
+        TL_TRY(tl_stage_copy(hull->stage, conflicts, hull->conflicts, hull->face_count * sizeof *conflicts));
         memcpy(visible, hull->visible, hull->visible_count * sizeof *visible);
         memcpy(horizon, hull->horizon, hull->horizon_count * sizeof *horizon);
     }
@@ -191,7 +188,7 @@ static tl_result make_tetrahedron(tl_quickhull *hull, const uint32_t seed[4])
 
 static tl_result add_farthest_points(tl_quickhull *hull, const tl_hull_def *def)
 {
-    for (uint32_t step = 0;; step++) {
+    for (;;) {
         // A triangulated sphere of F faces has F / 2 + 2 vertices.
         if (def->max_vertices != 0 && hull->live_faces / 2 + 2 >= def->max_vertices) {
             return TL_OK;
@@ -200,11 +197,9 @@ static tl_result add_farthest_points(tl_quickhull *hull, const tl_hull_def *def)
         if (face == TL_NONE) {
             return TL_OK;
         }
-        if (step % PROGRESS_STEPS == 0) {
-            TL_TRY(tl_progress_update(&def->host, "hull", step, hull->point_count));
-        }
         TL_TRY(tl_quickhull_add_point(hull, face));
-        tl_quickhull_refile(hull);
+        TL_TRY(tl_quickhull_count_work(hull, hull->visible_count + hull->created_count));
+        TL_TRY(tl_quickhull_refile(hull));
         for (uint32_t i = 0; i < hull->created_count; i++) {
             TL_TRY(tl_quickhull_enqueue(hull, hull->created[i]));
         }
@@ -240,7 +235,7 @@ static tl_result bake_polytope(tl_quickhull *hull, const tl_hull_def *def, tl_hu
     }
     TL_TRY(make_local(hull));
     TL_TRY(make_tetrahedron(hull, seed));
-    tl_quickhull_file_all(hull, seed);
+    TL_TRY(tl_quickhull_file_all(hull, seed));
     for (uint32_t i = 0; i < 4; i++) {
         TL_TRY(tl_quickhull_enqueue(hull, i));
     }
@@ -251,7 +246,7 @@ static tl_result bake_polytope(tl_quickhull *hull, const tl_hull_def *def, tl_hu
     }
     tl_hull_polygons polygons;
     TL_TRY(tl_quickhull_merge_faces(hull, &polygons));
-    TL_TRY(tl_hull_encode(&polygons, hull->points, copies, hull->arena, hull_out));
+    TL_TRY(tl_hull_encode(&polygons, hull->points, copies, hull->arena, hull->stage, hull_out));
     if (report != NULL) {
         report->thickened = copies > 1;
     }
@@ -294,13 +289,22 @@ tl_result tl_hull_bake(const tl_vec3 *points, uint32_t count, const tl_hull_def 
     tl_arena_init(&arena, def->host.allocator);
     tl_quickhull hull;
     memset(&hull, 0, sizeof hull);
+    tl_stage stage;
     hull.arena = &arena;
+    hull.stage = &stage;
     hull.points = points;
     hull.point_count = count;
     hull.free_face = TL_NONE;
     hull.newest = TL_NONE;
     hull.farthest_first = def->max_vertices != 0;
-    tl_result result = bake_polytope(&hull, def, hull_out, report_out);
+    const tl_host serial = { def->host.allocator, NULL, def->host.progress };
+    tl_result result = tl_stage_begin(&stage, &serial, "hull", count);
+    result = result == TL_OK ? bake_polytope(&hull, def, hull_out, report_out) : result;
+    result = result == TL_OK ? tl_stage_end(&stage) : result;
+    if (result != TL_OK) {
+        tl_blob_free(*hull_out);
+        *hull_out = NULL;
+    }
     if (base != NULL) {
         base->peak_bytes = arena.peak_bytes + (*hull_out != NULL ? (*hull_out)->blob.size : 0);
     }

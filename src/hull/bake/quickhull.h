@@ -9,6 +9,7 @@
 #define TALUS_SRC_HULL_QUICKHULL_H
 
 #include "base/arena.h"
+#include "base/stage.h"
 #include "hull/bake/side_plane.h"
 
 #include <talus/hull.h>
@@ -47,6 +48,8 @@ typedef struct tl_quickhull_entry {
 
 typedef struct tl_quickhull {
     tl_arena *arena;
+    tl_stage *stage; // its unit: points that are a corner, inside or on the surface
+    uint32_t work;   // points and faces that were looked at since progress was called
     const tl_vec3 *points;
     uint32_t point_count;
     uint32_t waiting; // points that are filed under a face
@@ -102,6 +105,19 @@ static inline uint32_t tl_half_edge_next(uint32_t half_edge)
     return tl_half_edge_corner(half_edge) == 2 ? half_edge - 2 : half_edge + 1;
 }
 
+// Calls progress once each TL_QUICKHULL_STEP points or faces: some 10 to 100 ns each, and up to some us where
+// predicates must be exact.
+#define TL_QUICKHULL_STEP 0x4000u
+static inline tl_result tl_quickhull_count_work(tl_quickhull *hull, uint32_t amount)
+{
+    hull->work += amount;
+    if (hull->work < TL_QUICKHULL_STEP) {
+        return TL_OK;
+    }
+    hull->work = 0;
+    return tl_stage_add(hull->stage, hull->point_count - hull->waiting - hull->stage->done);
+}
+
 // 1 when a point, given by its local position, is in front of a face, 0 in its plane, -1 behind; exact. `height_out`
 // gets its approximate height times the normal's length.
 static inline int tl_quickhull_side(const tl_quickhull *hull, const tl_quickhull_face *face, tl_vec3 p,
@@ -128,9 +144,9 @@ tl_result tl_quickhull_reserve(tl_quickhull *hull, uint32_t more);
 tl_result tl_quickhull_seed(tl_quickhull *hull, double flatness, uint32_t seed_out[4], uint32_t *rank_out);
 
 // conflict_list.c
-void tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4]);
+tl_result tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4]);
 // Files the points of the visible faces under the created ones.
-void tl_quickhull_refile(tl_quickhull *hull);
+tl_result tl_quickhull_refile(tl_quickhull *hull);
 // Lets a new face wait for its turn, if it has points.
 tl_result tl_quickhull_enqueue(tl_quickhull *hull, uint32_t face);
 // Takes a face that is about to die out of the waiting ones.
@@ -155,12 +171,13 @@ tl_result tl_quickhull_thicken(tl_quickhull *hull, const uint32_t seed[4], uint3
                                uint32_t *copies_out);
 
 // hull_mass.c: for density 1, from the vertices and loops.
-tl_hull_mass tl_hull_measure_mass(const tl_hull *hull);
+// TL_ERR_CANCELLED is the only error; a NULL stage is silent.
+tl_result tl_hull_measure_mass(const tl_hull *hull, tl_stage *stage, tl_hull_mass *mass_out);
 
 // hull_encode.c
 // A face's plane, from its corners.
 tl_hull_plane tl_hull_fit_plane(const tl_hull *hull, tl_hull_face face);
 tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
-                         tl_hull **hull_out);
+                         tl_stage *stage, tl_hull **hull_out);
 
 #endif

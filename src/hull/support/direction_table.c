@@ -3,6 +3,7 @@
 // Fills the table of directions: see direction_table.h.
 
 #include "hull/support/direction_table.h"
+#include "base/assert.h"
 #include "hull/support/face_ring.h"
 
 // With 16 cells a vertex the start is right in seven of eight queries. Four times as many would halve the rest, and
@@ -107,7 +108,7 @@ static uint32_t fill_stretch(const table_row *row, const tl_support_kernel *kern
     return vertex;
 }
 
-static void fill_squares(const tl_hull *hull, uint32_t *table, const uint32_t *rings)
+static tl_result fill_squares(const tl_hull *hull, uint32_t *table, const uint32_t *rings, tl_stage *stage)
 {
     uint32_t side = hull->table_side, first = 0;
     tl_support_kernel kernel = tl_support_kernel_best();
@@ -119,7 +120,9 @@ static void fill_squares(const tl_hull *hull, uint32_t *table, const uint32_t *r
         vertex = fill_stretch(&row, &kernel, margin, side - margin, 0.0f, vertex, cells);
         fill_stretch(&row, &kernel, side - margin, side, -1.0f, vertex, cells);
         first = cells[0];
+        TL_TRY(tl_stage_add(stage, 0));
     }
+    return TL_OK;
 }
 
 // The cell beside another one. Both squares have the same rim, where the octahedron's halves meet: beyond it lies the
@@ -161,7 +164,7 @@ static void name_rings(const tl_hull *hull, uint32_t *table, const uint32_t *rin
     }
 }
 
-tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena)
+tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena, tl_stage *stage)
 {
     uint32_t *table = (uint32_t *)(uintptr_t)tl_hull_table(hull), *rings = NULL;
     if (hull->ring_count > 0) {
@@ -171,7 +174,7 @@ tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena)
         }
         tl_hull_fill_rings(hull, table, rings);
     }
-    fill_squares(hull, table, rings);
+    TL_TRY(fill_squares(hull, table, rings, stage));
     if (rings != NULL) {
         name_rings(hull, table, rings);
     }

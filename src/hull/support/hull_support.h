@@ -10,6 +10,7 @@
 
 #include "base/arena.h"
 #include "base/cpu.h"
+#include "base/stage.h"
 
 #include <talus/hull.h>
 
@@ -125,7 +126,7 @@ uint32_t tl_hull_table_side(uint32_t vertex_count, bool has_rings);
 // What directions are multiplied by; for a hull whose bounds and planes are there.
 tl_vec3 tl_hull_table_scale(const tl_hull *hull);
 // Fills the table of an otherwise finished hull.
-tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena);
+tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena, tl_stage *stage);
 
 // hull_layout.c
 // Fills in the offsets and the counts that follow from V, F, 2 E, block_count, ring_count and ring_cells; the size of
