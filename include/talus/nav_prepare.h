@@ -20,6 +20,9 @@ typedef struct tl_nav_prepare_def {
     /// hubs. Baking takes 20 s and 78 MB on a city of 25,000 corner vertices, and stops without labels when the bytes
     /// are used up. A query needs as many nodes as there are corner vertices to use them. Default 0: no labels.
     uint64_t label_bytes;
+    /// Stages "visibility graph", "landmarks", "distances" and "hub labels". NULL: silent and not cancellable. Memory
+    /// comes from the navmesh's allocator.
+    const tl_progress *progress;
     uint32_t cookie; ///< set by tl_default_nav_prepare_def
 } tl_nav_prepare_def;
 
@@ -56,8 +59,8 @@ typedef struct tl_nav_prepared {
 /// prepared already keeps its graph, and gets or loses table and labels as the def says. O(what all corner vertices
 /// see), and a Dijkstra search from each of them for the table: 1 to 3 ms for levels of 100 to 200 polygons, 28 ms for
 /// 300 corner vertices in the open; the graph alone 0.8 s and 42 MB for a city of 26,000 polygons. Changes the navmesh:
-/// no query may run meanwhile. On failure the navmesh is not prepared: TL_ERR_MEMORY, TL_ERR_LIMIT; or nothing is
-/// changed: TL_ERR_ARGUMENT.
+/// no query may run meanwhile. On failure the navmesh is not prepared: TL_ERR_MEMORY, TL_ERR_LIMIT, TL_ERR_CANCELLED;
+/// or nothing is changed: TL_ERR_ARGUMENT.
 TL_API tl_result tl_navmesh_prepare(tl_navmesh *navmesh, const tl_nav_prepare_def *def, tl_nav_prepared *prepared_out);
 /// Whether searches use the visibility graph now.
 TL_API bool tl_navmesh_is_prepared(const tl_navmesh *navmesh);

@@ -14,6 +14,7 @@ static tl_result prepare(contract_run *run)
     if (run->what == CONTRACT_ZEROED_DEF) {
         memset(&def, 0, sizeof def);
     }
+    def.progress = run->host->progress;
     tl_result result = tl_navmesh_create(run->host->allocator, &navmesh);
     if (result == TL_OK) {
         result = tl_navmesh_add_tiles(navmesh, level->tiles.tiles, level->tiles.tile_count, TL_NAV_TILE_BORROWED, NULL);
@@ -42,7 +43,7 @@ const contract_entry CONTRACT_TABLE_nav_prepare[] = {
     { "tl_nav_prepared_kind_name", 0, 0, 0, NULL, NULL, "a constant text for every number: test_visibility_graph.c" },
     { "tl_navmesh_prepare",
       CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_DEF) | CONTRACT_BIT(ZEROED_DEF) |
-          CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NO_MEMORY),
+          CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NO_MEMORY) | CONTRACT_BIT(CANCELLED),
       1, 0, NULL, prepare, NULL },
     { "tl_navmesh_is_prepared", 0, 0, 0, NULL, NULL, "returns a value; asked in tl_navmesh_prepare's calls" },
     { 0 },

@@ -165,9 +165,9 @@ static void test_slices(void **state)
     const char *const rows[] = { "000", "0#0", "000" };
     fixture_level level = fixture_make(rows, 3);
     tl_navmesh *navmesh = fixture_build(&level, NULL);
-    const tl_nav_prepare_def defs[3] = { { UINT64_MAX - 1, 0, TL_DEF_COOKIE },
-                                         { 0, UINT64_MAX, TL_DEF_COOKIE },
-                                         { 0, 0, TL_DEF_COOKIE } };
+    const tl_nav_prepare_def defs[3] = { { UINT64_MAX - 1, 0, NULL, TL_DEF_COOKIE },
+                                         { 0, UINT64_MAX, NULL, TL_DEF_COOKIE },
+                                         { 0, 0, NULL, TL_DEF_COOKIE } };
     tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } };
     tl_nav_location goal = { tl_navmesh_polygon_ref(navmesh, 0, 7), { 10, 0, 10 } };
     tl_nav_query *query = fixture_query(1000);
@@ -238,7 +238,8 @@ static void test_memory(void **state)
     test_allocator_init(&failing, 0);
     tl_navmesh *navmesh = fixture_build(&level, &failing.allocator);
     uint64_t before = failing.live_blocks, failures = 0;
-    const tl_nav_prepare_def defs[2] = { { UINT64_MAX - 1, 0, TL_DEF_COOKIE }, { 0, UINT64_MAX, TL_DEF_COOKIE } };
+    const tl_nav_prepare_def defs[2] = { { UINT64_MAX - 1, 0, NULL, TL_DEF_COOKIE },
+                                         { 0, UINT64_MAX, NULL, TL_DEF_COOKIE } };
     for (uint32_t i = 0; i < 2; i++) {
         tl_result result = TL_ERR_MEMORY;
         for (uint64_t k = 1; result != TL_OK; k++) {

@@ -163,7 +163,8 @@ static bool allocate_cones(const tl_allocator *allocator, tl_nav_corner_cones *c
     return true;
 }
 
-tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, tl_nav_visibility_graph *graph)
+tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, tl_nav_visibility_graph *graph,
+                             tl_stage *stage)
 {
     tl_nav_corner_cones *cones = &graph->cones;
     if (list->count > UINT32_MAX - TL_NAV_CONES_AT_ONCE) {
@@ -194,11 +195,13 @@ tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, 
         first[graph->polygon_count] = cones->count;
         fits = allocate_cones(list->allocator, cones);
     }
-    for (uint32_t i = 0; i < cones->count && fits; i++) {
+    tl_result result = fits ? TL_OK : TL_ERR_MEMORY;
+    for (uint32_t i = 0; i < cones->count && result == TL_OK; i++) {
         write_cone(navmesh, graph, &grouped[i], i);
+        result = tl_stage_tick(stage, i);
     }
     tl_release_array(list->allocator, grouped, list->count, sizeof *grouped);
-    return fits ? TL_OK : TL_ERR_MEMORY;
+    return result;
 }
 
 void tl_nav_free_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph)

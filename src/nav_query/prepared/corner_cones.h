@@ -5,6 +5,7 @@
 #ifndef TALUS_SRC_NAV_QUERY_CORNER_CONES_H
 #define TALUS_SRC_NAV_QUERY_CORNER_CONES_H
 
+#include "base/stage.h"
 #include "nav_query/prepared/path_ends.h"
 #include "nav_query/search/wedge.h"
 
@@ -43,7 +44,8 @@ tl_result tl_nav_add_cones(tl_nav_cone_list *list, const tl_nav_visibility_graph
                            const tl_nav_wedge *wedge);
 /// Puts the cones into the graph, by polygon. TL_ERR_MEMORY, TL_ERR_LIMIT; the graph keeps what tl_nav_free_cones
 /// frees.
-tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, tl_nav_visibility_graph *graph);
+tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, tl_nav_visibility_graph *graph,
+                             tl_stage *stage);
 void tl_nav_free_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph);
 
 /// The corner vertices whose cones hold the start, and those whose cones hold the goal. False: the query is too small.

@@ -7,15 +7,20 @@
 #include "nav_query/prepared/dijkstra.h"
 
 #include "base/arena.h"
+#include "base/assert.h"
 
 #include <math.h>
 #include <string.h>
 
-tl_result tl_nav_dijkstra_init(const tl_allocator *allocator, const tl_nav_visibility_graph *graph,
+// Vertices between two calls of progress: with some dozen edges each they take a few milliseconds.
+enum { SETTLED_PER_CALL = 4096 };
+
+tl_result tl_nav_dijkstra_init(const tl_allocator *allocator, const tl_nav_visibility_graph *graph, tl_stage *stage,
                                tl_nav_dijkstra *lengths_out)
 {
     memset(lengths_out, 0, sizeof *lengths_out);
     lengths_out->graph = graph;
+    lengths_out->stage = stage;
     lengths_out->length = tl_allocate_array(allocator, graph->vertex_count, sizeof *lengths_out->length);
     lengths_out->before = tl_allocate_array(allocator, graph->vertex_count, sizeof *lengths_out->before);
     lengths_out->heap =
@@ -39,7 +44,7 @@ void tl_nav_dijkstra_free(const tl_allocator *allocator, tl_nav_dijkstra *length
                      sizeof *lengths->heap);
 }
 
-void tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint32_t source_count)
+tl_result tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint32_t source_count)
 {
     const tl_nav_visibility_graph *graph = lengths->graph;
     for (uint32_t i = 0; i < graph->vertex_count; i++) {
@@ -56,6 +61,9 @@ void tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint
         if (next.length > lengths->length[next.vertex]) {
             continue;
         }
+        if (lengths->settled_count % SETTLED_PER_CALL == 0) {
+            TL_TRY(tl_stage_add(lengths->stage, 0));
+        }
         lengths->settled[lengths->settled_count++] = next.vertex;
         const tl_nav_corner_vertex *vertex = &graph->vertices[next.vertex];
         for (uint32_t k = vertex[0].first_edge; k < vertex[1].first_edge; k++) {
@@ -68,4 +76,5 @@ void tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint
             }
         }
     }
+    return TL_OK;
 }

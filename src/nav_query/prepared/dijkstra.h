@@ -5,6 +5,7 @@
 #ifndef TALUS_SRC_NAV_QUERY_DIJKSTRA_H
 #define TALUS_SRC_NAV_QUERY_DIJKSTRA_H
 
+#include "base/stage.h"
 #include "nav_query/prepared/visibility_graph.h"
 
 typedef struct tl_nav_open_vertex {
@@ -14,6 +15,7 @@ typedef struct tl_nav_open_vertex {
 
 typedef struct tl_nav_dijkstra {
     const tl_nav_visibility_graph *graph;
+    tl_stage *stage;          ///< NULL: silent
     double *length;           ///< by corner vertex: metres; INFINITY: no way
     uint32_t *before;         ///< by corner vertex: the one before it on the way there; itself for a source
     tl_nav_open_vertex *heap; ///< [edge_count + corner_vertex_count]: an entry each time a length falls
@@ -52,11 +54,12 @@ static inline tl_nav_open_vertex tl_nav_dijkstra_next(tl_nav_dijkstra *s)
 }
 
 /// TL_ERR_MEMORY: nothing is left to free.
-tl_result tl_nav_dijkstra_init(const tl_allocator *allocator, const tl_nav_visibility_graph *graph,
+tl_result tl_nav_dijkstra_init(const tl_allocator *allocator, const tl_nav_visibility_graph *graph, tl_stage *stage,
                                tl_nav_dijkstra *lengths_out);
 void tl_nav_dijkstra_free(const tl_allocator *allocator, tl_nav_dijkstra *lengths);
 
-/// Measures from `source_count` corner vertices, from the nearest of them to each.
-void tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint32_t source_count);
+/// Measures from `source_count` corner vertices, from the nearest of them to each. Calls progress and adds nothing to
+/// it: TL_ERR_CANCELLED, after which only tl_nav_dijkstra_free may be called.
+tl_result tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint32_t source_count);
 
 #endif

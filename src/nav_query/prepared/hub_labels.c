@@ -28,6 +28,9 @@
 
 enum { SAMPLE_TREES = 128, FIRST_LABELS = 8 };
 
+// Vertices whose labels are compared between two calls of progress, at some us each.
+enum { TRIED_PER_CALL = 4096 };
+
 // The labels of a corner vertex while they are found.
 typedef struct growing_label {
     tl_nav_hub *hubs;
@@ -46,7 +49,7 @@ typedef struct labeller {
 } labeller;
 
 // Orders corner vertices by how many corner vertices lie behind them on shortest path trees, the most first.
-static void order_vertices(labeller *l, uint32_t *behind)
+static tl_result order_vertices(labeller *l, uint32_t *behind)
 {
     uint32_t n = l->graph->vertex_count;
     uint32_t samples = n < SAMPLE_TREES ? n : SAMPLE_TREES;
@@ -57,7 +60,7 @@ static void order_vertices(labeller *l, uint32_t *behind)
     for (uint32_t k = 0; k < samples; k++) {
         // Corner vertices are numbered tile by tile, so these are spread over the world.
         uint32_t root = (uint32_t)((uint64_t)k * n / samples);
-        tl_nav_dijkstra_run(&l->lengths, &root, 1);
+        TL_TRY(tl_nav_dijkstra_run(&l->lengths, &root, 1));
         for (uint32_t i = 0; i < n; i++) {
             behind[i] = 1;
         }
@@ -67,7 +70,7 @@ static void order_vertices(labeller *l, uint32_t *behind)
             behind[l->lengths.before[vertex]] += vertex != root ? behind[vertex] : 0;
         }
     }
-    tl_radix_sort(l->order, l->order + n, n);
+    return tl_radix_sort_in_stage(l->order, l->order + n, n, l->lengths.stage);
 }
 
 // Whether labels know a way from the root at hand to a corner vertex that is as short, within their rounding.
@@ -131,13 +134,17 @@ static tl_result label_from(labeller *l, uint32_t rank)
         l->to_root[tl_nav_hub_rank(&own->hubs[i])] = own->hubs[i].length;
     }
     tl_result result = TL_OK;
-    uint32_t touched = 0;
+    uint32_t touched = 0, tried = 0;
     s->length[root] = 0.0;
     s->before[root] = root;
     s->settled[touched++] = root;
     tl_nav_dijkstra_open(s, 0.0, root);
     while (s->heap_count > 0 && result == TL_OK) {
         tl_nav_open_vertex next = tl_nav_dijkstra_next(s);
+        result = ++tried % TRIED_PER_CALL == 0 ? tl_stage_add(s->stage, 0) : TL_OK;
+        if (result != TL_OK) {
+            break;
+        }
         if (next.length > s->length[next.vertex] || is_known_by_labels(l, next.vertex, next.length)) {
             continue;
         }
@@ -172,13 +179,14 @@ static tl_result label_all(labeller *l, uint32_t *behind)
 {
     uint32_t n = l->graph->vertex_count;
     memset(l->labels, 0, n * sizeof *l->labels);
-    order_vertices(l, behind);
+    TL_TRY(order_vertices(l, behind));
     for (uint32_t i = 0; i < n; i++) {
         l->to_root[i] = INFINITY;
         l->lengths.length[i] = (double)INFINITY;
     }
     for (uint32_t rank = 0; rank < n; rank++) {
         TL_TRY(label_from(l, rank));
+        TL_TRY(tl_stage_add(l->lengths.stage, 1));
     }
     return TL_OK;
 }
@@ -218,7 +226,8 @@ static bool is_too_large(const tl_nav_visibility_graph *graph)
     return most > 1u << TL_NAV_HUB_EDGE_BITS || graph->vertex_count > UINT32_MAX >> TL_NAV_HUB_EDGE_BITS;
 }
 
-tl_result tl_nav_bake_hub_labels(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint64_t budget)
+tl_result tl_nav_bake_hub_labels(const tl_allocator *allocator, const tl_host *host, tl_nav_visibility_graph *graph,
+                                 uint64_t budget)
 {
     uint64_t fixed = tl_nav_hub_labels_size(graph);
     if (is_too_large(graph) || budget < fixed) {
@@ -229,7 +238,9 @@ tl_result tl_nav_bake_hub_labels(const tl_allocator *allocator, tl_nav_visibilit
     l.allocator = allocator;
     l.graph = graph;
     l.limit = (budget - fixed) / sizeof(tl_nav_hub);
-    TL_TRY(tl_nav_dijkstra_init(allocator, graph, &l.lengths));
+    tl_stage stage;
+    TL_TRY(tl_stage_begin(&stage, host, "hub labels", graph->vertex_count));
+    TL_TRY(tl_nav_dijkstra_init(allocator, graph, &stage, &l.lengths));
     uint32_t n = graph->vertex_count;
     uint32_t *behind = tl_allocate_array(allocator, n, sizeof *behind);
     l.labels = tl_allocate_array(allocator, n, sizeof *l.labels);
@@ -239,6 +250,7 @@ tl_result tl_nav_bake_hub_labels(const tl_allocator *allocator, tl_nav_visibilit
     if (behind != NULL && l.labels != NULL && l.order != NULL && l.to_root != NULL) {
         result = label_all(&l, behind);
         result = result == TL_OK ? gather_labels(&l) : result;
+        result = result == TL_OK ? tl_stage_end(&stage) : result;
         for (uint32_t i = 0; i < n; i++) {
             tl_release_array(allocator, l.labels[i].hubs, l.labels[i].capacity, sizeof(tl_nav_hub));
         }

@@ -36,7 +36,8 @@ typedef struct tl_nav_hub_labels {
 
 /// Fills in the graph's labels. TL_ERR_LIMIT: they take more than `budget` bytes, or a corner vertex has too many
 /// edges. TL_ERR_MEMORY.
-tl_result tl_nav_bake_hub_labels(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint64_t budget);
+tl_result tl_nav_bake_hub_labels(const tl_allocator *allocator, const tl_host *host, tl_nav_visibility_graph *graph,
+                                 uint64_t budget);
 /// Bytes that the labels take.
 uint64_t tl_nav_hub_labels_size(const tl_nav_visibility_graph *graph);
 void tl_nav_free_hub_labels(const tl_allocator *allocator, tl_nav_visibility_graph *graph);

@@ -63,15 +63,16 @@ static void choose_sources(landmark_spread *s)
     }
 }
 
-static void measure_landmarks(landmark_spread *s, tl_nav_visibility_graph *graph, uint32_t *stack)
+static tl_result measure_landmarks(landmark_spread *s, tl_nav_visibility_graph *graph, uint32_t *stack)
 {
     double longest = 0.0;
     find_components(s, stack);
-    tl_nav_dijkstra_run(&s->lengths, s->source, s->component_count);
+    TL_TRY(tl_nav_dijkstra_run(&s->lengths, s->source, s->component_count));
     memcpy(s->nearest, s->lengths.length, graph->vertex_count * sizeof *s->nearest);
     for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
         choose_sources(s);
-        tl_nav_dijkstra_run(&s->lengths, s->source, s->component_count);
+        TL_TRY(tl_nav_dijkstra_run(&s->lengths, s->source, s->component_count));
+        TL_TRY(tl_stage_add(s->lengths.stage, 1));
         for (uint32_t i = 0; i < graph->vertex_count; i++) {
             graph->landmarks[i][k] = (float)s->lengths.length[i];
             longest = tl_max_f64(longest, s->lengths.length[i]);
@@ -81,28 +82,29 @@ static void measure_landmarks(landmark_spread *s, tl_nav_visibility_graph *graph
     }
     // Two landmark lengths are rounded, and their difference.
     graph->landmark_error = TL_FLOAT_GAMMA(4) * (float)longest;
+    return tl_stage_end(s->lengths.stage);
 }
 
-tl_result tl_nav_find_landmarks(const tl_allocator *allocator, tl_nav_visibility_graph *graph)
+tl_result tl_nav_find_landmarks(const tl_allocator *allocator, const tl_host *host, tl_nav_visibility_graph *graph)
 {
     landmark_spread s;
+    tl_stage stage;
     memset(&s, 0, sizeof s);
     s.graph = graph;
-    TL_TRY(tl_nav_dijkstra_init(allocator, graph, &s.lengths));
+    TL_TRY(tl_stage_begin(&stage, host, "landmarks", TL_NAV_LANDMARKS));
+    TL_TRY(tl_nav_dijkstra_init(allocator, graph, &stage, &s.lengths));
     uint32_t *stack = tl_allocate_array(allocator, graph->vertex_count, sizeof *stack);
     s.component = tl_allocate_array(allocator, graph->vertex_count, sizeof *s.component);
     s.source = tl_allocate_array(allocator, graph->vertex_count, sizeof *s.source);
     s.nearest = tl_allocate_array(allocator, graph->vertex_count, sizeof *s.nearest);
-    bool fits = stack != NULL && s.component != NULL && s.source != NULL && s.nearest != NULL;
-    if (fits) {
-        measure_landmarks(&s, graph, stack);
-    }
+    const bool fits = stack != NULL && s.component != NULL && s.source != NULL && s.nearest != NULL;
+    const tl_result result = fits ? measure_landmarks(&s, graph, stack) : TL_ERR_MEMORY;
     tl_nav_dijkstra_free(allocator, &s.lengths);
     tl_release_array(allocator, stack, graph->vertex_count, sizeof *stack);
     tl_release_array(allocator, s.component, graph->vertex_count, sizeof *s.component);
     tl_release_array(allocator, s.source, graph->vertex_count, sizeof *s.source);
     tl_release_array(allocator, s.nearest, graph->vertex_count, sizeof *s.nearest);
-    return fits ? TL_OK : TL_ERR_MEMORY;
+    return result;
 }
 
 void tl_nav_bound_by_landmarks(const tl_nav_visibility_graph *graph, const tl_nav_corner_leg *legs, uint32_t count,

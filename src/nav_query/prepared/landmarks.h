@@ -8,7 +8,7 @@
 #include "nav_query/prepared/visibility_graph.h"
 
 /// Chooses landmarks and fills in the graph's distances to them. TL_ERR_MEMORY.
-tl_result tl_nav_find_landmarks(const tl_allocator *allocator, tl_nav_visibility_graph *graph);
+tl_result tl_nav_find_landmarks(const tl_allocator *allocator, const tl_host *host, tl_nav_visibility_graph *graph);
 
 /// Bounds of the distances from an end of a path to the landmarks, by its legs.
 typedef struct tl_nav_landmark_bounds {

@@ -12,7 +12,7 @@
 
 tl_nav_prepare_def tl_default_nav_prepare_def(void)
 {
-    tl_nav_prepare_def def = { 32u << 20, 0, TL_DEF_COOKIE };
+    tl_nav_prepare_def def = { 32u << 20, 0, NULL, TL_DEF_COOKIE };
     return def;
 }
 
@@ -49,26 +49,30 @@ static void outlive_state(tl_navmesh *navmesh, uint64_t edit_before)
 static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *def)
 {
     static const tl_nav_derived derived = { NULL, free_graph, outlive_state };
+    const tl_host host = { NULL, NULL, def->progress };
     navmesh->derived[TL_NAV_DERIVED_GRAPH] = &derived;
     if (!tl_nav_has_current_graph(navmesh)) {
         free_graph(navmesh);
         if (floors_fork(navmesh)) {
             return TL_OK;
         }
-        TL_TRY(tl_nav_bake_visibility_graph(navmesh, &navmesh->graph));
+        TL_TRY(tl_nav_bake_visibility_graph(navmesh, &host, &navmesh->graph));
     }
     const tl_allocator *allocator = &navmesh->allocator;
     tl_nav_visibility_graph *graph = navmesh->graph;
     if (tl_nav_corner_distances_size(graph) <= def->table_bytes) {
         tl_nav_free_hub_labels(allocator, graph);
-        return graph->table == NULL ? tl_nav_bake_corner_distances(allocator, graph) : TL_OK;
+        return graph->table == NULL ? tl_nav_bake_corner_distances(allocator, &host, graph) : TL_OK;
     }
     tl_nav_free_corner_distances(allocator, graph);
     if (graph->labels.first != NULL && tl_nav_hub_labels_size(graph) <= def->label_bytes) {
         return TL_OK;
     }
     tl_nav_free_hub_labels(allocator, graph);
-    tl_result result = def->label_bytes > 0 ? tl_nav_bake_hub_labels(allocator, graph, def->label_bytes) : TL_OK;
+    if (def->label_bytes == 0) {
+        return TL_OK;
+    }
+    tl_result result = tl_nav_bake_hub_labels(allocator, &host, graph, def->label_bytes);
     return result == TL_ERR_LIMIT ? TL_OK : result; // the graph serves without
 }
 

@@ -34,6 +34,7 @@ typedef struct pair_list {
 typedef struct graph_baker {
     tl_navmesh *navmesh;
     tl_allocator allocator;
+    tl_stage stage; // corner vertices that have looked around
     tl_nav_visibility_graph *graph;
     uint32_t *vertex_of; // [last_fan + 1], by number; UINT32_MAX: none
     uint32_t fan_count;
@@ -177,28 +178,34 @@ static void group(const pair_list *list, uint32_t key_count, uint32_t *first, ui
     }
 }
 
-// Ascending, each once; returns how many are left. A corner vertex's edges are few.
+#define TL_HEAP(name)                 largest_##name
+#define TL_HEAP_ITEM                  uint32_t
+#define TL_HEAP_BEFORE(context, a, b) ((a) > (b))
+#include "base/heap.inl"
+
+// Ascending, each once; returns how many are left. A heapsort: most corner vertices have few edges, but one may see all
+// others.
 static uint32_t sort_unique(uint32_t *values, uint32_t count)
 {
+    for (uint32_t i = count / 2; i-- > 0;) {
+        largest_sift_down(values, count, i, values[i], NULL);
+    }
+    for (uint32_t left = count; left > 1;) {
+        const uint32_t top = largest_pop(values, &left, NULL);
+        values[left] = top;
+    }
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t value = values[i];
-        uint32_t at = kept;
-        while (at > 0 && values[at - 1] > value) {
-            at--;
+        if (kept == 0 || values[kept - 1] != values[i]) {
+            values[kept++] = values[i];
         }
-        if (at > 0 && values[at - 1] == value) {
-            continue;
-        }
-        memmove(values + at + 1, values + at, (kept - at) * sizeof *values);
-        values[at] = value;
-        kept++;
     }
     return kept;
 }
 
 static tl_result make_edges(graph_baker *b)
 {
+    TL_TRY(tl_stage_add(&b->stage, 0));
     tl_nav_visibility_graph *graph = b->graph;
     uint32_t count = graph->vertex_count;
     uint32_t *first = tl_allocate_array(&b->allocator, (uint64_t)count + 1, sizeof *first);
@@ -254,15 +261,18 @@ static tl_result bake_graph(graph_baker *b)
 {
     TL_TRY(find_vertices(b));
     TL_TRY(make_look_query(b, FIRST_Wedges));
+    b->stage.total = b->graph->vertex_count;
     for (uint32_t i = 0; i < b->graph->vertex_count; i++) {
         TL_TRY(look_from(b, i));
+        TL_TRY(tl_stage_add(&b->stage, 1));
     }
     if (b->sights.count > UINT32_MAX) {
         return TL_ERR_LIMIT;
     }
     TL_TRY(make_edges(b));
-    TL_TRY(tl_nav_group_cones(&b->cones, b->navmesh, b->graph));
-    return tl_nav_find_landmarks(&b->allocator, b->graph);
+    TL_TRY(tl_nav_group_cones(&b->cones, b->navmesh, b->graph, &b->stage));
+    TL_TRY(tl_stage_end(&b->stage));
+    return tl_nav_find_landmarks(&b->allocator, b->stage.host, b->graph);
 }
 
 uint64_t tl_nav_visibility_graph_size(const tl_nav_visibility_graph *graph)
@@ -289,7 +299,7 @@ void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibili
     }
 }
 
-tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, tl_nav_visibility_graph **graph_out)
+tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, const tl_host *host, tl_nav_visibility_graph **graph_out)
 {
     graph_baker b;
     memset(&b, 0, sizeof b);
@@ -301,7 +311,8 @@ tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, tl_nav_visibility_gr
         return TL_ERR_MEMORY;
     }
     memset(b.graph, 0, sizeof *b.graph);
-    tl_result result = bake_graph(&b);
+    tl_result result = tl_stage_begin(&b.stage, host, "visibility graph", 0);
+    result = result == TL_OK ? bake_graph(&b) : result;
     tl_nav_query_release(b.query);
     tl_release_array(&b.allocator, b.sights.pairs, b.sights.capacity, sizeof *b.sights.pairs);
     tl_release_array(&b.allocator, b.cones.cones, b.cones.capacity, sizeof *b.cones.cones);

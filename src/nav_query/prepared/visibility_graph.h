@@ -69,7 +69,7 @@ static inline uint32_t tl_nav_turns_at(const tl_nav_corner_vertex *vertex, doubl
 }
 
 /// Bakes the visibility graph of a navmesh without forks at seams. TL_ERR_MEMORY, TL_ERR_LIMIT.
-tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, tl_nav_visibility_graph **graph_out);
+tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, const tl_host *host, tl_nav_visibility_graph **graph_out);
 /// Bytes that the graph takes, without table and labels.
 uint64_t tl_nav_visibility_graph_size(const tl_nav_visibility_graph *graph);
 void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibility_graph *graph);
