@@ -41,6 +41,9 @@ typedef struct tl_nav_probe {
 /// half the distance between step and height.
 TL_API tl_nav_probe tl_nav_probe_from_config(const tl_nav_config *config);
 
+/// Places, a cell wide, that an audit lists before it gives up: TL_ERR_LIMIT.
+#define TL_NAV_AUDIT_MAX_PLACES (1u << 21)
+
 typedef struct tl_nav_audit_def {
     tl_nav_def nav;       ///< what the navmesh was baked with; `bounds` empty: those of the soup. Its host is ignored
     uint32_t path_count;  ///< random shortest paths. Default 2000
@@ -54,7 +57,10 @@ typedef struct tl_nav_audit_def {
     /// and apart from it the smallest island that a bake keeps (region_min_size). What counts is floor that must
     /// outlive erosion and the simplified outline, whole columns of it.
     float min_missing_area;
-    tl_host host;    ///< tasks, progress ("audit polygons", "audit paths", "audit floors") and memory
+    /// Steps along lines and paths, a cell long each, and samples of floors, all together; more is TL_ERR_LIMIT. A step
+    /// takes some microseconds. Default 2^26: a thousand times what a level of a square kilometre needs.
+    uint64_t max_steps;
+    tl_host host;    ///< tasks, progress ("audit polygons", "audit paths", "audit floors", "audit findings") and memory
     uint32_t cookie; ///< set by tl_default_nav_audit_def
 } tl_nav_audit_def;
 
@@ -116,8 +122,10 @@ typedef struct tl_nav_audit {
 /// not walked.
 ///
 /// `def` NULL: the default one. `navmesh` may be empty or NULL: then all floor is missing. `report_out` may be NULL.
-/// TL_ERR_ARGUMENT and TL_ERR_LIMIT as of tl_nav_config_from_def, TL_ERR_MEMORY, TL_ERR_CANCELLED; `*audit_out` is
-/// zeroed then.
+/// The work is bounded by def->max_steps, times what one sweep of the probe touches; the lengths of all lines are known
+/// before the first step. TL_ERR_LIMIT: more steps, or over TL_NAV_AUDIT_MAX_PLACES places that are wrong, as when
+/// navmesh and soup do not belong together. TL_ERR_ARGUMENT and TL_ERR_LIMIT as of tl_nav_config_from_def too,
+/// TL_ERR_MEMORY, TL_ERR_CANCELLED; `*audit_out` is zeroed then.
 TL_API tl_result tl_nav_audit_run(const tl_nav_audit_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
                                   tl_nav_audit *audit_out, tl_report *report_out);
 /// Frees what an audit holds and zeroes it. NULL or zeroed: nothing happens.

@@ -15,8 +15,14 @@
 #include <math.h>
 #include <string.h>
 
-// Shares that run between two reports of progress.
-enum { SHARES_PER_WORKER = 8 };
+// Shares that run between two calls of progress: from one a worker on twice as many after each batch, while they take
+// few steps. Which shares run together does not change the result.
+enum { MAX_SHARES_PER_WORKER = 64, STEPS_PER_BATCH = 2 * TL_AUDIT_SHARE_STEPS };
+
+#define MAX_AUDIT_STEPS ((uint64_t)1 << 26)
+
+// A path search takes as long as so many steps, a place that is wrong too.
+enum { STEPS_OF_A_SEARCH = 256, STEPS_OF_A_RECORD = 64 };
 
 // Of floor that is missing beside navmesh: fewer columns may be due to dents and ridges between the middles of columns,
 // which samples do not see and voxels do.
@@ -31,6 +37,7 @@ tl_nav_audit_def tl_default_nav_audit_def(void)
     def.seed = 1;
     def.probe_radius = -1.0f;
     def.min_missing_area = -1.0f;
+    def.max_steps = MAX_AUDIT_STEPS;
     def.cookie = TL_DEF_COOKIE;
     return def;
 }
@@ -72,6 +79,8 @@ static void run_share(uint32_t index, uint32_t worker, void *user)
 static tl_result add_share(tl_audit_job *job, const tl_audit_share *share)
 {
     TL_TRY(share->result);
+    TL_TRY(tl_audit_expect_steps(job, share->steps + share->samples));
+    job->steps += share->steps + share->samples;
     job->audit->step_count += share->sweeps;
     job->audit->tolerated_count += share->tolerated;
     job->audit->path_count += share->paths;
@@ -81,29 +90,59 @@ static tl_result add_share(tl_audit_job *job, const tl_audit_share *share)
     return tl_audit_records_append(&job->records, &share->records);
 }
 
+tl_result tl_audit_expect_steps(const tl_audit_job *job, uint64_t more)
+{
+    return more <= job->def->max_steps - job->steps
+               ? TL_OK
+               : tl_report_field(job->report, TL_ERR_LIMIT, "max_steps",
+                                 "make it larger, or cell_size; or look whether navmesh and soup belong together");
+}
+
+// Leaves one record of each place, and refuses too many places.
+static tl_result thin_records(tl_audit_job *job)
+{
+    TL_TRY(tl_audit_records_thin(&job->records));
+    return job->records.count <= TL_NAV_AUDIT_MAX_PLACES
+               ? TL_OK
+               : tl_report_fail(job->report, TL_ERR_LIMIT, "place", job->records.count,
+                                "too many are wrong: look whether navmesh, def and soup belong together");
+}
+
 tl_result tl_audit_run_shares(tl_audit_job *job, const char *stage, uint32_t count, tl_audit_task *task, void *user)
 {
     const tl_allocator *allocator = job->host->allocator;
-    const uint32_t open = SHARES_PER_WORKER * tl_worker_count(job->host);
-    share_batch b = { job, task, user, tl_allocate_array(allocator, open, sizeof *b.shares), 0 };
+    const uint32_t workers = tl_worker_count(job->host), most = MAX_SHARES_PER_WORKER * workers;
+    share_batch b = { job, task, user, tl_allocate_array(allocator, most, sizeof *b.shares), 0 };
     tl_result result = b.shares != NULL ? TL_OK : TL_ERR_MEMORY;
-    for (; b.first < count && result == TL_OK; b.first += open) {
-        const uint32_t size = count - b.first < open ? count - b.first : open;
+    uint32_t size = 0;
+    for (uint32_t open = workers; b.first < count && result == TL_OK; b.first += size) {
+        size = count - b.first < open ? count - b.first : open;
         result = tl_progress_update(job->host, stage, b.first, count);
         if (result != TL_OK) {
             break;
         }
-        memset(b.shares, 0, open * sizeof *b.shares);
+        memset(b.shares, 0, size * sizeof *b.shares);
         for (uint32_t i = 0; i < size; i++) {
             b.shares[i].records.allocator = allocator;
         }
         tl_run_tasks(job->host, run_share, size, &b);
+        uint64_t work = 0;
         for (uint32_t i = 0; i < size; i++) {
-            result = result == TL_OK ? add_share(job, &b.shares[i]) : result;
+            const tl_audit_share *share = &b.shares[i];
+            work += share->steps + share->samples + STEPS_OF_A_SEARCH * share->paths;
+            work += STEPS_OF_A_RECORD * (uint64_t)share->records.count;
+            result = result == TL_OK ? add_share(job, share) : result;
             tl_audit_records_free(&b.shares[i].records);
         }
+        if (result == TL_OK && job->records.count > 2 * TL_NAV_AUDIT_MAX_PLACES) {
+            const tl_stage now = { job->host, stage, b.first, count };
+            job->stage = now;
+            result = thin_records(job);
+        }
+        const uint64_t fair = (uint64_t)STEPS_PER_BATCH * workers;
+        open = work < fair / 2 ? tl_min_u32(2 * open, most) : work > fair ? tl_max_u32(open / 2, workers) : open;
     }
-    tl_release_array(allocator, b.shares, open, sizeof *b.shares);
+    tl_release_array(allocator, b.shares, most, sizeof *b.shares);
     return result == TL_OK ? tl_progress_update(job->host, stage, count, count) : result;
 }
 
@@ -165,8 +204,13 @@ static tl_result add_findings(tl_audit_job *job, uint32_t reach)
     const tl_allocator *allocator = job->host->allocator;
     tl_nav_finding *findings;
     uint32_t found;
-    TL_TRY(tl_audit_records_thin(&job->records));
-    TL_TRY(tl_audit_records_cluster(&job->records, reach, &findings, &found));
+    TL_TRY(tl_stage_begin(&job->stage, job->host, "audit findings", 1));
+    TL_TRY(thin_records(job));
+    const tl_result clustered = tl_audit_records_cluster(&job->records, reach, &findings, &found);
+    if (clustered != TL_OK) {
+        tl_release_array(allocator, findings, found, sizeof *findings);
+        return clustered;
+    }
     const uint32_t kept = measure_missing(job, findings, found);
     for (uint32_t i = 0; i < kept; i++) {
         audit->contradictions += findings[i].count;
@@ -187,7 +231,7 @@ static tl_result add_findings(tl_audit_job *job, uint32_t reach)
     }
     tl_release_array(allocator, findings, found, sizeof *findings);
     tl_audit_records_free(&job->records);
-    return all != NULL ? TL_OK : TL_ERR_MEMORY;
+    return all != NULL ? tl_stage_end(&job->stage) : TL_ERR_MEMORY;
 }
 
 // ---- The audit ---------------------------------------------------------------------------------------------
@@ -299,7 +343,10 @@ tl_result tl_nav_audit_run(const tl_nav_audit_def *def, const tl_navmesh *navmes
     job.def = def;
     job.host = &def->host;
     job.records.allocator = def->host.allocator;
+    job.records.stage = &job.stage;
+    job.stage.host = &def->host;
     job.audit = audit_out;
+    job.report = report_out;
     tl_result result = prepare_audit(&job, navmesh, soup, report_out);
     if (result == TL_OK) {
         result = audit_all(&job);

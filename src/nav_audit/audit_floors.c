@@ -16,11 +16,12 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "base/min_max.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { STRIDE_COLUMNS = 2, MAX_SIDE_SAMPLES = 4096, FIRST_HITS = 64 };
+enum { STRIDE_COLUMNS = 2, MAX_SIDE_SAMPLES = 4096, FIRST_HITS = 64, SAMPLES_PER_SHARE = 64 };
 
 typedef struct column_hits {
     tl_ray_hit *hits;
@@ -215,11 +216,21 @@ static tl_result sample_column(tl_audit_job *job, const floor_job *floors, int32
     return TL_OK;
 }
 
-static void sample_row(tl_audit_job *job, uint32_t index, uint32_t worker, tl_audit_share *share, void *user)
+static uint32_t shares_per_row(const floor_job *floors)
+{
+    return (floors->width - 1) / SAMPLES_PER_SHARE + 1;
+}
+
+// Part of a row.
+static void sample_columns(tl_audit_job *job, uint32_t index, uint32_t worker, tl_audit_share *share, void *user)
 {
     const floor_job *floors = user;
-    for (uint32_t x = 0; x < floors->width && share->result == TL_OK; x++) {
-        share->result = sample_column(job, floors, (int32_t)x, (int32_t)index, worker, share);
+    const uint32_t parts = shares_per_row(floors), row = index / parts;
+    const uint32_t begin = index % parts * SAMPLES_PER_SHARE;
+    const uint32_t end = tl_min_u32(begin + SAMPLES_PER_SHARE, floors->width);
+    for (uint32_t x = begin; x < end && share->result == TL_OK; x++) {
+        share->steps++;
+        share->result = sample_column(job, floors, (int32_t)x, (int32_t)row, worker, share);
     }
 }
 
@@ -268,7 +279,8 @@ tl_result tl_audit_floors(tl_audit_job *job)
         result = create_windows(job, &floors);
     }
     if (result == TL_OK) {
-        result = tl_audit_run_shares(job, "audit floors", floors.height, sample_row, &floors);
+        result =
+            tl_audit_run_shares(job, "audit floors", floors.height * shares_per_row(&floors), sample_columns, &floors);
     }
     free_floor_job(job, &floors, workers);
     return result;

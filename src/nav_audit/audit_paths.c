@@ -14,8 +14,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { PATHS_PER_SHARE = 32 };
-
 // A point counts as on a polygon when it lies within this share of a cell from it in the plane: corners are rounded to
 // floats, and points between them once more.
 #define ON_POLYGON_CELLS 0.001f
@@ -133,10 +131,8 @@ static bool walk_to_corner(tl_audit_walker *walker, const audit_searcher *s, uin
                            tl_vec3 to, uint32_t *at)
 {
     const tl_audit_scene *scene = walker->scene;
-    const float dx = to.x - from.x, dz = to.z - from.z;
-    const float strides = ceilf(sqrtf(dx * dx + dz * dz) / scene->stride);
-    const uint32_t count = strides >= 1.0f ? (uint32_t)strides : 1;
-    for (uint32_t k = 0; k <= count; k++) {
+    const uint64_t count = tl_audit_line_steps(scene, from, to);
+    for (uint64_t k = 0; k <= count; k++) {
         const tl_vec3 point = tl_lerp(from, to, (float)k / (float)count);
         *at = polygon_under(scene, s->polygons, polygon_count, *at, point);
         if (!tl_audit_walk_to(walker, s->polygons[*at], point.x, point.z)) {
@@ -186,24 +182,25 @@ static tl_result find_path(const tl_audit_job *job, const path_job *paths, audit
     return result;
 }
 
-static void walk_paths(tl_audit_job *job, uint32_t index, uint32_t worker, tl_audit_share *share, void *user)
+static void walk_path_between(tl_audit_job *job, uint32_t index, uint32_t worker, tl_audit_share *share, void *user)
 {
     const path_job *paths = user;
     audit_searcher *s = &paths->path_searchers[worker];
     tl_audit_walker walker = tl_audit_walker_make(&job->scene, job->queries[worker], &share->records);
-    const uint32_t begin = index * PATHS_PER_SHARE, left = job->def->path_count - begin;
-    const uint32_t end = begin + (left < PATHS_PER_SHARE ? left : PATHS_PER_SHARE);
-    for (uint32_t i = begin; i < end && share->result == TL_OK; i++) {
-        tl_nav_location start, goal;
-        tl_nav_shortest_path path;
-        random_ends(job, i, &start, &goal);
-        share->result = find_path(job, paths, s, &start, &goal, &path);
-        if (share->result == TL_OK && path.status == TL_NAV_PATH_COMPLETE) {
-            share->paths++;
-            share->metres += path.length;
-            share->result = walk_path(&walker, s, &path) ? TL_OK : TL_ERR_MEMORY;
-        }
+    tl_nav_location start, goal;
+    tl_nav_shortest_path path;
+    random_ends(job, index, &start, &goal);
+    share->result = find_path(job, paths, s, &start, &goal, &path);
+    if (share->result == TL_OK && path.status == TL_NAV_PATH_COMPLETE) {
+        // Whether this path alone is too long: then it is not walked, and add_share refuses.
+        const uint64_t most = job->def->max_steps - job->steps;
+        const bool fits = path.length / (double)job->scene.stride <= (double)most;
+        share->paths++;
+        share->metres += path.length;
+        share->result = !fits || walk_path(&walker, s, &path) ? TL_OK : TL_ERR_MEMORY;
+        walker.steps += fits ? 0 : most + 1;
     }
+    share->steps = walker.steps;
     share->sweeps = walker.sweeps;
     share->tolerated = walker.tolerated;
 }
@@ -241,8 +238,7 @@ tl_result tl_audit_paths(tl_audit_job *job)
         result = create_path_searcher(&paths, &paths.path_searchers[i]);
     }
     if (result == TL_OK) {
-        const uint32_t shares = (job->def->path_count - 1) / PATHS_PER_SHARE + 1;
-        result = tl_audit_run_shares(job, "audit paths", shares, walk_paths, &paths);
+        result = tl_audit_run_shares(job, "audit paths", job->def->path_count, walk_path_between, &paths);
     }
     for (uint32_t i = 0; i < workers; i++) {
         free_path_searcher(&paths, &paths.path_searchers[i]);

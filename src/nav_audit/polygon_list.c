@@ -26,7 +26,7 @@ static void fill_polygons(const tl_navmesh *navmesh, tl_audit_polygon *polygons,
     for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
         const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
         for (uint32_t p = 0; tile != NULL && p < tile->polygon_count; p++, at++) {
-            const tl_audit_polygon polygon = { tl_navmesh_polygon_ref(navmesh, slot, p), tile, p, 0, 0.0 };
+            const tl_audit_polygon polygon = { tl_navmesh_polygon_ref(navmesh, slot, p), tile, p, 0, 0.0, 0 };
             polygons[at] = polygon;
             (void)tl_navmesh_island(navmesh, polygon.ref, &polygons[at].island);
             items[at].key = polygons[at].island;

@@ -12,7 +12,8 @@ typedef struct tl_audit_polygon {
     const tl_nav_tile *tile;
     uint32_t polygon;
     uint32_t island;
-    double area_before; ///< square metres of all polygons before it
+    double area_before;    ///< square metres of all polygons before it
+    uint64_t steps_before; ///< of the lines of all polygons before it (audit_polygons.c)
 } tl_audit_polygon;
 
 typedef struct tl_audit_polygon_list {

@@ -349,6 +349,7 @@ bool tl_audit_walk_to(tl_audit_walker *walker, tl_nav_ref polygon, float x, floa
 {
     const tl_audit_scene *scene = walker->scene;
     tl_vec3 surface = { x, 0.0f, z };
+    walker->steps++;
     if (tl_navmesh_height(scene->navmesh, polygon, x, z, &surface.y) != TL_OK) {
         walker->standing = false;
         return true;
@@ -375,12 +376,18 @@ bool tl_audit_walk_to(tl_audit_walker *walker, tl_nav_ref polygon, float x, floa
     return choose_floor(walker, polygon, surface, floors, count);
 }
 
-bool tl_audit_walk_line(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 from, tl_vec3 to)
+uint64_t tl_audit_line_steps(const tl_audit_scene *scene, tl_vec3 from, tl_vec3 to)
 {
     const float dx = to.x - from.x, dz = to.z - from.z;
-    const float strides = ceilf(sqrtf(dx * dx + dz * dz) / walker->scene->stride);
-    const uint32_t count = strides >= 1.0f ? (uint32_t)strides : 1;
-    for (uint32_t i = 0; i <= count; i++) {
+    const float strides = ceilf(sqrtf(dx * dx + dz * dz) / scene->stride);
+    return strides >= 0x1p31f ? (uint64_t)1 << 31 : strides >= 1.0f ? (uint64_t)strides : 1;
+}
+
+bool tl_audit_walk_line(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 from, tl_vec3 to, uint64_t first,
+                        uint64_t end)
+{
+    const uint64_t count = tl_audit_line_steps(walker->scene, from, to);
+    for (uint64_t i = first; i <= end && i <= count; i++) {
         const tl_vec3 at = tl_lerp(from, to, (float)i / (float)count);
         if (!tl_audit_walk_to(walker, polygon, at.x, at.z)) {
             return false;

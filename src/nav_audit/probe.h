@@ -25,6 +25,7 @@ typedef struct tl_audit_walker {
     tl_audit_records *records;
     tl_nav_query *query; ///< to look for the outline
     uint64_t sweeps;
+    uint64_t steps;     ///< points walked to
     uint64_t tolerated; ///< places where a thinner probe was enough
     bool standing;
     tl_vec3 feet;       ///< where the probe stands, when it does
@@ -43,7 +44,12 @@ void tl_audit_walk_begin(tl_audit_walker *walker);
 /// Walks to a point of a polygon, at most a stride away. False: out of memory.
 bool tl_audit_walk_to(tl_audit_walker *walker, tl_nav_ref polygon, float x, float z);
 
-/// Walks a straight line within one polygon, both ends included. False: out of memory.
-bool tl_audit_walk_line(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 from, tl_vec3 to);
+/// The steps of a straight line, 1 or more, a stride long at most, and 2^31 at most.
+uint64_t tl_audit_line_steps(const tl_audit_scene *scene, tl_vec3 from, tl_vec3 to);
+
+/// Walks those steps of a straight line within one polygon that lie in [first, end); the points at both ends are
+/// included. False: out of memory.
+bool tl_audit_walk_line(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 from, tl_vec3 to, uint64_t first,
+                        uint64_t end);
 
 #endif

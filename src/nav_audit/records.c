@@ -19,6 +19,9 @@
 
 enum { FIRST_RECORD_CAPACITY = 64 };
 
+// Records whose neighbours are looked up between two calls of progress, at some us each.
+enum { RECORDS_PER_CALL = 4096 };
+
 #define MAX_RECORDS 0x7fffffffu
 
 void tl_audit_records_free(tl_audit_records *list)
@@ -104,7 +107,7 @@ static int compare_keys(cube_key a, cube_key b)
 static const int32_t NOT_MOVED[3] = { 0, 0, 0 };
 
 // The order of the records by their coarse cubes; stable. `items` holds 2 * count.
-static void sort_by_cube(const tl_audit_records *list, uint32_t reach, tl_sort_item *items)
+static tl_result sort_by_cube(const tl_audit_records *list, uint32_t reach, tl_sort_item *items)
 {
     for (int word = 0; word < 2; word++) {
         for (uint32_t i = 0; i < list->count; i++) {
@@ -114,8 +117,9 @@ static void sort_by_cube(const tl_audit_records *list, uint32_t reach, tl_sort_i
             items[i].value = value;
             items[i].extra = 0;
         }
-        tl_radix_sort(items, items + list->count, list->count);
+        TL_TRY(tl_radix_sort_in_stage(items, items + list->count, list->count, list->stage));
     }
+    return TL_OK;
 }
 
 tl_result tl_audit_records_thin(tl_audit_records *list)
@@ -124,9 +128,8 @@ tl_result tl_audit_records_thin(tl_audit_records *list)
     tl_sort_item *items = tl_allocate_array(list->allocator, room, sizeof *items);
     tl_audit_record *kept = tl_allocate_array(list->allocator, list->count, sizeof *kept);
     const uint32_t capacity = list->count;
-    tl_result result = items != NULL && kept != NULL ? TL_OK : TL_ERR_MEMORY;
+    tl_result result = items != NULL && kept != NULL ? sort_by_cube(list, 1, items) : TL_ERR_MEMORY;
     if (result == TL_OK) {
-        sort_by_cube(list, 1, items);
         uint32_t count = 0;
         for (uint32_t i = 0; i < list->count; i++) {
             const tl_audit_record *record = &list->records[items[i].value];
@@ -181,9 +184,12 @@ static uint32_t find_cube(const grouping *g, cube_key key)
 }
 
 // Each cube with the 13 of its neighbours that come before it in the order.
-static void unite_cubes(const grouping *g)
+static tl_result unite_cubes(const grouping *g)
 {
     for (uint32_t i = 0; i < g->list->count; i++) {
+        if (i % RECORDS_PER_CALL == RECORDS_PER_CALL - 1) {
+            TL_TRY(tl_stage_add(g->list->stage, 0));
+        }
         if (i > 0 && compare_keys(key_at(g, i - 1), key_at(g, i)) == 0) {
             tl_disjoint_sets_unite(g->parents, i - 1, i);
             continue;
@@ -196,6 +202,7 @@ static void unite_cubes(const grouping *g)
             }
         }
     }
+    return TL_OK;
 }
 
 static void take_record(tl_nav_finding *finding, const tl_audit_record *record)
@@ -241,6 +248,20 @@ static uint32_t number_groups(const grouping *g)
     return groups;
 }
 
+static tl_result fill_findings(const grouping *g, uint32_t count, tl_nav_finding *findings)
+{
+    const tl_audit_records *list = g->list;
+    memset(findings, 0, count * sizeof *findings);
+    for (uint32_t i = 0; i < list->count; i++) {
+        add_record(&findings[g->order[i].extra], &list->records[g->order[i].value]);
+    }
+    TL_TRY(tl_stage_add(list->stage, 0));
+    for (uint32_t i = 0; i < list->count; i++) {
+        move_to_middle(&findings[g->order[i].extra], &list->records[g->order[i].value]);
+    }
+    return tl_stage_add(list->stage, 0);
+}
+
 tl_result tl_audit_records_cluster(const tl_audit_records *list, uint32_t reach, tl_nav_finding **findings_out,
                                    uint32_t *count_out)
 {
@@ -249,25 +270,19 @@ tl_result tl_audit_records_cluster(const tl_audit_records *list, uint32_t reach,
                    tl_allocate_array(list->allocator, list->count, sizeof *g.parents) };
     *findings_out = NULL;
     *count_out = 0;
-    if (g.order != NULL && g.parents != NULL) {
-        sort_by_cube(list, reach, g.order);
+    tl_result result = g.order != NULL && g.parents != NULL ? sort_by_cube(list, reach, g.order) : TL_ERR_MEMORY;
+    if (result == TL_OK) {
         tl_disjoint_sets_init(g.parents, list->count);
-        unite_cubes(&g);
+        result = unite_cubes(&g);
+    }
+    if (result == TL_OK) {
         const uint32_t groups = number_groups(&g);
         tl_nav_finding *findings = tl_allocate_array(list->allocator, groups, sizeof *findings);
-        if (findings != NULL) {
-            memset(findings, 0, groups * sizeof *findings);
-            for (uint32_t i = 0; i < list->count; i++) {
-                add_record(&findings[g.order[i].extra], &list->records[g.order[i].value]);
-            }
-            for (uint32_t i = 0; i < list->count; i++) {
-                move_to_middle(&findings[g.order[i].extra], &list->records[g.order[i].value]);
-            }
-            *findings_out = findings;
-            *count_out = groups;
-        }
+        result = findings != NULL ? fill_findings(&g, groups, findings) : TL_ERR_MEMORY;
+        *findings_out = findings;
+        *count_out = groups;
     }
     tl_release_array(list->allocator, g.order, room, sizeof *g.order);
     tl_release_array(list->allocator, g.parents, list->count, sizeof *g.parents);
-    return *findings_out != NULL ? TL_OK : TL_ERR_MEMORY;
+    return result;
 }

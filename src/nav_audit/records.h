@@ -5,6 +5,8 @@
 #ifndef TALUS_SRC_NAV_AUDIT_RECORDS_H
 #define TALUS_SRC_NAV_AUDIT_RECORDS_H
 
+#include "base/stage.h"
+
 #include <talus/nav_audit.h>
 
 /// One place.
@@ -22,6 +24,7 @@ typedef struct tl_audit_records {
     tl_audit_record *records;
     uint32_t count, capacity;
     const tl_allocator *allocator;
+    tl_stage *stage; ///< whose progress is called; NULL: silent, as in a task
 } tl_audit_records;
 
 void tl_audit_records_free(tl_audit_records *list);
@@ -29,7 +32,8 @@ void tl_audit_records_free(tl_audit_records *list);
 tl_result tl_audit_records_add(tl_audit_records *list, const tl_audit_record *record);
 tl_result tl_audit_records_append(tl_audit_records *list, const tl_audit_records *more);
 
-/// Keeps of the records of one kind in one cube the deepest, of equally deep ones the first; sorts by kind and cube.
+/// TL_ERR_CANCELLED and TL_ERR_MEMORY here and below. Keeps of the records of one kind in one cube the deepest, of
+/// equally deep ones the first; sorts by kind and cube.
 tl_result tl_audit_records_thin(tl_audit_records *list);
 
 /// Merges records of one kind into findings: those whose cubes, `reach` cubes of the list a side, are the same or

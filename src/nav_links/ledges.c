@@ -5,19 +5,25 @@
 
 #include "nav_links/ledges.h"
 
+#include "base/assert.h"
 #include "base/exact_floats.h"
 
 #include <math.h>
 
 enum { MAX_POLYGON_LINKS = 256 };
 
+// Points and polygons between two calls of progress: at some 100 ns each.
+enum { WORK_PER_CALL = 1 << 15 };
+
 typedef struct ledge_walk {
     const tl_navmesh *navmesh;
     float spacing;
     tl_nav_ledge_point *points;
     uint64_t capacity, count, edges;
-    uint64_t budget;                      // points that may still be looked at
-    bool is_over;                         // it was not enough
+    uint64_t budget;  // points that may still be looked at
+    tl_result result; // TL_ERR_LIMIT: it was not enough
+    tl_stage *stage;
+    uint32_t work;                        // points and polygons since progress was called
     tl_nav_link links[MAX_POLYGON_LINKS]; // of the polygon at hand
     uint32_t link_count;
 } ledge_walk;
@@ -39,6 +45,16 @@ static bool is_open_at(const ledge_walk *walk, uint32_t edge, tl_vec3 a, tl_vec3
     return false;
 }
 
+// Calls progress now and then. False: cancelled.
+static bool count_ledge_work(ledge_walk *walk)
+{
+    if (++walk->work >= WORK_PER_CALL && walk->result == TL_OK) {
+        walk->work = 0;
+        walk->result = tl_stage_add(walk->stage, 0);
+    }
+    return walk->result == TL_OK;
+}
+
 static void sample_ledge(ledge_walk *walk, tl_nav_ref polygon, uint32_t edge, tl_vec3 a, tl_vec3 b)
 {
     float x = b.x - a.x;
@@ -51,13 +67,13 @@ static void sample_ledge(ledge_walk *walk, tl_nav_ref polygon, uint32_t edge, tl
     tl_vec3 out = tl_vec3_make(-z / length, 0.0f, x / length);
     double steps = ceil((double)length / (double)walk->spacing);
     if (steps > (double)walk->budget) {
-        walk->is_over = true;
+        walk->result = TL_ERR_LIMIT;
         return;
     }
-    uint32_t count = (uint32_t)steps;
+    const uint32_t count = (uint32_t)steps;
     bool is_border = false;
     walk->budget -= count;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count && count_ledge_work(walk); i++) {
         float t = ((float)i + 0.5f) / (float)count;
         tl_vec3 point = tl_lerp(a, b, t);
         if (is_open_at(walk, edge, a, b, point)) {
@@ -83,7 +99,7 @@ static void sample_polygon_edges(ledge_walk *walk, const tl_nav_tile *tile, uint
     tl_result result = tl_navmesh_links(walk->navmesh, ref, walk->links, MAX_POLYGON_LINKS, &walk->link_count);
     // Links beyond the buffer count as borders: candidates there turn out to be walkable without a link.
     walk->link_count = result == TL_OK ? walk->link_count : MAX_POLYGON_LINKS;
-    for (uint32_t k = 0; k < count && !walk->is_over; k++) {
+    for (uint32_t k = 0; k < count && walk->result == TL_OK; k++) {
         bool may_be_border = links[k] == TL_NAV_LINK_WALL || (links[k] & TL_NAV_LINK_PORTAL) != 0;
         if (may_be_border) {
             sample_ledge(walk, ref, k, corners[k], corners[k + 1 < count ? k + 1 : 0]);
@@ -91,8 +107,8 @@ static void sample_polygon_edges(ledge_walk *walk, const tl_nav_tile *tile, uint
     }
 }
 
-uint64_t tl_nav_sample_ledges(const tl_navmesh *navmesh, float spacing, tl_nav_ledge_point *points, uint64_t capacity,
-                              uint64_t *edge_count_out)
+tl_result tl_nav_sample_ledges(const tl_navmesh *navmesh, float spacing, tl_stage *stage, tl_nav_ledge_point *points,
+                               uint64_t capacity, uint64_t *count_out, uint64_t *edge_count_out)
 {
     ledge_walk walk;
     walk.navmesh = navmesh;
@@ -102,13 +118,18 @@ uint64_t tl_nav_sample_ledges(const tl_navmesh *navmesh, float spacing, tl_nav_l
     walk.count = 0;
     walk.edges = 0;
     walk.budget = 4 * (uint64_t)TL_NAV_LINKS_MAX_PLACES;
-    walk.is_over = false;
+    walk.result = TL_OK;
+    walk.stage = stage;
+    walk.work = 0;
     for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
         const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
         for (uint32_t p = 0; tile != NULL && p < tile->polygon_count; p++) {
             sample_polygon_edges(&walk, tile, slot, p);
+            (void)count_ledge_work(&walk);
+            TL_TRY(walk.result);
         }
     }
     *edge_count_out = walk.edges;
-    return walk.is_over || walk.count > TL_NAV_LINKS_MAX_PLACES ? UINT64_MAX : walk.count;
+    *count_out = walk.count;
+    return walk.count > TL_NAV_LINKS_MAX_PLACES ? TL_ERR_LIMIT : TL_OK;
 }

@@ -5,6 +5,7 @@
 #ifndef TALUS_SRC_NAV_LINKS_LEDGES_H
 #define TALUS_SRC_NAV_LINKS_LEDGES_H
 
+#include "base/stage.h"
 #include "nav_links/trajectory.h"
 
 /// A place on a border edge.
@@ -15,11 +16,11 @@ typedef struct tl_nav_ledge_point {
     float off_middle; ///< metres from the middle of its edge
 } tl_nav_ledge_point;
 
-/// Places evenly along all border edges, at most `spacing` apart. Writes the first `capacity`; returns the true count,
-/// or UINT64_MAX where that is more than TL_NAV_LINKS_MAX_PLACES, or four times as many lie along the edges that may be
-/// borders in part. `*edge_count_out`: border edges.
-uint64_t tl_nav_sample_ledges(const tl_navmesh *navmesh, float spacing, tl_nav_ledge_point *points, uint64_t capacity,
-                              uint64_t *edge_count_out);
+/// Places evenly along all border edges, at most `spacing` apart. Writes the first `capacity`. `*count_out`: the true
+/// count, `*edge_count_out`: border edges. Calls progress and adds nothing to it. TL_ERR_LIMIT: more than
+/// TL_NAV_LINKS_MAX_PLACES, or four times as many along the edges that may be borders in part. TL_ERR_CANCELLED.
+tl_result tl_nav_sample_ledges(const tl_navmesh *navmesh, float spacing, tl_stage *stage, tl_nav_ledge_point *points,
+                               uint64_t capacity, uint64_t *count_out, uint64_t *edge_count_out);
 
 /// Candidates that start at one place: one down, and a jump in each of three directions.
 #define TL_NAV_CANDIDATES_PER_PLACE 4u

@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "base/min_max.h"
+#include "base/stage.h"
 #include "nav_links/links_layout.h"
 #include "nav_links/selection.h"
 
@@ -14,7 +15,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { PLACES_PER_TASK = 64, TASKS_PER_BATCH = 64 };
+// A place takes some 10 to 100 us.
+enum { PLACES_PER_TASK = 16, TASKS_PER_BATCH = 8 };
 
 // More chords cost sweeps, a thicker capsule costs links: a sixteenth of the radius, or of a cell.
 #define MARGIN_DIVISOR 16.0f
@@ -63,18 +65,18 @@ static tl_result check_links_def(const tl_nav_links_def *def, tl_report *report)
 }
 
 typedef struct link_search {
+    tl_stage stage;
     tl_nav_landing_search landing;
     tl_nav_ledge_point *places;
     tl_nav_link_candidate *candidates; // [TL_NAV_CANDIDATES_PER_PLACE * place_count]
     uint64_t place_count;
-    uint64_t batch_begin;
 } link_search;
 
 static void try_places(uint32_t index, uint32_t worker, void *user)
 {
     link_search *s = user;
     (void)worker;
-    uint64_t begin = s->batch_begin + (uint64_t)index * PLACES_PER_TASK;
+    uint64_t begin = (uint64_t)index * PLACES_PER_TASK;
     uint64_t end = tl_min_u64(begin + PLACES_PER_TASK, s->place_count);
     for (uint64_t i = begin; i < end; i++) {
         tl_nav_find_candidates(&s->landing, &s->places[i], &s->candidates[TL_NAV_CANDIDATES_PER_PLACE * i]);
@@ -84,14 +86,10 @@ static void try_places(uint32_t index, uint32_t worker, void *user)
 static tl_result try_all(link_search *s)
 {
     const tl_host *host = &s->landing.def->host;
-    const uint64_t batch = (uint64_t)PLACES_PER_TASK * TASKS_PER_BATCH;
-    for (s->batch_begin = 0; s->batch_begin < s->place_count; s->batch_begin += batch) {
-        TL_TRY(tl_progress_update(host, "sweeps", s->batch_begin, s->place_count));
-        uint64_t places = tl_min_u64(batch, s->place_count - s->batch_begin);
-        uint64_t tasks = (places + PLACES_PER_TASK - 1) / PLACES_PER_TASK;
-        tl_run_tasks(host, try_places, (uint32_t)tasks, s);
-    }
-    return tl_progress_update(host, "sweeps", s->place_count, s->place_count);
+    const uint64_t tasks = (s->place_count + PLACES_PER_TASK - 1) / PLACES_PER_TASK;
+    TL_TRY(tl_stage_begin(&s->stage, host, "sweeps", s->place_count));
+    TL_TRY(tl_stage_run(&s->stage, try_places, (uint32_t)tasks, s, TASKS_PER_BATCH, s->place_count));
+    return tl_stage_end(&s->stage);
 }
 
 // Counts what became of the candidates, and moves the proven ones to the front.
@@ -185,10 +183,14 @@ static tl_result find_jump_links(link_search *s, const tl_nav_tile *tile, tl_nav
 {
     const tl_nav_links_def *def = s->landing.def;
     uint64_t edges = 0;
-    TL_TRY(tl_progress_update(&def->host, "ledges", 0, 1));
-    s->place_count = tl_nav_sample_ledges(s->landing.navmesh, def->spacing, NULL, 0, &edges);
+    TL_TRY(tl_stage_begin(&s->stage, &def->host, "ledges", 1));
+    tl_result counted =
+        tl_nav_sample_ledges(s->landing.navmesh, def->spacing, &s->stage, NULL, 0, &s->place_count, &edges);
+    if (counted == TL_ERR_CANCELLED) {
+        return counted;
+    }
     const double steps = (double)s->landing.reach / (2.0 * (double)s->landing.cell);
-    if (s->place_count == UINT64_MAX || (double)s->place_count * steps > (double)TL_NAV_LINKS_MAX_LANDINGS) {
+    if (counted != TL_OK || (double)s->place_count * steps > (double)TL_NAV_LINKS_MAX_LANDINGS) {
         return tl_report_field(&report->base, TL_ERR_LIMIT, "spacing", "make it larger, or max_jump shorter");
     }
     report->ledge_count = (uint32_t)edges;
@@ -199,8 +201,10 @@ static tl_result find_jump_links(link_search *s, const tl_nav_tile *tile, tl_nav
     s->candidates = tl_allocate_array(allocator, candidate_count, sizeof *s->candidates);
     tl_result result = s->places != NULL && s->candidates != NULL ? TL_OK : TL_ERR_MEMORY;
     if (result == TL_OK) {
-        tl_nav_sample_ledges(s->landing.navmesh, def->spacing, s->places, s->place_count, &edges);
-        result = tl_progress_update(&def->host, "ledges", 1, 1);
+        uint64_t count;
+        result = tl_nav_sample_ledges(s->landing.navmesh, def->spacing, &s->stage, s->places, s->place_count, &count,
+                                      &edges);
+        result = result == TL_OK ? tl_stage_end(&s->stage) : result;
     }
     result = result == TL_OK ? prove_and_select(s, tile, links_out, report) : result;
     tl_release_array(allocator, s->places, s->place_count, sizeof *s->places);

@@ -88,7 +88,7 @@ static tl_result is_useful(const link_selection *s, const tl_nav_link_candidate 
 static tl_result select_in_order(const link_selection *s, tl_nav_link_candidate *candidates, uint32_t count,
                                  uint32_t *kept, tl_nav_links_report *report)
 {
-    enum { LINKS_PER_REPORT = 256 };
+    enum { LINKS_PER_REPORT = 8 }; // a link takes up to two path searches
     for (uint32_t i = 0; i < count; i++) {
         if (i % LINKS_PER_REPORT == 0) {
             TL_TRY(tl_progress_update(&s->def->host, "selection", i, count));

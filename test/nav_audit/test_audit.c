@@ -416,6 +416,46 @@ static void it_can_be_stopped(void **state)
     }
 }
 
+static bool count_calls(const char *stage, uint64_t done, uint64_t total, void *user)
+{
+    (void)stage;
+    (void)done;
+    (void)total;
+    ++*(uint32_t *)user;
+    return true;
+}
+
+// A tile can name corners 493 km apart: the lengths of its lines are known before the first step.
+static void too_many_steps_are_refused(void **state)
+{
+    hall h;
+    (void)state;
+    set_up(&h, 0, NOWHERE);
+    tl_soup *soup = audit_soup(&h.level);
+    uint32_t calls = 0;
+    const tl_progress progress = { count_calls, &calls };
+    h.def.host.progress = &progress;
+    TEST_RESULT(tl_nav_audit_run(&h.def, h.navmesh, soup, &h.audit, NULL), TL_OK);
+    const uint32_t calls_of_all = calls;
+    const uint64_t steps = h.audit.step_count;
+    tl_nav_audit_free(&h.audit);
+    // Before the first line; among the paths; while floors are sampled: the same with one worker and with many.
+    const uint64_t limits[3] = { 100, steps / 2, steps + 100 };
+    for (uint32_t i = 0; i < 6; i++) {
+        const tl_tasks backwards = { run_backwards, 3, NULL };
+        tl_report report;
+        calls = 0;
+        h.def.max_steps = limits[i % 3];
+        h.def.host.tasks = i < 3 ? NULL : &backwards;
+        TEST_RESULT(tl_nav_audit_run(&h.def, h.navmesh, soup, &h.audit, &report), TL_ERR_LIMIT);
+        assert_string_equal(report.field, "max_steps");
+        TEST_CHECK(calls < calls_of_all && (i % 3 != 0 || calls <= 2));
+        TEST_CHECK(h.audit.finding_count == 0 && h.audit.findings == NULL);
+    }
+    tl_blob_free(soup);
+    tear_down(&h);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -431,6 +471,7 @@ int main(void)
         cmocka_unit_test(any_host_gives_the_same),
         cmocka_unit_test(failures_leave_nothing),
         cmocka_unit_test(it_can_be_stopped),
+        cmocka_unit_test(too_many_steps_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,7 +74,7 @@ static void thinned_and_drawn_together(void **state)
     test_random random = { 11 };
     uint32_t thinned = 0, joined = 0;
     for (int round = 0; round < 60; round++) {
-        tl_audit_records list = { NULL, 0, 0, NULL }, all = { NULL, 0, 0, NULL };
+        tl_audit_records list = { NULL, 0, 0, NULL, NULL }, all = { NULL, 0, 0, NULL, NULL };
         const uint32_t count = 1 + test_random_below(&random, 120);
         const int32_t reach = 1 + (int32_t)test_random_below(&random, 6);
         add_random(&list, &random, count, 2 + test_random_below(&random, 40));
@@ -126,7 +126,7 @@ static void thinned_and_drawn_together(void **state)
 static void far_cubes(void **state)
 {
     (void)state;
-    tl_audit_records list = { NULL, 0, 0, NULL };
+    tl_audit_records list = { NULL, 0, 0, NULL, NULL };
     const int32_t ends[] = { -(1 << 30), 1 << 30 };
     for (int i = 0; i < 2; i++) {
         tl_audit_record record;
