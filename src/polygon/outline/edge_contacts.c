@@ -13,6 +13,7 @@
 
 #include "base/assert.h"
 #include "base/radix_sort.h"
+#include "polygon/outline/box_tree.h"
 #include "polygon/outline/key_table.h"
 #include "polygon/outline/sweep.h"
 
@@ -176,7 +177,108 @@ static uint64_t sort_key(int32_t x)
     return (uint64_t)((int64_t)x + TL_MAX_CONTOUR_COORDINATE);
 }
 
-// All pairs of segments whose boxes overlap, by sorting along x.
+static tl_lattice_box segment_box(const edge_splitter *s, uint32_t segment)
+{
+    const tl_lattice_point a = s->nodes->points[s->segments[segment].a], b = s->nodes->points[s->segments[segment].b];
+    const tl_lattice_box box = { { a.x < b.x ? a.x : b.x, a.z < b.z ? a.z : b.z },
+                                 { a.x < b.x ? b.x : a.x, a.z < b.z ? b.z : a.z } };
+    return box;
+}
+
+#define TL_HEAP(name)                 largest_place_##name
+#define TL_HEAP_ITEM                  uint32_t
+#define TL_HEAP_BEFORE(context, a, b) ((a) > (b))
+#include "base/heap.inl"
+
+// Places in an order that came from a tree, which has one of its own.
+typedef struct place_list {
+    uint32_t *places;
+    uint32_t count, capacity;
+} place_list;
+
+static tl_result add_place(place_list *list, tl_arena *arena, uint32_t place)
+{
+    if (list->count == list->capacity) {
+        uint32_t *grown = tl_arena_grow(arena, list->places, &list->capacity, 64, sizeof *grown);
+        if (grown == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        list->places = grown;
+    }
+    list->places[list->count++] = place;
+    return TL_OK;
+}
+
+static void sort_places(place_list *list)
+{
+    for (uint32_t i = list->count / 2; i-- > 0;) {
+        largest_place_sift_down(list->places, list->count, i, list->places[i], NULL);
+    }
+    for (uint32_t left = list->count; left > 1;) {
+        const uint32_t top = largest_place_pop(list->places, &left, NULL);
+        list->places[left] = top;
+    }
+}
+
+// The pairs of segment order[i] with those behind it in the order, which meet its box or its line.
+static tl_result test_pairs_of(edge_splitter *s, const tl_sort_item *order, uint32_t i, const tl_box_tree *tree,
+                               place_list *found)
+{
+    const tl_lattice_segment e = s->segments[order[i].value];
+    tl_box_tree_walk walk;
+    uint32_t place;
+    found->count = 0;
+    tl_box_tree_begin(&walk, tree, s->nodes->points[e.a], s->nodes->points[e.b], 0);
+    while (tl_box_tree_next(&walk, &place)) {
+        if (place > i) {
+            TL_TRY(add_place(found, s->arena, place));
+        }
+    }
+    sort_places(found);
+    for (uint32_t k = 0; k < found->count; k++) {
+        TL_TRY(test_pair(s, order[i].value, order[found->places[k]].value));
+    }
+    return TL_OK;
+}
+
+static tl_result test_pairs_by_tree(edge_splitter *s, const tl_sort_item *order)
+{
+    const uint32_t count = s->segment_count;
+    tl_lattice_box *boxes = TL_PUSH(s->arena, tl_lattice_box, count);
+    if (boxes == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        boxes[i] = segment_box(s, order[i].value);
+    }
+    tl_box_tree tree;
+    place_list found = { NULL, 0, 0 };
+    if (!tl_box_tree_build(&tree, s->arena, boxes, count)) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = 0; i < count && s->crossings <= MAX_CROSSINGS; i++) {
+        TL_TRY(test_pairs_of(s, order, i, &tree, &found));
+    }
+    return TL_OK;
+}
+
+static tl_result test_pairs_along_x(edge_splitter *s, const tl_sort_item *order)
+{
+    const uint32_t count = s->segment_count;
+    for (uint32_t i = 0; i < count && s->crossings <= MAX_CROSSINGS; i++) {
+        const tl_lattice_box e = segment_box(s, order[i].value);
+        for (uint32_t j = i + 1; j < count && order[j].key <= order[i].extra; j++) {
+            const tl_lattice_box f = segment_box(s, order[j].value);
+            if (e.low.z <= f.high.z && f.low.z <= e.high.z) {
+                TL_TRY(test_pair(s, order[i].value, order[j].value));
+            }
+        }
+    }
+    return TL_OK;
+}
+
+// All pairs of segments whose boxes overlap, in the order of their low x: of a few segments by that order alone, of
+// many by a tree. Both test the pairs that meet in the same order, so crossings get the same numbers.
 static tl_result test_all_pairs(edge_splitter *s)
 {
     uint32_t count = s->segment_count;
@@ -185,26 +287,12 @@ static tl_result test_all_pairs(edge_splitter *s)
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < count; i++) {
-        const tl_lattice_point *p = s->nodes->points;
-        tl_lattice_point a = p[s->segments[i].a];
-        tl_lattice_point b = p[s->segments[i].b];
-        tl_sort_item item = { sort_key(a.x < b.x ? a.x : b.x), i, (uint32_t)sort_key(a.x < b.x ? b.x : a.x) };
+        const tl_lattice_box box = segment_box(s, i);
+        tl_sort_item item = { sort_key(box.low.x), i, (uint32_t)sort_key(box.high.x) };
         order[i] = item;
     }
     tl_radix_sort(order, order + count, count);
-    for (uint32_t i = 0; i < count && s->crossings <= MAX_CROSSINGS; i++) {
-        for (uint32_t j = i + 1; j < count && order[j].key <= order[i].extra; j++) {
-            const tl_lattice_point *p = s->nodes->points;
-            tl_lattice_segment e = s->segments[order[i].value];
-            tl_lattice_segment f = s->segments[order[j].value];
-            int32_t e_low = p[e.a].z < p[e.b].z ? p[e.a].z : p[e.b].z, e_high = p[e.a].z ^ p[e.b].z ^ e_low;
-            int32_t f_low = p[f.a].z < p[f.b].z ? p[f.a].z : p[f.b].z, f_high = p[f.a].z ^ p[f.b].z ^ f_low;
-            if (e_low <= f_high && f_low <= e_high) {
-                TL_TRY(test_pair(s, order[i].value, order[j].value));
-            }
-        }
-    }
-    return TL_OK;
+    return count < SMALLEST_SWEEP ? test_pairs_along_x(s, order) : test_pairs_by_tree(s, order);
 }
 
 // Whether a segment meets the unit square around a node, without its sides of larger x and z. The node lies in
@@ -224,12 +312,13 @@ static bool meets_square(tl_lattice_point a, tl_lattice_point b, tl_lattice_poin
     return not_all_right && not_all_left;
 }
 
-// Draws every segment through the nodes whose square it meets.
+// Draws every segment through the nodes whose square it meets. Nodes at the same place along it: in the order of x.
 static tl_result snap_segments(edge_splitter *s)
 {
     const tl_outline_nodes *nodes = s->nodes;
     tl_sort_item *order = TL_PUSH(s->arena, tl_sort_item, 2 * (uint64_t)nodes->count);
-    if (order == NULL) {
+    tl_lattice_box *boxes = TL_PUSH(s->arena, tl_lattice_box, nodes->count);
+    if (order == NULL || boxes == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < nodes->count; i++) {
@@ -237,24 +326,31 @@ static tl_result snap_segments(edge_splitter *s)
         order[i] = item;
     }
     tl_radix_sort(order, order + nodes->count, nodes->count);
+    for (uint32_t i = 0; i < nodes->count; i++) {
+        boxes[i].low = boxes[i].high = nodes->points[order[i].value];
+    }
+    tl_box_tree tree;
+    place_list found = { NULL, 0, 0 };
+    if (!tl_box_tree_build(&tree, s->arena, boxes, nodes->count)) {
+        return TL_ERR_MEMORY;
+    }
     s->split_count = 0;
     for (uint32_t i = 0; i < s->segment_count; i++) {
-        tl_lattice_segment e = s->segments[i];
-        tl_lattice_point a = nodes->points[e.a];
-        tl_lattice_point b = nodes->points[e.b];
-        uint64_t low = sort_key(a.x < b.x ? a.x : b.x), high = sort_key(a.x < b.x ? b.x : a.x);
-        uint32_t first = 0;
-        for (uint32_t rest = nodes->count; rest > 0;) {
-            uint32_t half = rest / 2;
-            bool below = order[first + half].key < low;
-            first = below ? first + half + 1 : first;
-            rest = below ? rest - half - 1 : half;
-        }
-        for (; first < nodes->count && order[first].key <= high; first++) {
-            uint32_t node = order[first].value;
+        const tl_lattice_segment e = s->segments[i];
+        const tl_lattice_point a = nodes->points[e.a], b = nodes->points[e.b];
+        tl_box_tree_walk walk;
+        uint32_t place;
+        found.count = 0;
+        tl_box_tree_begin(&walk, &tree, a, b, 1);
+        while (tl_box_tree_next(&walk, &place)) {
+            const uint32_t node = order[place].value;
             if (node != e.a && node != e.b && meets_square(a, b, nodes->points[node])) {
-                TL_TRY(add_split(s, i, node));
+                TL_TRY(add_place(&found, s->arena, place));
             }
+        }
+        sort_places(&found);
+        for (uint32_t k = 0; k < found.count; k++) {
+            TL_TRY(add_split(s, i, order[found.places[k]].value));
         }
     }
     return TL_OK;
