@@ -49,7 +49,8 @@ static void add(tl_span_buffer *buffer, const tl_span_item *items, uint32_t coun
 {
     for (uint32_t i = 0; i < count; i++) {
         TEST_RESULT(tl_span_buffer_reserve(buffer, 1), TL_OK);
-        tl_span_buffer_add(buffer, items[i]);
+        tl_span_buffer_add(buffer, tl_span_item_column(items[i]), tl_span_item_min(items[i]),
+                           tl_span_item_max(items[i]), tl_span_item_area(items[i]));
     }
 }
 
@@ -70,7 +71,10 @@ static void agrees_with_voxels(void **state)
     static tl_span_item items[COLUMNS * 30];
     uint32_t merged_many = 0, low_area_won = 0;
     tl_span_buffer buffer = { 0 };
+    uint32_t late = 0;
     for (uint32_t round = 0; round < 400; round++) {
+        tl_span_buffer_free(&buffer);
+        buffer.max_nodes = round % 2 == 0 ? 0 : 1 + test_random_below(&random, 40); // what finds no node comes late
         uint32_t count = test_random_below(&random, COLUMNS * 30);
         for (uint32_t i = 0; i < count; i++) {
             uint32_t min = test_random_below(&random, VOXELS - 8), max = min + 1 + test_random_below(&random, 6);
@@ -79,6 +83,7 @@ static void agrees_with_voxels(void **state)
         buffer.walkable_climb = test_random_below(&random, 5);
         TEST_RESULT(tl_span_buffer_begin(&buffer, COLUMNS), TL_OK);
         add(&buffer, items, count);
+        late += buffer.late_count > 0;
         uint32_t first[COLUMNS + 1], at = 0;
         const tl_nav_span *spans;
         TEST_RESULT(tl_span_buffer_merge(&buffer, first, &spans), TL_OK);
@@ -93,7 +98,7 @@ static void agrees_with_voxels(void **state)
         }
         TEST_CHECK(at == first[COLUMNS]);
     }
-    TEST_CHECK(merged_many > 100 && low_area_won > 100);
+    TEST_CHECK(merged_many > 100 && low_area_won > 100 && late > 100);
     tl_span_buffer_free(&buffer);
 }
 
@@ -125,7 +130,7 @@ static void reducing_changes_nothing(void **state)
         buffer.walkable_climb = 4;
         TEST_RESULT(tl_span_buffer_begin(&buffer, FEW), TL_OK);
         add(&buffer, items, COUNT);
-        TEST_CHECK(buffer.sorted_capacity < 10000); // it never held them all
+        TEST_CHECK(buffer.node_capacity < 1000 && buffer.late_capacity < 10000); // it never held them all
         uint32_t first[FEW + 1];
         const tl_nav_span *spans;
         TEST_RESULT(tl_span_buffer_merge(&buffer, first, &spans), TL_OK);
@@ -139,6 +144,54 @@ static void reducing_changes_nothing(void **state)
     free(items);
 }
 
+// A tower of many floors, more than a list is walked for: from bottom to top, from top to bottom, and in any order.
+static void towers_are_sorted(void **state)
+{
+    (void)state;
+    test_random random = { 9 };
+    enum { FLOORS = 5000, LISTED = 1000 };
+    tl_span_item *items = malloc(FLOORS * sizeof *items);
+    for (uint32_t order = 0; order < 3; order++) {
+        for (uint32_t i = 0; i < FLOORS; i++) {
+            const uint32_t floor = order == 1 ? FLOORS - 1 - i : i;
+            items[i] = tl_span_item_make(1, 13 * floor, 13 * floor + 1 + floor % 12, floor % 256);
+        }
+        if (order == 2) {
+            shuffle(&random, items, FLOORS);
+        }
+        tl_span_buffer buffer = { 0 };
+        TEST_RESULT(tl_span_buffer_begin(&buffer, 3), TL_OK);
+        add(&buffer, items, FLOORS);
+        TEST_CHECK(order == 1 || buffer.late_count > LISTED);
+        uint32_t first[4];
+        const tl_nav_span *spans;
+        TEST_RESULT(tl_span_buffer_merge(&buffer, first, &spans), TL_OK);
+        TEST_CHECK(first[1] == 0 && first[2] == FLOORS && first[3] == FLOORS);
+        for (uint32_t floor = 0; floor < FLOORS; floor++) {
+            TEST_CHECK(spans[floor].min == 13 * floor && spans[floor].max == 13 * floor + 1 + floor % 12 &&
+                       spans[floor].area == floor % 256);
+        }
+        tl_span_buffer_free(&buffer);
+    }
+    free(items);
+}
+
+// The highest span ends at 0xffff, where a column without spans seems to begin.
+static void the_highest_voxel_is_a_span(void **state)
+{
+    (void)state;
+    tl_span_buffer buffer = { 0 };
+    TEST_RESULT(tl_span_buffer_begin(&buffer, 1), TL_OK);
+    const tl_span_item items[2] = { tl_span_item_make(0, 0xfffe, 0xffff, 7), tl_span_item_make(0, 0, 1, 0) };
+    add(&buffer, items, 2);
+    uint32_t first[2];
+    const tl_nav_span *spans;
+    TEST_RESULT(tl_span_buffer_merge(&buffer, first, &spans), TL_OK);
+    TEST_CHECK(first[1] == 2 && spans[0].max == 1 && spans[1].min == 0xfffe && spans[1].max == 0xffff);
+    TEST_CHECK(spans[1].area == 7);
+    tl_span_buffer_free(&buffer);
+}
+
 static void failing_memory_is_reported(void **state)
 {
     (void)state;
@@ -148,16 +201,19 @@ static void failing_memory_is_reported(void **state)
         tl_span_buffer buffer = { 0 };
         buffer.allocator = &memory.allocator;
         tl_result result = tl_span_buffer_begin(&buffer, 2);
-        for (uint32_t i = 0; i < 100 && result == TL_OK; i++) {
+        for (uint32_t i = 0; i < 1000 && result == TL_OK; i++) {
             result = tl_span_buffer_reserve(&buffer, 1);
             if (result == TL_OK) {
-                tl_span_buffer_add(&buffer, tl_span_item_make(i % 2, 2 * i, 2 * i + 1, 0));
+                tl_span_buffer_add(&buffer, i % 2, 2 * i, 2 * i + 1, 0);
             }
         }
+        uint32_t first[3];
+        const tl_nav_span *spans;
+        result = result == TL_OK ? tl_span_buffer_merge(&buffer, first, &spans) : result;
         tl_span_buffer_free(&buffer);
         TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
         if (result == TL_OK) {
-            TEST_CHECK(k > 4);
+            TEST_CHECK(k > 6 && first[1] == 500 && first[2] == 1000);
             return;
         }
         TEST_RESULT(result, TL_ERR_MEMORY);
@@ -167,7 +223,8 @@ static void failing_memory_is_reported(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(agrees_with_voxels),
-                                        cmocka_unit_test(reducing_changes_nothing),
+                                        cmocka_unit_test(reducing_changes_nothing), cmocka_unit_test(towers_are_sorted),
+                                        cmocka_unit_test(the_highest_voxel_is_a_span),
                                         cmocka_unit_test(failing_memory_is_reported) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

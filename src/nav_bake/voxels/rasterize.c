@@ -18,8 +18,10 @@
 #include <string.h>
 
 enum {
-    BAND_COLUMNS = 6144, // with 4 items each, of 8 bytes, and as much to sort them: 384 KB
-    BANDS_PER_WORKER = 4 // between two calls of the progress hook
+    BAND_COLUMNS = 6144,      // of some 35 bytes each, with their spans: 210 KB
+    MIN_BAND_ROWS = 16,       // as each band sees a row more on both sides,
+    MAX_TALL_WIDTH = 1 << 17, // unless they are so long that it takes much memory
+    BANDS_PER_WORKER = 4      // between two calls of the progress hook
 };
 
 struct tl_raster_worker {
@@ -103,6 +105,9 @@ static tl_result init(tl_rasterizer *r, const tl_host *host)
     const uint64_t wanted = (columns + BAND_COLUMNS / 2) / BAND_COLUMNS;
     const uint32_t bands = wanted < 1 ? 1 : wanted < config->height ? (uint32_t)wanted : config->height;
     r->rows_per_band = (config->height - 1) / bands + 1;
+    if (r->rows_per_band < MIN_BAND_ROWS && config->width <= MAX_TALL_WIDTH) {
+        r->rows_per_band = MIN_BAND_ROWS;
+    }
     r->band_count = (config->height - 1) / r->rows_per_band + 1;
     const uint64_t rows_seen = (uint64_t)r->rows_per_band + 2 * (uint64_t)r->margin;
     r->line = rows_seen > config->width ? (uint32_t)rows_seen : config->width;
@@ -114,7 +119,7 @@ static tl_result init(tl_rasterizer *r, const tl_host *host)
     }
     memset(r->workers, 0, r->worker_count * sizeof *r->workers);
     if (r->band_count > 1) {
-        tl_bin_grid grid = { 1, r->band_count, config->width, r->rows_per_band, r->margin, false };
+        tl_bin_grid grid = { 1, r->band_count, config->width, r->rows_per_band, r->margin, false, true };
         return tl_triangle_bins_init(r->mesh, r->list, &r->map, &grid, r->allocator, &r->bins);
     }
     return TL_OK;
