@@ -13,6 +13,9 @@
 #include <string.h>
 #include <talus/nav_tile.h>
 
+enum { LAST_BIN = 0xffff };
+#define NOWHERE UINT32_MAX // of LAST_BIN bins none has this number
+
 typedef struct bin_range {
     uint32_t x0, x1, z0, z1; ///< inclusive; empty when x1 < x0
 } bin_range;
@@ -39,20 +42,23 @@ static bin_range triangle_range(const tl_mesh_view *mesh, uint32_t triangle, con
                                 const tl_bin_grid *grid)
 {
     const uint32_t *corner = mesh->indices + 3 * (size_t)triangle;
-    tl_aabb box = tl_aabb_empty();
-    for (int k = 0; k < 3; k++) {
-        box = tl_aabb_add_point(box, mesh->vertices[corner[k]]);
-    }
+    const tl_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
     // The map is monotone: the ends of the range are those of the box.
-    const double min_x = tl_lattice_map_x(map, box.min.x), max_x = tl_lattice_map_x(map, box.max.x);
-    const double min_z = tl_lattice_map_z(map, box.min.z), max_z = tl_lattice_map_z(map, box.max.z);
+    const double min_z = tl_lattice_map_z(map, tl_minf(a.z, tl_minf(b.z, c.z)));
+    const double max_z = tl_lattice_map_z(map, tl_maxf(a.z, tl_maxf(b.z, c.z)));
     bin_range range = { 1, 0, 0, 0 };
-    uint32_t x0, x1, z0, z1;
-    if (bins_along(min_x, max_x, grid->count_x, grid->size_x, grid->margin, &x0, &x1) &&
-        bins_along(min_z, max_z, grid->count_z, grid->size_z, grid->margin, &z0, &z1)) {
-        range = (bin_range){ x0, x1, z0, z1 };
+    uint32_t x0 = 0, x1 = 0, z0, z1;
+    if (!bins_along(min_z, max_z, grid->count_z, grid->size_z, grid->margin, &z0, &z1)) {
+        return range;
     }
-    return range;
+    if (!grid->any_x) {
+        const double min_x = tl_lattice_map_x(map, tl_minf(a.x, tl_minf(b.x, c.x)));
+        const double max_x = tl_lattice_map_x(map, tl_maxf(a.x, tl_maxf(b.x, c.x)));
+        if (!bins_along(min_x, max_x, grid->count_x, grid->size_x, grid->margin, &x0, &x1)) {
+            return range;
+        }
+    }
+    return (bin_range){ x0, x1, z0, z1 };
 }
 
 // The bins of a sparse grid that hold triangles: a hash table from places to bins, by linear probing, at most half
@@ -134,8 +140,26 @@ typedef struct bin_source {
     tl_triangle_list list;
     const tl_lattice_map *map;
     const tl_bin_grid *grid;
-    place_table table; // of a sparse grid
+    place_table table;    // of a sparse grid
+    uint32_t *along_rows; // [list.count] where the grid is a line: z0 and z1 of each, from counting to filling
 } bin_source;
+
+// The bins of the list's triangle i.
+static bin_range saved_range(const bin_source *source, uint32_t i)
+{
+    if (source->along_rows == NULL) {
+        return triangle_range(source->mesh, tl_triangle_list_get(&source->list, i), source->map, source->grid);
+    }
+    const uint32_t both = source->along_rows[i];
+    return (bin_range){ both == NOWHERE, 0, both & LAST_BIN, both >> 16 };
+}
+
+static void save_range(const bin_source *source, uint32_t i, bin_range range)
+{
+    if (source->along_rows != NULL) {
+        source->along_rows[i] = range.x1 < range.x0 ? NOWHERE : range.z1 << 16 | range.z0;
+    }
+}
 
 static uint32_t bin_at(const bin_source *source, uint32_t x, uint32_t z)
 {
@@ -197,6 +221,7 @@ static tl_result count_triangles(const bin_source *source, tl_triangle_bins *bin
     for (uint32_t i = 0; i < source->list.count; i++) {
         bin_range range =
             triangle_range(source->mesh, tl_triangle_list_get(&source->list, i), source->map, source->grid);
+        save_range(source, i, range);
         if (range.x1 < range.x0) {
             continue;
         }
@@ -221,7 +246,7 @@ static void fill_bins(const bin_source *source, tl_triangle_bins *bins)
 {
     for (uint32_t i = 0; i < source->list.count; i++) {
         uint32_t triangle = tl_triangle_list_get(&source->list, i);
-        bin_range range = triangle_range(source->mesh, triangle, source->map, source->grid);
+        const bin_range range = saved_range(source, i);
         if (range.x1 < range.x0) {
             continue;
         }
@@ -245,6 +270,12 @@ static tl_result make_bins(bin_source *source, tl_triangle_bins *bins)
         return TL_ERR_MEMORY;
     }
     bins->first = first;
+    if (source->grid->any_x && source->grid->count_z <= LAST_BIN) {
+        source->along_rows = tl_allocate_array(bins->allocator, source->list.count, sizeof *source->along_rows);
+        if (source->along_rows == NULL) {
+            return TL_ERR_MEMORY;
+        }
+    }
     tl_result result = count_triangles(source, bins);
     if (result == TL_OK) {
         bins->triangles = tl_allocate_array(bins->allocator, first[bins->bin_count], sizeof *bins->triangles);
@@ -262,8 +293,9 @@ tl_result tl_triangle_bins_init(const tl_mesh_view *mesh, tl_triangle_list list,
     memset(bins, 0, sizeof *bins);
     bins->allocator = allocator;
     bins->bin_count = (uint64_t)grid->count_x * grid->count_z;
-    bin_source source = { mesh, list, map, grid, { NULL, NULL, 0, 0 } };
+    bin_source source = { mesh, list, map, grid, { NULL, NULL, 0, 0 }, NULL };
     tl_result result = make_bins(&source, bins);
+    tl_release_array(allocator, source.along_rows, list.count, sizeof *source.along_rows);
     place_table_free(&source.table, allocator);
     if (result != TL_OK) {
         tl_triangle_bins_free(bins);

@@ -143,9 +143,8 @@ static tl_result sort_triangles(level_job *job, tl_report *report)
     const uint32_t size = job->def->tile_size;
     tl_nav_lattice lattice = { config.lattice.origin, (int32_t)(job->range.x * size), (int32_t)(job->range.z * size) };
     tl_lattice_map map = tl_lattice_map_make(&lattice, config.cell_size, config.cell_height);
-    tl_bin_grid grid = {
-        job->range.count_x, job->range.count_z, size, size, config.border_size, tile_count_of(job) > DENSE_TILES
-    };
+    const bool sparse = tile_count_of(job) > DENSE_TILES;
+    tl_bin_grid grid = { job->range.count_x, job->range.count_z, size, size, config.border_size, sparse, false };
     tl_triangle_list all = { NULL, job->input->mesh.triangle_count };
     tl_result result = tl_triangle_bins_init(&job->input->mesh, all, &map, &grid, job->host.allocator, &job->bins);
     return result == TL_ERR_LIMIT
