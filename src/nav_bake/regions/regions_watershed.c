@@ -17,14 +17,17 @@
 #include "nav_bake/regions/regions.h"
 
 #include "base/assert.h"
+#include "base/compiler.h"
 #include "nav_bake/floors/links.h"
 
 #include <string.h>
 
 enum {
-    GROWTH_STEPS = 8,      // of growth at each level but the last; what is left is a new basin
-    FIELDS_SHARE = 4,      // at least a quarter of the field's floors is sorted at a time,
-    SORTED_AT_ONCE = 16384 // and at least so many
+    GROWTH_STEPS = 8,       // of growth at each level but the last; what is left is a new basin
+    FIELDS_SHARE = 4,       // at least a quarter of the field's floors is sorted at a time,
+    SORTED_AT_ONCE = 16384, // and at least so many
+    PREFETCHED = 100000,    // floors: 15 bytes of each do not fit a second-level cache any more
+    AHEAD = 8               // floors that the fetching is ahead of the look
 };
 
 // The region of a floor that joins it at the end of this step: not yet interior, and no longer none.
@@ -135,12 +138,32 @@ static tl_result look_beside_frontier(watershed *w, uint32_t level)
     return TL_OK;
 }
 
+// A contour line of a large field is spread over it, and what a floor's look reads is in no cache: the links of `later`
+// are fetched, then what those of `sooner` lead to in the rows before and after.
+static inline void prefetch_floor(const watershed *w, uint32_t later, uint32_t sooner)
+{
+    const int16_t *step = w->compact->step;
+    tl_prefetch(step + 4 * (size_t)later);
+    const int32_t to_after = step[4 * (size_t)sooner + 1], to_before = step[4 * (size_t)sooner + 3];
+    const uint32_t after = sooner + (uint32_t)to_after, before = sooner + (uint32_t)to_before;
+    tl_prefetch(w->region + sooner);
+    tl_prefetch(w->region + after);
+    tl_prefetch(w->region + before);
+    tl_prefetch(w->reach + after);
+    tl_prefetch(w->reach + before);
+}
+
 // Looks at those of order[*begin, end) that still wait, from the end on; they stay, in order, and the others make room.
 static tl_result look_at_waiting(watershed *w, uint32_t *begin, uint32_t end)
 {
+    const uint32_t *order = w->order.floors;
+    const bool is_far = w->compact->span_count > PREFETCHED && w->compact->step != NULL;
     uint32_t kept = end;
     for (uint32_t k = end; k-- > *begin;) {
-        const uint32_t floor = w->order.floors[k];
+        const uint32_t floor = order[k];
+        if (is_far && k >= *begin + 2 * AHEAD) {
+            prefetch_floor(w, order[k - 2 * AHEAD], order[k - AHEAD]);
+        }
         if (w->joining.count == w->joining.capacity) {
             TL_TRY(reserve_spans(w, &w->joining, (uint64_t)w->joining.count + 1024));
         }
@@ -251,17 +274,12 @@ static inline bool waits(const watershed *w, uint32_t floor)
     return w->region[floor] == 0 && w->compact->area[floor] != TL_NAV_NULL_AREA;
 }
 
-// Counts the floors that wait in the levels [first, end) into sizes[level].
-static void count_waiting(const watershed *w, uint32_t first, uint32_t end, uint32_t *sizes)
+// Counts the floors that wait, by level.
+static void count_waiting(const watershed *w, uint32_t *sizes)
 {
-    memset(sizes + first, 0, (end - first) * sizeof *sizes);
+    memset(sizes, 0, w->level_count * sizeof *sizes);
     for (uint32_t i = 0; i < w->compact->span_count; i++) {
-        if (waits(w, i)) {
-            const uint32_t level = level_of(w, i);
-            if (level >= first && level < end) { // those of earlier levels are in the order already
-                sizes[level]++;
-            }
-        }
+        sizes[level_of(w, i)] += waits(w, i);
     }
 }
 
@@ -276,7 +294,7 @@ static tl_result measure_levels(watershed *w, tl_arena *arena)
         return TL_ERR_MEMORY;
     }
     if (w->compact->span_count > SORTED_AT_ONCE) {
-        count_waiting(w, 0, w->level_count, w->level_size);
+        count_waiting(w, w->level_size);
     }
     return TL_OK;
 }
@@ -312,31 +330,34 @@ static tl_result sort_all(watershed *w)
     return TL_OK;
 }
 
-// Appends the floors that wait in the levels [first, end) to the order: a counting sort.
+// Appends the floors that wait in the levels [first, end) to the order: a counting sort. Each level has the room of all
+// that it held at first; what floods have taken since leaves gaps, which are closed at once.
 static tl_result sort_levels(watershed *w, uint32_t first, uint32_t end)
 {
-    const uint32_t count = w->compact->span_count;
+    const uint32_t count = w->compact->span_count, begin = w->order.count;
     uint32_t *next = w->level_end; // where the next floor of a level goes, then where the level ends
-    memcpy(next + first, w->level_size + first, (end - first) * sizeof *next);
-    if (first > 0) { // floods have taken some since they were counted
-        count_waiting(w, first, end, next);
-    }
-    uint32_t position = w->order.count;
+    uint32_t position = begin;
     for (uint32_t k = first; k < end; k++) {
-        const uint32_t size = next[k];
         next[k] = position;
-        position += size;
+        position += w->level_size[k];
     }
     TL_TRY(reserve_spans(w, &w->order, position));
-    w->order.count = position;
+    uint32_t *order = w->order.floors;
     for (uint32_t i = 0; i < count; i++) {
-        if (waits(w, i)) {
-            const uint32_t level = level_of(w, i);
-            if (level >= first && level < end) {
-                w->order.floors[next[level]++] = i;
-            }
+        const uint32_t level = level_of(w, i);
+        if (level >= first && level < end && waits(w, i)) {
+            order[next[level]++] = i;
         }
     }
+    position = begin;
+    for (uint32_t k = first, room = begin; k < end; k++) {
+        const uint32_t size = next[k] - room;
+        memmove(order + position, order + room, size * sizeof *order);
+        room += w->level_size[k];
+        position += size;
+        next[k] = position;
+    }
+    w->order.count = position;
     return TL_OK;
 }
 
