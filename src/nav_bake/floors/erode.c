@@ -17,18 +17,33 @@
 
 enum { STRAIGHT = 2, DIAGONAL = 3 };
 
-// A floor that is not walkable, or lacks a walkable neighbour.
-static inline bool is_area_border(const tl_nav_compact *compact, uint32_t i, const tl_links *links)
+// Whether a floor lacks a neighbour.
+static inline bool is_at_edge(const tl_nav_compact *compact, uint32_t i)
 {
-    if (compact->area[i] == TL_NAV_NULL_AREA) {
+    if (compact->step != NULL) { // asked once, and not for each direction: whether one of four 16-bit steps is zero
+        uint64_t steps;
+        memcpy(&steps, compact->step + 4 * (size_t)i, sizeof steps);
+        return ((steps - 0x0001000100010001u) & ~steps & 0x8000800080008000u) != 0;
+    }
+    const uint32_t *neighbour = compact->neighbour + 4 * (size_t)i;
+    return neighbour[0] == TL_NAV_NO_SPAN || neighbour[1] == TL_NAV_NO_SPAN || neighbour[2] == TL_NAV_NO_SPAN ||
+           neighbour[3] == TL_NAV_NO_SPAN;
+}
+
+// A floor that is not walkable, or lacks a walkable neighbour. `holes`: some floors are not walkable.
+static inline bool is_area_border(const tl_nav_compact *compact, uint32_t i, bool holes)
+{
+    if (is_at_edge(compact, i)) {
         return true;
     }
-    for (uint32_t d = 0; d < 4; d++) {
-        if (links->to[d] == TL_NAV_NO_SPAN || compact->area[links->to[d]] == TL_NAV_NULL_AREA) {
-            return true;
-        }
+    if (!holes) {
+        return false;
     }
-    return false;
+    const tl_links links = tl_nav_links_or_self(compact, i);
+    const uint8_t *area = compact->area;
+    return area[i] == TL_NAV_NULL_AREA || area[links.to[0]] == TL_NAV_NULL_AREA ||
+           area[links.to[1]] == TL_NAV_NULL_AREA || area[links.to[2]] == TL_NAV_NULL_AREA ||
+           area[links.to[3]] == TL_NAV_NULL_AREA;
 }
 
 // The least of `nearest` and what a floor beside, and the one beside that in `turn`, give.
@@ -41,14 +56,17 @@ static inline uint32_t nearest_over(const tl_nav_compact *compact, const uint16_
 }
 
 // Borders get 0, all others the distance from what comes before them, at most `limit`. Those have all four neighbours.
-static void sweep_forward(const tl_nav_compact *compact, uint32_t limit, uint16_t *distance)
+static void sweep_forward(const tl_nav_compact *compact, uint32_t limit, bool holes, uint16_t *distance)
 {
     for (uint32_t i = 0; i < compact->span_count; i++) {
-        const tl_links links = tl_floor_links(compact, i);
         uint32_t nearest = 0;
-        if (!is_area_border(compact, i, &links)) {
-            nearest = nearest_over(compact, distance, links.to[0], 3, limit);
-            nearest = nearest_over(compact, distance, links.to[3], 2, nearest);
+        if (!is_area_border(compact, i, holes)) {
+            const uint32_t left = tl_nav_compact_neighbour(compact, i, 0), up = tl_nav_compact_neighbour(compact, i, 3);
+            nearest = limit;
+            if (distance[left] < limit) { // else the floor across is at least `limit` - 2 away, a straight step from it
+                nearest = nearest_over(compact, distance, left, 3, limit);
+            }
+            nearest = nearest_over(compact, distance, up, 2, nearest);
         }
         distance[i] = (uint16_t)nearest;
     }
@@ -59,7 +77,7 @@ static void sweep_backward(tl_nav_compact *compact, uint32_t limit, uint16_t *di
 {
     for (uint32_t i = compact->span_count; i-- > 0;) {
         uint32_t nearest = distance[i];
-        if (nearest > 0) {
+        if (nearest > STRAIGHT) { // nothing but a border is nearer
             nearest = nearest_over(compact, distance, tl_nav_compact_neighbour(compact, i, 2), 1, nearest);
             nearest = nearest_over(compact, distance, tl_nav_compact_neighbour(compact, i, 1), 0, nearest);
             distance[i] = (uint16_t)nearest;
@@ -82,7 +100,8 @@ tl_result tl_nav_erode(const tl_nav_config *config, const tl_host *host, tl_nav_
         if (distance == NULL) {
             return TL_ERR_MEMORY;
         }
-        sweep_forward(compact, limit, distance);
+        const bool holes = memchr(compact->area, TL_NAV_NULL_AREA, compact->span_count) != NULL;
+        sweep_forward(compact, limit, holes, distance);
         sweep_backward(compact, limit, distance);
         tl_release_array(allocator, distance, compact->span_count, sizeof *distance);
     }
