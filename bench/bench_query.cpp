@@ -3,7 +3,8 @@
 // Navmesh queries beside Detour's: on the very same polygons, in one process, runs taking turns.
 //
 //   bench_query [--city TRIANGLES (1000000)] [--pairs COUNT (10000)] [--runs RUNS (5)] [--only NAME]
-//               [--prepared 1 (searches on prepared navmeshes alone)] [--json FILE]
+//               [--prepared 1 (searches on prepared navmeshes alone)] [--table 1 (the table over all levels alone)]
+//               [--json FILE]
 //
 // Pairs: the recorded ones of the data folder, and 10,000 seeded ones on the built-in city in tiles. The polygons are
 // Recast's, so that both sides search the same mesh. CPU time of one thread, the best run of each side. Lengths are
@@ -14,6 +15,7 @@
 #include "io/mesh/mesh_import.h"
 #include "measure.h"
 #include "query_options.hpp"
+#include "query_table.hpp"
 #include "report.h"
 
 #include <algorithm>
@@ -553,13 +555,17 @@ int main(int argc, char **argv)
     const char *files[] = { "nav_test_cs0.3_w_solo", "nav_test_cs0.3_w_t48",    "dungeon_cs0.3_w_solo",
                             "dungeon_cs0.3_w_t48",   "undulating_cs0.3_w_solo", "undulating_cs0.3_w_t48" };
     for (const char *file : files) {
-        if (options.wants(file)) {
+        if (options.table_only == 0 && options.wants(file)) {
             bench_recorded(file, options.count);
         }
     }
-    if (options.wants("city")) {
+    if (options.table_only == 0 && options.wants("city")) {
         bench_sample("city", options.city_triangles, 0.3f, 64, options.count, 5.0);
     }
+    query_options table = options;
+    table.count = std::min(table.count, 1000u);
+    table.runs = std::min(table.runs, 3u);
+    bench_query_table(table, report);
     std::printf("\n");
     bench_report_print_claims(report);
     return bench_report_close(report, json);

@@ -16,6 +16,7 @@ struct query_options {
     uint32_t runs = 5;
     const char *only = "";      // levels whose name holds this
     uint32_t prepared_only = 0; // 1: searches on prepared navmeshes alone
+    uint32_t table_only = 0;    // 1: only the table over all levels
 
     bool wants(const std::string &level) const
     {
@@ -30,6 +31,7 @@ struct query_options {
                                          { "runs", BENCH_COUNT, &runs, "runs of which the best counts" },
                                          { "only", BENCH_TEXT, &only, "levels whose name holds this" },
                                          { "prepared", BENCH_COUNT, &prepared_only, "1: prepared navmeshes alone" },
+                                         { "table", BENCH_COUNT, &table_only, "1: the table over all levels alone" },
                                          { nullptr, BENCH_COUNT, nullptr, nullptr } };
         const char *json = nullptr;
         bench_parse(argc, argv, options, nullptr, &json);

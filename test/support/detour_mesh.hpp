@@ -143,6 +143,7 @@ struct detour_level {
     std::unique_ptr<dtNavMeshQuery, detour_deleter> query{ dtAllocNavMeshQuery() };
     std::unique_ptr<tl_navmesh, detour_deleter> twin;
     bool twin_is_whole = true; ///< false: Recast made a polygon that is none
+    unsigned area_kinds = 0;   ///< > 0: polygons get the areas 1 to this, by a hash of their number in the tile
 
     bool build(const tl_nav_def &def, const tl_mesh_view &view, tl_aabb bounds)
     {
@@ -193,6 +194,9 @@ struct detour_level {
         }
         if (recast.polygons->npolys == 0) {
             return true;
+        }
+        for (int p = 0; area_kinds > 0 && p < recast.polygons->npolys; p++) {
+            recast.polygons->areas[p] = (unsigned char)(1u + ((unsigned)p * 2654435761u >> 16) % area_kinds);
         }
         int size = 0;
         unsigned char *data = make_detour_tile(recast, config, &size);
