@@ -234,8 +234,8 @@ double cost_along(table_level &l, const end_pair &p, const std::vector<tl_vec3> 
         tl_nav_ray_hit hit;
         float leg = 0.0f;
         uint32_t count = 0;
-        if (tl_navmesh_cast_ray(l.navmesh(), nullptr, &at, points[i], crossed.data(), (uint32_t)crossed.size(),
-                                &hit) != TL_OK ||
+        if (tl_navmesh_cast_ray(l.navmesh(), nullptr, &at, points[i], crossed.data(), (uint32_t)crossed.size(), &hit) !=
+                TL_OK ||
             hit.t < 0.9999f) {
             return -1.0;
         }
@@ -539,7 +539,8 @@ void print_row(group in, row which, bench_report *report)
 void bench_query_table(const query_options &options, bench_report *report)
 {
     runs = options.runs;
-    std::printf("\nEach level, rows in the order of the table below; times as fast as Detour, or its share of memory:\n");
+    std::printf(
+        "\nEach level, rows in the order of the table below; times as fast as Detour, or its share of memory:\n");
     measure_files(options);
     measure_samples(options);
     std::printf("\nTimes as fast as Detour (memory and cost: share of Detour's):\n");

@@ -268,11 +268,13 @@ TL_API tl_result tl_navmesh_height(const tl_navmesh *navmesh, tl_nav_ref ref, fl
 typedef struct tl_nav_query tl_nav_query;
 
 typedef struct tl_nav_query_def {
-    /// Nodes that one search may use, 2 to 2^30. A node takes 232 bytes where this is a power of two, else up to 300.
-    /// tl_navmesh_link_count + 2 is always enough to find a path where there is one. Default 65536: 15 MB.
+    /// Nodes that one search may use, 2 to 2^30. tl_navmesh_link_count + 2 is always enough to find a path where there
+    /// is one. A query begins with memory for 512 of them, 120 KB, and doubles it when a search needs more: 232 bytes a
+    /// node. Default 65536.
     uint32_t max_nodes;
-    const tl_allocator *allocator; ///< copied; NULL: malloc
-    uint32_t cookie;               ///< set by tl_default_nav_query_def
+    /// Copied; NULL: malloc. A search may ask it for memory; where it gets none it ends as one that is out of nodes.
+    const tl_allocator *allocator;
+    uint32_t cookie; ///< set by tl_default_nav_query_def
 } tl_nav_query_def;
 
 TL_API tl_nav_query_def tl_default_nav_query_def(void);
@@ -282,6 +284,11 @@ TL_API tl_nav_query_def tl_default_nav_query_def(void);
 TL_API tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_out, tl_report *report);
 /// Frees a query. NULL: nothing happens.
 TL_API void tl_nav_query_destroy(tl_nav_query *query);
+
+/// Makes the memory for so many nodes now: searches that need no more do not allocate. With def.max_nodes none ever do.
+/// Ends a search in slices that is under way. TL_ERR_ARGUMENT (NULL), TL_ERR_LIMIT (more than def.max_nodes),
+/// TL_ERR_MEMORY: it is as before.
+TL_API tl_result tl_nav_query_reserve(tl_nav_query *query, uint32_t nodes);
 
 // Results of searches, besides the errors that all functions share (above). How a search for a path went is a status of
 // the path, not a result: TL_OK for an unreachable goal too, and where the query ran out of nodes. Other searches that

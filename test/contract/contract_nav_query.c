@@ -388,6 +388,20 @@ static tl_result query_destroy(contract_run *run)
     return TL_OK;
 }
 
+static tl_result query_reserve(contract_run *run)
+{
+    tl_nav_query *query = NULL;
+    tl_nav_query_def def = tl_default_nav_query_def();
+    def.allocator = run->host->allocator;
+    tl_result result = tl_nav_query_create(&def, &query, NULL);
+    if (result == TL_OK) {
+        result = tl_nav_query_reserve(run->what == CONTRACT_NULL_INPUT ? NULL : query, 2048);
+    }
+    run->is_clear = true;
+    tl_nav_query_destroy(query);
+    return result;
+}
+
 #define GOOD      CONTRACT_BIT(GOOD)
 #define INPUT     CONTRACT_BIT(NULL_INPUT)
 #define OUTPUT    CONTRACT_BIT(NULL_OUTPUT)
@@ -442,5 +456,6 @@ const contract_entry CONTRACT_TABLE_nav_query[] = {
     { "tl_nav_query_create", GOOD | CONTRACT_BIT(NULL_REPORT) | DEF | CONTRACT_BIT(BAD_FIELD) | OUTPUT | NO_MEMORY, 0,
       1, QUERY_FIELDS, query_create, NULL },
     { "tl_nav_query_destroy", CONTRACT_BIT(NULL_FREE), 0, 0, NULL, query_destroy, NULL },
+    { "tl_nav_query_reserve", GOOD | INPUT | NO_MEMORY, 1, 0, NULL, query_reserve, NULL },
     { 0 },
 };

@@ -8,6 +8,7 @@
 #include "nav_query/around/flood.h"
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/surface.h"
+#include "nav_query/search/query_memory.h"
 
 // Nodes in the order of their references; each node's heap_at, which nothing needs any more, becomes its place.
 static const tl_sort_item *order_nodes(tl_nav_query *query)
@@ -71,9 +72,10 @@ static tl_result check_field_def(const tl_nav_field_def *def)
     return good ? TL_OK : TL_ERR_ARGUMENT;
 }
 
-tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_location *start,
-                             const tl_nav_field_def *def, tl_nav_field_entry *entries_out, uint32_t capacity,
-                             uint32_t *count_out)
+// Within the nodes that the query has now.
+static tl_result flood_within(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_location *start,
+                              const tl_nav_field_def *def, tl_nav_field_entry *entries_out, uint32_t capacity,
+                              uint32_t *count_out)
 {
     if (query == NULL || navmesh == NULL || start == NULL || count_out == NULL ||
         (entries_out == NULL && capacity > 0)) {
@@ -104,6 +106,17 @@ tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, con
         return TL_ERR_NODES;
     }
     return *count_out <= capacity ? TL_OK : TL_INCOMPLETE;
+}
+
+tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_location *start,
+                             const tl_nav_field_def *def, tl_nav_field_entry *entries_out, uint32_t capacity,
+                             uint32_t *count_out)
+{
+    tl_result result;
+    do {
+        result = flood_within(query, navmesh, start, def, entries_out, capacity, count_out);
+    } while (result == TL_ERR_NODES && tl_nav_query_grow(query));
+    return result;
 }
 
 uint32_t tl_nav_field_find(const tl_nav_field_entry *entries, uint32_t count, tl_nav_ref polygon)

@@ -11,6 +11,7 @@
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/search/local_search.h"
 #include "nav_query/search/open_items.h"
+#include "nav_query/search/query_memory.h"
 
 #include <math.h>
 #include <string.h>
@@ -83,8 +84,9 @@ static void look_for_wall(wall_search *search, uint32_t node)
     }
 }
 
-tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_around_request *request,
-                                 tl_nav_wall *wall_out)
+// Within the nodes that the query has now.
+static tl_result find_wall_within(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_around_request *request,
+                                  tl_nav_wall *wall_out)
 {
     if (query == NULL || navmesh == NULL || request == NULL || wall_out == NULL ||
         !tl_nav_filter_is_begun(request->filter)) {
@@ -143,4 +145,14 @@ tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh,
             tl_normalize(tl_vec3_make(search.end->z - search.start->z, 0.0f, search.start->x - search.end->x));
     }
     return search.full ? TL_ERR_NODES : TL_OK;
+}
+
+tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_around_request *request,
+                                 tl_nav_wall *wall_out)
+{
+    tl_result result;
+    do {
+        result = find_wall_within(query, navmesh, request, wall_out);
+    } while (result == TL_ERR_NODES && tl_nav_query_grow(query));
+    return result;
 }

@@ -10,6 +10,7 @@
 #include "nav_query/navmesh/plan.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/search/local_search.h"
+#include "nav_query/search/query_memory.h"
 
 #include <math.h>
 #include <string.h>
@@ -100,9 +101,10 @@ static uint32_t write_way(const move_search *search, tl_nav_ref *polygons, uint3
     return count;
 }
 
-tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh *navmesh,
-                                          const tl_nav_move_request *request, tl_nav_ref *polygons_out,
-                                          uint32_t capacity, tl_nav_move *move_out)
+// Within the nodes that the query has now.
+static tl_result move_along_surface_within(tl_nav_query *query, const tl_navmesh *navmesh,
+                                           const tl_nav_move_request *request, tl_nav_ref *polygons_out,
+                                           uint32_t capacity, tl_nav_move *move_out)
 {
     if (query == NULL || navmesh == NULL || request == NULL || move_out == NULL ||
         (polygons_out == NULL && capacity > 0) || !tl_nav_filter_is_begun(request->filter)) {
@@ -159,4 +161,15 @@ tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh 
         return TL_ERR_NODES;
     }
     return move_out->polygon_count <= capacity || capacity == 0 ? TL_OK : TL_INCOMPLETE;
+}
+
+tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh *navmesh,
+                                          const tl_nav_move_request *request, tl_nav_ref *polygons_out,
+                                          uint32_t capacity, tl_nav_move *move_out)
+{
+    tl_result result;
+    do {
+        result = move_along_surface_within(query, navmesh, request, polygons_out, capacity, move_out);
+    } while (result == TL_ERR_NODES && tl_nav_query_grow(query));
+    return result;
 }

@@ -15,6 +15,7 @@
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/plane/circle_corners.h"
 #include "nav_query/plane/point_of_random.h"
+#include "nav_query/search/query_memory.h"
 
 #include <string.h>
 
@@ -295,9 +296,10 @@ tl_result tl_nav_query_random_reachable(tl_nav_query *query, const tl_navmesh *n
     return tl_nav_query_random_reachable_points(query, navmesh, request, random, 1, location_out);
 }
 
-tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_navmesh *navmesh,
-                                               const tl_nav_around_request *request, const uint64_t *random,
-                                               uint32_t count, tl_nav_location *locations_out)
+// Within the nodes that the query has now.
+static tl_result random_reachable_points_within(tl_nav_query *query, const tl_navmesh *navmesh,
+                                                const tl_nav_around_request *request, const uint64_t *random,
+                                                uint32_t count, tl_nav_location *locations_out)
 {
     if (query == NULL || navmesh == NULL || request == NULL ||
         ((random == NULL || locations_out == NULL) && count > 0) || !tl_nav_filter_is_begun(request->filter)) {
@@ -339,4 +341,15 @@ tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_nav
                                                point_in_clip(&flood, &part, at, random[2 * i + 1]), &inside);
     }
     return flood.out_of_nodes ? TL_ERR_NODES : TL_OK;
+}
+
+tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_navmesh *navmesh,
+                                               const tl_nav_around_request *request, const uint64_t *random,
+                                               uint32_t count, tl_nav_location *locations_out)
+{
+    tl_result result;
+    do {
+        result = random_reachable_points_within(query, navmesh, request, random, count, locations_out);
+    } while (result == TL_ERR_NODES && tl_nav_query_grow(query));
+    return result;
 }

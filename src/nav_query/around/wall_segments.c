@@ -9,6 +9,7 @@
 #include "nav_query/navmesh/plan.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/search/local_search.h"
+#include "nav_query/search/query_memory.h"
 
 #include <math.h>
 #include <talus/nav_around.h>
@@ -116,8 +117,9 @@ static void gather_polygon_walls(wall_gathering *walls, uint32_t node)
     }
 }
 
-tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_around_request *request,
-                                  tl_nav_wall_segment *segments_out, uint32_t capacity, uint32_t *count_out)
+// Within the nodes that the query has now.
+static tl_result find_walls_within(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_around_request *request,
+                                   tl_nav_wall_segment *segments_out, uint32_t capacity, uint32_t *count_out)
 {
     if (query == NULL || navmesh == NULL || request == NULL || count_out == NULL ||
         (segments_out == NULL && capacity > 0) || !tl_nav_filter_is_begun(request->filter)) {
@@ -158,4 +160,14 @@ tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh
         return TL_ERR_NODES;
     }
     return walls.count <= capacity ? TL_OK : TL_INCOMPLETE;
+}
+
+tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_around_request *request,
+                                  tl_nav_wall_segment *segments_out, uint32_t capacity, uint32_t *count_out)
+{
+    tl_result result;
+    do {
+        result = find_walls_within(query, navmesh, request, segments_out, capacity, count_out);
+    } while (result == TL_ERR_NODES && tl_nav_query_grow(query));
+    return result;
 }

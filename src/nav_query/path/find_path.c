@@ -22,6 +22,7 @@
 #include "nav_query/plane/crossing.h"
 #include "nav_query/prepared/graph_query.h"
 #include "nav_query/search/node_pool.h"
+#include "nav_query/search/query_memory.h"
 
 #include <string.h>
 
@@ -146,6 +147,7 @@ static void begin_by_ways(tl_nav_path_run *run)
 {
     tl_nav_way_search *search = &run->ways;
     search->detour = min_shortcut_distance(search);
+    search->out_of_nodes = false;
     tl_nav_pool_reset(search->query);
     relax_way(search, PATH_START_KEY, run->exact.start_slot, run->exact.start_polygon, run->start.point, 0.0f,
               TL_NAV_NO_NODE);
@@ -294,10 +296,22 @@ tl_result tl_nav_run_write(const tl_nav_path_run *run, tl_nav_ref *polygons_out,
 
 static void note_exact_end(tl_nav_path_run *run, tl_nav_search_end end)
 {
+    while (end == TL_NAV_SEARCH_OUT_OF_NODES && tl_nav_query_grow(run->exact.query)) {
+        end = tl_nav_begin_shortest(&run->exact);
+    }
     if (end == TL_NAV_SEARCH_FOUND) {
         run->status = TL_NAV_PATH_COMPLETE;
     } else if (end != TL_NAV_SEARCH_PAUSED) {
         begin_by_ways(run);
+    }
+}
+
+static void note_ways_end(tl_nav_path_run *run, tl_nav_path_status end)
+{
+    if (end == TL_NAV_PATH_OUT_OF_NODES && tl_nav_query_grow(run->ways.query)) {
+        begin_by_ways(run);
+    } else {
+        run->status = end;
     }
 }
 
@@ -348,11 +362,12 @@ tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const
 
 void tl_nav_run_step(tl_nav_path_run *run, uint64_t *steps)
 {
-    if (run->status == TL_NAV_PATH_UNFINISHED && run->stage == TL_NAV_RUN_EXACT) {
-        note_exact_end(run, tl_nav_step_shortest(&run->exact, steps));
-    }
-    if (run->status == TL_NAV_PATH_UNFINISHED && run->stage == TL_NAV_RUN_WAYS) {
-        run->status = step_by_ways(&run->ways, steps);
+    while (*steps > 0 && run->status == TL_NAV_PATH_UNFINISHED) {
+        if (run->stage == TL_NAV_RUN_EXACT) {
+            note_exact_end(run, tl_nav_step_shortest(&run->exact, steps));
+        } else {
+            note_ways_end(run, step_by_ways(&run->ways, steps));
+        }
     }
 }
 

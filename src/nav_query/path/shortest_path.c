@@ -6,6 +6,7 @@
 #include "nav_query/exact/shortest_search.h"
 #include "nav_query/path/path_run.h"
 #include "nav_query/prepared/graph_query.h"
+#include "nav_query/search/query_memory.h"
 
 #include <math.h>
 #include <string.h>
@@ -40,7 +41,10 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
     }
     memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_PATH_UNREACHABLE;
-    tl_nav_search_end end = tl_nav_search_shortest(&search);
+    tl_nav_search_end end;
+    do {
+        end = tl_nav_search_shortest(&search);
+    } while (end == TL_NAV_SEARCH_OUT_OF_NODES && tl_nav_query_grow(query));
     path_out->node_count = query->wedge_count;
     if (end != TL_NAV_SEARCH_FOUND) {
         path_out->status = end == TL_NAV_SEARCH_EXHAUSTED ? TL_NAV_PATH_UNREACHABLE : TL_NAV_PATH_OUT_OF_NODES;

@@ -264,10 +264,12 @@ bool tl_nav_find_ends(const tl_nav_shortest_search *search, const tl_nav_visibil
     ends_out->starts = search->query->legs;
     ends_out->start_count = vertices_in_cones(graph, &start, search->goal, ends_out->starts, room);
     if (ends_out->start_count == TL_NAV_NO_NODE) {
+        search->query->is_short = true;
         return false;
     }
     room -= ends_out->start_count;
     ends_out->goals = ends_out->starts + ends_out->start_count;
     ends_out->goal_count = vertices_in_cones(graph, &goal, search->start, ends_out->goals, room);
+    search->query->is_short = search->query->is_short || ends_out->goal_count == TL_NAV_NO_NODE;
     return ends_out->goal_count != TL_NAV_NO_NODE;
 }

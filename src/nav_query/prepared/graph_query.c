@@ -12,6 +12,7 @@
 #include "nav_query/prepared/corner_distances.h"
 #include "nav_query/prepared/graph_path.h"
 #include "nav_query/prepared/graph_search.h"
+#include "nav_query/search/query_memory.h"
 #include "nav_query/search/root_table.h"
 
 #include <string.h>
@@ -42,6 +43,7 @@ static bool find_by_lengths(tl_nav_shortest_search *search, const tl_nav_visibil
         uint32_t count = 0;
         tl_nav_meeting best = best_pair(query, graph, ends, &count);
         if (count == UINT32_MAX) {
+            query->is_short = query->is_short || best.start != NULL;
             return false;
         }
         // Five roundings a leg, three of what is known, three of sums.
@@ -122,9 +124,19 @@ bool tl_nav_find_over_graph(tl_nav_shortest_search *search, const tl_nav_visibil
         return false;
     }
     // From here on the query's memory is used: a search in slices that was under way is no more.
-    tl_nav_next_generation(search->query);
-    tl_nav_ends ends;
-    return tl_nav_find_ends(search, graph, &ends) &&
-           ((knows_lengths(search->query, graph) && find_by_lengths(search, graph, &ends, room, path_out)) ||
-            (tl_nav_find_ends(search, graph, &ends) && tl_nav_search_graph(search, graph, &ends, room, path_out)));
+    tl_nav_query *query = search->query;
+    bool is_found;
+    if (graph->labels.first != NULL) {
+        tl_nav_query_make_room(query, graph->vertex_count);
+    }
+    do {
+        tl_nav_ends ends;
+        tl_nav_next_generation(query);
+        query->is_short = false;
+        is_found =
+            tl_nav_find_ends(search, graph, &ends) &&
+            ((knows_lengths(query, graph) && find_by_lengths(search, graph, &ends, room, path_out)) ||
+             (tl_nav_find_ends(search, graph, &ends) && tl_nav_search_graph(search, graph, &ends, room, path_out)));
+    } while (!is_found && query->is_short && tl_nav_query_grow(query));
+    return is_found;
 }

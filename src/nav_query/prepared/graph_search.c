@@ -53,6 +53,7 @@ static uint32_t new_stop(graph_search *s, uint32_t vertex)
 {
     tl_nav_query *query = s->query;
     if (query->stop_count == query->max_nodes) {
+        query->is_short = true;
         s->is_unclear = true;
         return TL_NAV_NO_NODE;
     }
@@ -67,6 +68,7 @@ static uint32_t stop_at(graph_search *s, uint32_t vertex)
     bool found = false;
     tl_nav_root *root = tl_nav_find_root(s->query, vertex, &found);
     if (root == NULL) {
+        s->query->is_short = true;
         s->is_unclear = true;
         return TL_NAV_NO_NODE;
     }
@@ -79,6 +81,7 @@ static uint32_t stop_at(graph_search *s, uint32_t vertex)
 static void open_stop(graph_search *s, uint32_t index)
 {
     if (s->query->open_count == s->query->max_nodes) {
+        s->query->is_short = true;
         s->is_unclear = true;
         return;
     }

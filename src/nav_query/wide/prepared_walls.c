@@ -14,6 +14,7 @@
 // change, by the places of tiles; the next call makes that anew.
 
 #include "nav_query/wide/prepared_walls.h"
+#include "nav_query/search/query_memory.h"
 #include "nav_query/wide/wall_cell.h"
 
 #include "base/arena.h"
@@ -146,12 +147,10 @@ static tl_result add_pairs(wall_baker *b, const tl_nav_wall_cell *cell)
 
 static tl_result make_wall_query(wall_baker *b, uint32_t nodes)
 {
-    tl_nav_query_destroy(b->query);
+    tl_nav_query_release(b->query);
     b->query = NULL;
-    tl_nav_query_def def = tl_default_nav_query_def();
-    def.max_nodes = nodes;
-    def.allocator = &b->navmesh->allocator;
-    return tl_nav_query_create(&def, &b->query, NULL);
+    const tl_nav_query_sizes none = { 0, 0 };
+    return tl_nav_query_allocate(nodes, none, &b->navmesh->allocator, &b->query);
 }
 
 // Gathers the walls around a polygon, with more nodes if need be. The list lies in the query's memory.
@@ -374,7 +373,7 @@ tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_def *de
     b.pairs.size = sizeof(tl_nav_wall_pair);
     uint32_t made = 0;
     tl_result result = b.reach > 0.0 ? make_all(&b, navmesh, &made) : TL_OK;
-    tl_nav_query_destroy(b.query);
+    tl_nav_query_release(b.query);
     item_list *lists[3] = { &b.walls, &b.hits, &b.pairs };
     for (int i = 0; i < 3; i++) {
         tl_release_array(&navmesh->allocator, lists[i]->at, lists[i]->capacity, lists[i]->size);

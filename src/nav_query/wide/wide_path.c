@@ -2,6 +2,7 @@
 //
 // Paths for agents wider than the one that the mesh was baked for: the public calls.
 
+#include "nav_query/search/query_memory.h"
 #include "nav_query/wide/free_pieces.h"
 #include "nav_query/wide/wide_search.h"
 
@@ -99,9 +100,10 @@ static tl_result write_path(tl_nav_wide_search *search, tl_nav_corner *corners_o
     return path_out->corner_count <= capacity ? TL_OK : TL_INCOMPLETE;
 }
 
-// What a path and the question whether there is one have in common. `buffers` NULL: only the question.
-static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
-                           float radius, const tl_nav_path_buffers *buffers, tl_nav_wide_path *path_out)
+// What a path and the question whether there is one have in common, within the nodes that the query has now. `buffers`
+// NULL: only the question.
+static tl_result find_wide_within(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
+                                  float radius, const tl_nav_path_buffers *buffers, tl_nav_wide_path *path_out)
 {
     memset(path_out, 0, sizeof *path_out);
     if (!isfinite(radius)) {
@@ -138,6 +140,16 @@ static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const
     return buffers == NULL || path_out->status != TL_NAV_WIDE_COMPLETE
                ? TL_OK
                : write_path(&search, buffers->corners, buffers->corner_capacity, path_out);
+}
+
+static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
+                           float radius, const tl_nav_path_buffers *buffers, tl_nav_wide_path *path_out)
+{
+    tl_result result;
+    do {
+        result = find_wide_within(query, navmesh, request, radius, buffers, path_out);
+    } while (path_out->status == TL_NAV_WIDE_OUT_OF_NODES && tl_nav_query_grow(query));
+    return result;
 }
 
 tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *navmesh,
@@ -187,9 +199,10 @@ static bool segment_clearance(tl_nav_clearance *clearance, const tl_nav_corner *
     return fits;
 }
 
-tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                      const tl_nav_corner *corners, uint32_t count, float max_distance,
-                                      float *clearance_out)
+// Within the nodes that the query has now.
+static tl_result path_clearance_within(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                       const tl_nav_corner *corners, uint32_t count, float max_distance,
+                                       float *clearance_out)
 {
     if (query == NULL || navmesh == NULL || corners == NULL || clearance_out == NULL ||
         !tl_nav_filter_is_begun(filter)) {
@@ -221,4 +234,15 @@ tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navmesh *nav
     }
     *clearance_out = (float)sqrt(min_sq);
     return TL_OK;
+}
+
+tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                      const tl_nav_corner *corners, uint32_t count, float max_distance,
+                                      float *clearance_out)
+{
+    tl_result result;
+    do {
+        result = path_clearance_within(query, navmesh, filter, corners, count, max_distance, clearance_out);
+    } while (result == TL_ERR_NODES && tl_nav_query_grow(query));
+    return result;
 }

@@ -11,6 +11,7 @@
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/navmesh/surface.h"
+#include "nav_query/search/query_memory.h"
 #include "nav_query/wide/free_pieces.h"
 
 #include "math/tolerance.h"
@@ -275,9 +276,10 @@ static void search_outward(place_search *search)
     }
 }
 
-tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *navmesh,
-                                       const tl_nav_around_request *request, float agent_radius,
-                                       tl_nav_location *place_out)
+// Within the nodes that the query has now.
+static tl_result find_wide_place_within(tl_nav_query *query, const tl_navmesh *navmesh,
+                                        const tl_nav_around_request *request, float agent_radius,
+                                        tl_nav_location *place_out)
 {
     if (query == NULL || navmesh == NULL || request == NULL || place_out == NULL ||
         !tl_nav_filter_is_begun(request->filter)) {
@@ -318,4 +320,15 @@ tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *na
     tl_nav_met home = { search.best_slot, search.best_polygon };
     *place_out = tl_nav_spot_on_surface(&clearance, home, search.best);
     return TL_OK;
+}
+
+tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *navmesh,
+                                       const tl_nav_around_request *request, float agent_radius,
+                                       tl_nav_location *place_out)
+{
+    tl_result result;
+    do {
+        result = find_wide_place_within(query, navmesh, request, agent_radius, place_out);
+    } while (result == TL_ERR_NODES && tl_nav_query_grow(query));
+    return result;
 }
