@@ -142,9 +142,9 @@ static bool code_vertices(const tl_nav_surface *surface, float x, float z, uint8
     return true;
 }
 
-float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, float z)
+static bool find_height(const tl_nav_surface *of, float x, float z, float *height_out)
 {
-    tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
+    const tl_nav_surface surface = *of;
     uint8_t codes[MAX_CODES];
     bool has_codes = code_vertices(&surface, x, z, codes);
     for (uint32_t i = 0; i < surface.triangle_count; i++) {
@@ -158,19 +158,40 @@ float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, 
         corners_of(&surface, i, corners);
         divide_triangle(*corners[0], *corners[1], *corners[2], (double)x, (double)z, parts);
         if (has_no_negative_part(parts) && weigh(parts, &weights)) {
-            return mix_heights(corners, &weights);
+            *height_out = mix_heights(corners, &weights);
+            return true;
         }
     }
-    return height_beside(&surface, (double)x, (double)z);
+    return false;
+}
+
+bool tl_nav_find_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, float z, float *height_out)
+{
+    const tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
+    return find_height(&surface, x, z, height_out);
+}
+
+float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, float z)
+{
+    const tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
+    float height = 0.0f;
+    return find_height(&surface, x, z, &height) ? height : height_beside(&surface, (double)x, (double)z);
 }
 
 tl_result tl_navmesh_height(const tl_navmesh *navmesh, tl_nav_ref ref, float x, float z, float *height_out)
 {
     tl_vec3 closest;
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
     if (height_out == NULL) {
         return TL_ERR_ARGUMENT;
     }
     *height_out = 0.0f;
+    // A point over the surface is over the polygon: its outline need not be asked.
+    if (navmesh != NULL && isfinite(x) && isfinite(z) && tl_nav_split_ref(navmesh, ref, &slot, &polygon) &&
+        tl_nav_find_surface_height(navmesh->slots[slot].tile, polygon, x, z, height_out)) {
+        return TL_OK;
+    }
     tl_result result = tl_navmesh_closest_point(navmesh, ref, tl_vec3_make(x, 0.0f, z), &closest, NULL);
     if (result == TL_OK) {
         *height_out = closest.y;

@@ -10,6 +10,9 @@
 /// The height of a polygon's surface at x and z; where no triangle holds the point, that of the nearest one.
 float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, float z);
 
+/// The height where a triangle of the polygon's surface holds x and z. False: none does.
+bool tl_nav_find_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, float z, float *height_out);
+
 /// Whether x and z lie over the polygon, its outline included. Exact.
 bool tl_nav_is_over(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point);
 
