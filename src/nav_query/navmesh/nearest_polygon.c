@@ -7,6 +7,7 @@
 // never prunes the answer, and the result is bit by bit that of trying all polygons. The branches of the bound stay:
 // without them, or with both children's boxes held against the search's at once, it takes 6 to 18% longer.
 
+#include "base/min_max.h"
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
@@ -112,6 +113,58 @@ static void search_tile_nearest(nearest_search *search, uint32_t slot)
                 continue;
             }
             try_nearest(search, slot, node->polygon);
+        }
+        if (depth == 0) {
+            return;
+        }
+        at = stack[--depth];
+    }
+}
+
+// The squared distance to a box, without a branch.
+static float gap_sq_to_box(tl_vec3 c, const tl_aabb *box)
+{
+    const float dx = tl_max_f32(tl_max_f32(box->min.x - c.x, c.x - box->max.x), 0.0f);
+    const float dy = tl_max_f32(tl_max_f32(box->min.y - c.y, c.y - box->max.y), 0.0f);
+    const float dz = tl_max_f32(tl_max_f32(box->min.z - c.z, c.z - box->max.z), 0.0f);
+    return dx * dx + dz * dz + dy * dy;
+}
+
+// The same for the nearest polygon of an island: all polygons around a point that cannot be reached are of others, so
+// what holds one component alone, of another island, is left out as a whole.
+static void search_tile_on_island(nearest_search *search, uint32_t slot)
+{
+    const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
+    const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
+    const tl_nav_rings *rings = &search->navmesh->slots[slot].rings;
+    const tl_nav_island_label *labels = search->navmesh->islands.labels[TL_NAV_ISLANDS];
+    pending_tile_node stack[TL_NAV_MAX_TILE_DEPTH + 1];
+    uint32_t depth = 0;
+    pending_tile_node at = { 0, gap_sq_to_box(search->center, &nodes[0].box) };
+    uint32_t known = TL_NAV_MIXED_COMPONENTS; // the component that was asked for last
+    bool known_is_on = false;
+    for (;;) {
+        const uint32_t component = rings->node_component[at.node];
+        bool is_on = at.bound <= search->best;
+        if (is_on && component != TL_NAV_MIXED_COMPONENTS) {
+            if (component != known) {
+                const uint32_t label = search->navmesh->islands.nodes[rings->island[component]].labels[TL_NAV_ISLANDS];
+                known = component;
+                known_is_on = tl_nav_label_root(labels, label) == search->island;
+            }
+            is_on = known_is_on;
+        }
+        if (is_on && nodes[at.node].polygon == TL_NO_POLYGON) {
+            const uint32_t second = nodes[at.node + 1].skip;
+            const pending_tile_node a = { at.node + 1, gap_sq_to_box(search->center, &nodes[at.node + 1].box) };
+            const pending_tile_node b = { second, gap_sq_to_box(search->center, &nodes[second].box) };
+            const bool ordered = a.bound <= b.bound;
+            stack[depth++] = ordered ? b : a;
+            at = ordered ? a : b;
+            continue;
+        }
+        if (is_on) {
+            try_nearest(search, slot, nodes[at.node].polygon);
         }
         if (depth == 0) {
             return;
@@ -250,7 +303,7 @@ tl_result tl_navmesh_find_nearest_reachable(const tl_navmesh *navmesh, const tl_
     search.island = tl_nav_island_of(navmesh, slot, polygon);
     for (slot = 0; slot < navmesh->slot_count; slot++) {
         if (navmesh->slots[slot].tile != NULL) {
-            search_tile_nearest(&search, slot);
+            search_tile_on_island(&search, slot);
         }
     }
     return write_nearest(&search, location_out);

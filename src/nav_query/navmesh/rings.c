@@ -166,12 +166,29 @@ static void label_components(tl_nav_rings *rings, uint32_t *stack)
     }
 }
 
+// From the leaves up: a node's children stand behind it.
+static void label_tree_nodes(const tl_nav_tile *tile, tl_nav_rings *rings)
+{
+    const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
+    for (uint32_t i = tile->node_count; i > 0; i--) {
+        const uint32_t node = i - 1;
+        if (nodes[node].polygon != TL_NO_POLYGON) {
+            rings->node_component[node] = rings->component[nodes[node].polygon];
+        } else {
+            const uint32_t first = rings->node_component[node + 1];
+            const uint32_t second = rings->node_component[nodes[node + 1].skip];
+            rings->node_component[node] = first == second ? first : TL_NAV_MIXED_COMPONENTS;
+        }
+    }
+}
+
 // Room for the arrays, one behind the other: the widest alignment any of them needs is that of their numbers.
-static bool allocate_rings(const tl_allocator *allocator, uint64_t polygons, uint64_t edges, uint64_t seams,
+static bool allocate_rings(const tl_allocator *allocator, const tl_nav_tile *tile, uint64_t edges, uint64_t seams,
                            tl_nav_rings *rings)
 {
+    const uint64_t polygons = tile->polygon_count;
     uint64_t size = edges * (sizeof(tl_nav_ring_edge) + sizeof(tl_nav_ring_walls)) + seams * sizeof(tl_nav_ring_seam) +
-                    (polygons + 1) * sizeof(tl_nav_ring_cell) + 3 * polygons * sizeof(uint32_t);
+                    (polygons + 1) * sizeof(tl_nav_ring_cell) + (3 * polygons + tile->node_count) * sizeof(uint32_t);
     char *at = tl_allocate_array(allocator, size, 1);
     if (at == NULL) {
         return false;
@@ -189,6 +206,7 @@ static bool allocate_rings(const tl_allocator *allocator, uint64_t polygons, uin
     rings->component = (uint32_t *)(void *)at;
     rings->island = rings->component + polygons;
     rings->next_member = rings->island + polygons;
+    rings->node_component = rings->next_member + polygons;
     return true;
 }
 
@@ -229,11 +247,12 @@ static void fill_rings(const tl_nav_tile *tile, const tl_nav_side_links *sides[T
 }
 
 // Components do not depend on seams.
-static void copy_components(const tl_nav_rings *old, tl_nav_rings *rings)
+static void copy_components(const tl_nav_rings *old, uint32_t node_count, tl_nav_rings *rings)
 {
     memcpy(rings->component, old->component, rings->polygon_count * sizeof *rings->component);
     memcpy(rings->island, old->island, old->component_count * sizeof *rings->island);
     memcpy(rings->next_member, old->next_member, rings->polygon_count * sizeof *rings->next_member);
+    memcpy(rings->node_component, old->node_component, node_count * sizeof *rings->node_component);
     rings->component_count = old->component_count;
 }
 
@@ -254,7 +273,7 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
     tl_nav_rings rings;
     memset(&rings, 0, sizeof rings);
     uint32_t *scratch = tl_allocate_array(allocator, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
-    if (scratch == NULL || !allocate_rings(allocator, tile->polygon_count, edges, seams, &rings)) {
+    if (scratch == NULL || !allocate_rings(allocator, tile, edges, seams, &rings)) {
         tl_release_array(allocator, scratch, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
         return TL_ERR_MEMORY;
     }
@@ -264,9 +283,10 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
     fill_rings(tile, sides, scratch, old, &rings);
     TL_ASSERT(rings.cells[tile->polygon_count].first <= edges);
     if (old != NULL) {
-        copy_components(old, &rings);
+        copy_components(old, tile->node_count, &rings);
     } else {
         label_components(&rings, scratch);
+        label_tree_nodes(tile, &rings);
     }
     tl_nav_mark_dead_ends(&rings, scratch);
     tl_release_array(allocator, scratch, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);

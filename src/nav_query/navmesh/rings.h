@@ -36,6 +36,8 @@ typedef struct tl_nav_ring_walls {
     float last_x, last_z;
 } tl_nav_ring_walls;
 
+#define TL_NAV_MIXED_COMPONENTS UINT32_MAX
+
 typedef struct tl_nav_ring_cell {
     uint32_t first;    ///< of the polygon's edges; they end where the next cell's begin
     uint32_t dead_end; ///< 0, or the dead end of this tile that the polygon belongs to (dead_ends.c)
@@ -49,6 +51,8 @@ typedef struct tl_nav_rings {
     uint32_t *component;   ///< by polygon: its connected component within the tile, from 0
     uint32_t *island;      ///< by component: a node of the navmesh's islands (islands.c)
     uint32_t *next_member; ///< by polygon: the next one of its component, around
+    /// By node of the tile's box tree: the component of all polygons below it, or TL_NAV_MIXED_COMPONENTS.
+    uint32_t *node_component;
     uint32_t polygon_count, component_count;
     bool has_back; ///< some edge is a TL_NAV_RING_BACK
     void *block;   ///< that all arrays stand in
