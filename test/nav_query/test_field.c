@@ -232,11 +232,11 @@ static double area_in_circle(const tl_navmesh *navmesh, tl_nav_ref ref, tl_vec3 
     return area;
 }
 
-// As many first numbers, evenly spaced, as a polygon has of them by its area; and the same points one by one.
+// Each polygon is met as often as its part in the circle is large; and the same points one by one.
 static void test_reachable_areas(void **state)
 {
     (void)state;
-    enum { POINTS = 2000 };
+    enum { POINTS = 8000 };
     test_random random = { 83 };
     tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
@@ -257,7 +257,7 @@ static void test_reachable_areas(void **state)
         uint32_t count = 0;
         TEST_RESULT(tl_nav_query_flood(query, navmesh, &center, &field, entries, CAPACITY, &count), TL_OK);
         for (uint32_t i = 0; i < POINTS; i++) {
-            bits[2 * i] = (uint64_t)i * (UINT64_MAX / POINTS);
+            bits[2 * i] = test_random_u64(&random);
             bits[2 * i + 1] = test_random_u64(&random);
         }
         TEST_RESULT(tl_nav_query_random_reachable_points(
@@ -273,7 +273,9 @@ static void test_reachable_areas(void **state)
             for (uint32_t i = 0; i < POINTS; i++) {
                 met += points[i].polygon == entries[k].polygon;
             }
-            TEST_CHECK(fabs((double)met - POINTS * area / sum) <= 1.01);
+            // Five deviations of a count, of which there are some hundreds, and one for those that are rare.
+            TEST_CHECK(fabs((double)met - POINTS * area / sum) <= 5.0 * sqrt(POINTS * area / sum) + 1.01);
+            TEST_CHECK(area > 0.0 || met == 0);
             partial += area > 0.0 && area < area_in_circle(navmesh, entries[k].polygon, center.point, 1000.0) * 0.999;
             whole += area > 0.0;
         }
@@ -289,6 +291,58 @@ static void test_reachable_areas(void **state)
     }
     tl_nav_query_destroy(query);
     TEST_CHECK(partial > 100 && whole > partial);
+}
+
+// A sliver's point, of which a circle around it holds next to nothing of what surrounds it: most draws are refused, and
+// points are picked from the part itself. As many lie in each ring around the point as the ring is large.
+static void test_reachable_sliver(void **state)
+{
+    (void)state;
+    enum { POINTS = 4000, RINGS = 5 };
+    const int32_t vertices[] = { 0, 0, 0, 400, 0, 9, 400, 0, 8 };
+    const uint32_t first[] = { 0, 3 }, indices[] = { 0, 1, 2 }, areas[] = { 1 };
+    const uint32_t neighbours[] = { TL_NO_POLYGON, TL_NO_POLYGON, TL_NO_POLYGON };
+    tl_polygon_mesh mesh;
+    memset(&mesh, 0, sizeof mesh);
+    mesh.vertex_count = mesh.index_count = 3;
+    mesh.polygon_count = 1;
+    mesh.vertices = (int32_t *)(uintptr_t)vertices;
+    mesh.first = (uint32_t *)(uintptr_t)first;
+    mesh.indices = (uint32_t *)(uintptr_t)indices;
+    mesh.neighbours = (uint32_t *)(uintptr_t)neighbours;
+    mesh.areas = (uint32_t *)(uintptr_t)areas;
+    mesh.cell_size = mesh.cell_height = 0.25f;
+    tl_nav_tile_source source;
+    memset(&source, 0, sizeof source);
+    source.polygons = &mesh;
+    source.agent_height = 2.0f;
+    tl_nav_tile *tile = NULL;
+    TEST_RESULT(tl_nav_tile_encode(&source, NULL, &tile, NULL), TL_OK);
+    tl_navmesh *navmesh = NULL;
+    TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
+    TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
+    tl_nav_query *query = fixture_query(16);
+    test_random random = { 91 };
+    const tl_nav_location tip = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 0, 0, 0 } };
+    const float radius = 1.0f;
+    uint32_t met[RINGS] = { 0 };
+    for (uint32_t i = 0; i < POINTS; i++) {
+        const uint64_t bits[2] = { test_random_u64(&random), test_random_u64(&random) };
+        tl_nav_location at;
+        TEST_RESULT(
+            tl_nav_query_random_reachable(query, navmesh, &(tl_nav_around_request){ NULL, tip, radius }, bits, &at),
+            TL_OK);
+        const double share = sqrt((double)at.point.x * (double)at.point.x + (double)at.point.z * (double)at.point.z);
+        TEST_CHECK(share <= 1.00001 && at.polygon == tip.polygon);
+        met[share < 1.0 ? (uint32_t)(share * RINGS) : RINGS - 1]++;
+    }
+    for (uint32_t k = 0; k < RINGS; k++) {
+        const double expected = POINTS * (2.0 * k + 1.0) / (RINGS * RINGS);
+        // The outermost 0.5% of the circle may be missing.
+        TEST_CHECK(fabs((double)met[k] - expected) <= 5.0 * sqrt(expected) + 0.01 * POINTS);
+    }
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 // Weighs what a draw must look like by drawing all over the level and keeping what lies within.
@@ -434,8 +488,8 @@ static void test_arguments(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_fields), cmocka_unit_test(test_reachable),
-                                        cmocka_unit_test(test_reachable_areas), cmocka_unit_test(test_links),
-                                        cmocka_unit_test(test_arguments) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_fields),          cmocka_unit_test(test_reachable),
+                                        cmocka_unit_test(test_reachable_areas), cmocka_unit_test(test_reachable_sliver),
+                                        cmocka_unit_test(test_links),           cmocka_unit_test(test_arguments) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// A random point that can be reached: flood the circle, clip each polygon to it, pick one by area.
+// A random point that can be reached: flood the circle, and pick from the polygons' parts in it by rejection sampling.
 //
 // Detour picks among whole polygons, so its points may lie far outside the circle, and it ignores the length of the
-// path. The circle here is a polygon of 32 sides inscribed in it, so that clipping makes polygons, whose areas and
-// points need no rejection sampling: two random numbers always suffice. Clipping walks once around the polygon (Weiler
-// and Atherton 1977, for two convex ones); cutting by one side after the other (Sutherland and Hodgman 1974) takes five
-// times as long.
+// path. Here a point is drawn from the polygons, or where one is larger than that from its box within the circle's,
+// whose areas are known; it counts when it lies in both polygon and circle, about every second time. More numbers than
+// the caller's two are those of a generator that begins with them. A point that is refused too often is picked from the
+// parts themselves, cut out: that is as uniform, needs no rejection, and takes as long as all else together. The circle
+// is a polygon of 32 sides inscribed in it, so that the parts are polygons. Clipping walks once around the polygon
+// (Weiler and Atherton 1977, for two convex ones); cutting by one side after the other (Sutherland and Hodgman 1974)
+// takes five times as long. Source: von Neumann, Various Techniques Used in Connection With Random Digits, 1951.
 
 #include "base/assert.h"
+#include "base/min_max.h"
+#include "base/random.h"
 #include "nav_query/around/flood.h"
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/navmesh.h"
@@ -252,25 +257,25 @@ static double sum_clip_areas(const tl_nav_flood *flood, const circle *c)
         clip_polygon part;
         clip_to_circle(flood, &query->nodes[i], c, &part);
         sum += clip_area(&part);
-        query->area_sums[i] = sum;
+        query->part_sums[i] = sum;
     }
     return sum;
 }
 
 // The node in whose part area `*at`, below the sum of all, lies; it becomes that within the part.
-static uint32_t find_part(const tl_nav_query *query, double *at)
+static uint32_t find_part(const double *sums, uint32_t count, double *at)
 {
     uint32_t low = 0;
-    uint32_t high = query->node_count - 1;
+    uint32_t high = count - 1;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        if (*at < query->area_sums[middle]) {
+        if (*at < sums[middle]) {
             high = middle;
         } else {
             low = middle + 1;
         }
     }
-    *at -= low > 0 ? query->area_sums[low - 1] : 0.0;
+    *at -= low > 0 ? sums[low - 1] : 0.0;
     return low;
 }
 
@@ -287,6 +292,149 @@ static tl_vec3 point_in_clip(const tl_nav_flood *flood, const clip_polygon *part
     double x = p[0].x + second * (p[i].x - p[0].x) + third * (p[i + 1].x - p[0].x);
     double z = p[0].z + second * (p[i].z - p[0].z) + third * (p[i + 1].z - p[0].z);
     return tl_vec3_make((float)((double)flood->zone->center.x + x), 0.0f, (float)((double)flood->zone->center.z + z));
+}
+
+// What a polygon's points are drawn from, around the centre: the polygon, or its box within the circle's.
+typedef struct draw_region {
+    bool is_box;
+    double low_x, low_z, high_x, high_z;
+    double area;
+} draw_region;
+
+static draw_region region_of(const tl_nav_flood *flood, const tl_nav_node *node, double radius)
+{
+    const tl_nav_slot *slot = &flood->navmesh->slots[node->slot];
+    const double square = (double)slot->tile->cell_size * (double)slot->tile->cell_size;
+    draw_region r = { false,   -radius,
+                      -radius, radius,
+                      radius,  0.5 * square * (double)(slot->areas[node->polygon + 1] - slot->areas[node->polygon]) };
+    if (r.area > radius * radius) {
+        const tl_vec3 center = flood->zone->center;
+        uint32_t count = 0;
+        const tl_vec3 *corners = tl_nav_tile_corners(slot->tile, node->polygon, &count);
+        tl_aabb box = { corners[0], corners[0] };
+        for (uint32_t i = 1; i < count; i++) {
+            box = tl_aabb_add_point(box, corners[i]);
+        }
+        r.low_x = tl_max_f64(r.low_x, (double)box.min.x - (double)center.x);
+        r.low_z = tl_max_f64(r.low_z, (double)box.min.z - (double)center.z);
+        r.high_x = tl_min_f64(r.high_x, (double)box.max.x - (double)center.x);
+        r.high_z = tl_min_f64(r.high_z, (double)box.max.z - (double)center.z);
+        const double area = tl_max_f64(r.high_x - r.low_x, 0.0) * tl_max_f64(r.high_z - r.low_z, 0.0);
+        r.is_box = area < r.area;
+        r.area = r.is_box ? area : r.area;
+    }
+    return r;
+}
+
+static double sum_regions(const tl_nav_flood *flood, double radius)
+{
+    tl_nav_query *query = flood->query;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < query->node_count; i++) {
+        sum += region_of(flood, &query->nodes[i], radius).area;
+        query->area_sums[i] = sum;
+    }
+    return sum;
+}
+
+// A point of the polygon itself: of the triangle of its fan in which `at` lies, below the polygon's area.
+static tl_nav_spot spot_in_polygon(const tl_nav_flood *flood, const tl_nav_node *node, double at, uint64_t bits)
+{
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(flood->navmesh->slots[node->slot].tile, node->polygon, &count);
+    const double x = (double)corners[0].x;
+    const double z = (double)corners[0].z;
+    uint32_t i = 1;
+    for (; i + 2 < count; i++) {
+        const double area = 0.5 * (((double)corners[i + 1].x - x) * ((double)corners[i].z - z) -
+                                   ((double)corners[i + 1].z - z) * ((double)corners[i].x - x));
+        if (at < area) {
+            break;
+        }
+        at -= area;
+    }
+    double second = 0.0;
+    double third = 0.0;
+    tl_nav_random_in_triangle(bits, &second, &third);
+    return tl_nav_spot_make(x - (double)flood->zone->center.x + second * ((double)corners[i].x - x) +
+                                third * ((double)corners[i + 1].x - x),
+                            z - (double)flood->zone->center.z + second * ((double)corners[i].z - z) +
+                                third * ((double)corners[i + 1].z - z));
+}
+
+static double unit_of_bits(uint64_t bits)
+{
+    return (double)(bits >> 11) * 0x1p-53;
+}
+
+// Draws a point, `sum` being the area of all regions. False: it has to be refused.
+static bool draw_point(const tl_nav_flood *flood, const circle *c, double sum, const uint64_t bits[2],
+                       const tl_nav_node **node_out, tl_nav_spot *spot_out)
+{
+    const tl_nav_query *query = flood->query;
+    double at = unit_of_bits(bits[0]) * sum;
+    const tl_nav_node *node = &query->nodes[find_part(query->area_sums, query->node_count, &at)];
+    *node_out = node;
+    // The circle's first corner is its radius away from the centre.
+    const draw_region r = region_of(flood, node, c->corners[0].x);
+    if (!r.is_box) {
+        *spot_out = spot_in_polygon(flood, node, at, bits[1]);
+        return is_in_circle(c, *spot_out);
+    }
+    // `at` is any number below the box's area: with it goes one axis, with the second number the other.
+    *spot_out = tl_nav_spot_make(r.low_x + at / r.area * (r.high_x - r.low_x),
+                                 r.low_z + unit_of_bits(bits[1]) * (r.high_z - r.low_z));
+    const tl_vec3 point = tl_vec3_make((float)((double)flood->zone->center.x + spot_out->x), 0.0f,
+                                       (float)((double)flood->zone->center.z + spot_out->z));
+    return is_in_circle(c, *spot_out) && tl_nav_is_over(flood->navmesh->slots[node->slot].tile, node->polygon, point);
+}
+
+// Points that were refused before the parts are cut out.
+enum { MAX_DRAWS = 24 };
+
+// What points are picked from, after a flood.
+typedef struct point_picker {
+    const tl_nav_flood *flood;
+    circle c;
+    double sum;      // of the regions' areas
+    double part_sum; // of the parts' areas; < 0: they are not cut out yet
+} point_picker;
+
+// A point by two random numbers, and others that follow from them. False: no part has any area.
+static bool pick_point(point_picker *picker, const uint64_t random[2], tl_nav_location *out)
+{
+    const tl_nav_flood *flood = picker->flood;
+    const tl_nav_query *query = flood->query;
+    const tl_nav_node *node = NULL;
+    tl_nav_spot spot;
+    uint64_t bits[2] = { random[0], random[1] };
+    uint64_t state = random[0] ^ tl_hash_mix(random[1]);
+    bool is_found = false;
+    for (int draws = 0; draws < MAX_DRAWS && picker->sum > 0.0 && !is_found; draws++) {
+        is_found = draw_point(flood, &picker->c, picker->sum, bits, &node, &spot);
+        bits[0] = tl_random_bits(&state);
+        bits[1] = tl_random_bits(&state);
+    }
+    tl_vec3 point;
+    if (is_found) {
+        point = tl_vec3_make((float)((double)flood->zone->center.x + spot.x), 0.0f,
+                             (float)((double)flood->zone->center.z + spot.z));
+    } else {
+        picker->part_sum = picker->part_sum < 0.0 ? sum_clip_areas(flood, &picker->c) : picker->part_sum;
+        if (!(picker->part_sum > 0.0)) {
+            return false;
+        }
+        double at = unit_of_bits(bits[0]) * picker->part_sum;
+        clip_polygon part;
+        node = &query->nodes[find_part(query->part_sums, query->node_count, &at)];
+        clip_to_circle(flood, node, &picker->c, &part);
+        point = point_in_clip(flood, &part, at, bits[1]);
+    }
+    bool inside = false;
+    out->polygon = node->key;
+    out->point = tl_nav_closest_on_surface(flood->navmesh->slots[node->slot].tile, node->polygon, point, &inside);
+    return true;
 }
 
 tl_result tl_nav_query_random_reachable(tl_nav_query *query, const tl_navmesh *navmesh,
@@ -321,24 +469,13 @@ static tl_result random_reachable_points_within(tl_nav_query *query, const tl_na
     if (!tl_nav_flood_run(&flood, center)) {
         return TL_ERR_STALE;
     }
-    const circle c = make_circle((double)radius);
-    const double sum = radius > 0.0f ? sum_clip_areas(&flood, &c) : 0.0;
+    point_picker picker = { &flood, make_circle((double)radius), sum_regions(&flood, (double)radius), -1.0 };
     for (uint32_t i = 0; i < count; i++) {
         tl_nav_location *out = &locations_out[i];
-        if (!(sum > 0.0)) {
+        if (!(radius > 0.0f) || !pick_point(&picker, random + 2 * (size_t)i, out)) {
             out->polygon = center->polygon;
             TL_TRY(tl_navmesh_closest_point(navmesh, center->polygon, center->point, &out->point, NULL));
-            continue;
         }
-        // Below 1, so that the product is below the sum.
-        double at = (double)(random[2 * i] >> 11) * (1.0 / 9007199254740992.0) * sum;
-        const tl_nav_node *node = &query->nodes[find_part(query, &at)];
-        clip_polygon part;
-        bool inside = false;
-        clip_to_circle(&flood, node, &c, &part);
-        out->polygon = node->key;
-        out->point = tl_nav_closest_on_surface(navmesh->slots[node->slot].tile, node->polygon,
-                                               point_in_clip(&flood, &part, at, random[2 * i + 1]), &inside);
     }
     return flood.out_of_nodes ? TL_ERR_NODES : TL_OK;
 }

@@ -67,6 +67,7 @@ struct tl_nav_query {
     union {
         uint64_t *open;      ///< a heap of open wedges, local nodes or stops (open_items.h)
         uint64_t *link_ends; ///< by a flood's node: the end of the off-mesh link by which it was entered
+        double *part_sums;   ///< by a flood's node, once links are done with (around/random_reachable.c)
         uint64_t *on_path;   ///< corner vertices of a path, the last one first
     };
     uint32_t open_count; ///< of the heap
