@@ -69,6 +69,14 @@ typedef struct wedge_side {
     uint32_t portal;
 } wedge_side;
 
+// Portals that were looked at last: where a path turns it goes back to those behind the corner.
+enum { KEPT_PORTALS = 16 };
+
+typedef struct kept_portal {
+    uint32_t number; // of the portal and 1; 0: none
+    tl_vec3 left, right;
+} kept_portal;
+
 typedef struct funnel {
     const tl_navmesh *navmesh;
     const tl_nav_ref *polygons; // of a piece
@@ -79,24 +87,33 @@ typedef struct funnel {
     uint32_t portal;        // the one to look at
     uint32_t last_portal;   // the end itself
     bool only_first;        // as many corners as fit are enough
+    kept_portal kept[KEPT_PORTALS];
     corner_list list;
 } funnel;
 
 // Portal i leads from polygon i to i + 1; the last one is the end itself.
-static tl_result portal_at(const funnel *f, uint32_t i, tl_vec3 *left_out, tl_vec3 *right_out)
+static tl_result portal_at(funnel *f, uint32_t i, tl_vec3 *left_out, tl_vec3 *right_out)
 {
     if (i == f->last_portal) {
         *left_out = f->end;
         *right_out = f->end;
         return TL_OK;
     }
-    uint32_t slot = 0;
-    uint32_t polygon = 0;
-    if (!tl_nav_split_ref(f->navmesh, f->polygons[i + 1], &slot, &polygon)) {
-        return TL_ERR_STALE;
+    kept_portal *kept = &f->kept[i % KEPT_PORTALS];
+    if (kept->number != i + 1) {
+        uint32_t slot = 0;
+        uint32_t polygon = 0;
+        if (!tl_nav_split_ref(f->navmesh, f->polygons[i + 1], &slot, &polygon)) {
+            return TL_ERR_STALE;
+        }
+        if (!tl_nav_portal_between(f->navmesh, f->polygons[i], slot, polygon, &kept->left, &kept->right)) {
+            return TL_ERR_ARGUMENT;
+        }
+        kept->number = i + 1;
     }
-    return tl_nav_portal_between(f->navmesh, f->polygons[i], slot, polygon, left_out, right_out) ? TL_OK
-                                                                                                 : TL_ERR_ARGUMENT;
+    *left_out = kept->left;
+    *right_out = kept->right;
+    return TL_OK;
 }
 
 // Makes a side of the wedge a corner and the apex; the walk continues behind its portal.
@@ -254,6 +271,7 @@ static tl_result pull_pieces(funnel *f, const tl_nav_polygon_path *path, tl_vec3
         if (!is_last) {
             TL_TRY(tl_nav_find_link(f->navmesh, &polygons[next - 1], link));
         }
+        memset(f->kept, 0, sizeof f->kept);
         f->polygons = &polygons[begin];
         f->polygon_count = next - begin;
         f->start = begin == 0 ? start : f->end;

@@ -27,6 +27,10 @@ static inline int tl_nav_side_of(tl_vec3 a, tl_vec3 b, tl_vec3 c)
     if (turn > bound || -turn > bound) {
         return turn > 0.0 ? 1 : -1;
     }
+    // Two in one place are the usual case: portals that follow one another share an end.
+    if ((c.x == b.x && c.z == b.z) || (c.x == a.x && c.z == a.z)) {
+        return 0;
+    }
     return tl_orient2d(a.x, a.z, b.x, b.z, c.x, c.z);
 }
 

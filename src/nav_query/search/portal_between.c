@@ -9,45 +9,63 @@
 
 #include "nav_query/navmesh/ring_step.h"
 
+// Whether an edge leads to a polygon: one of the same tile, or, over a seam, of another.
+static inline bool leads_to(const tl_nav_slot *slot, const tl_nav_ring_edge *edge, uint32_t own_slot, uint32_t to_slot,
+                            uint32_t to_polygon)
+{
+    if (edge->to < TL_NAV_RING_SEAM) {
+        return edge->to == to_polygon && to_slot == own_slot;
+    }
+    if (!tl_nav_ring_is_open(edge)) {
+        return false;
+    }
+    const tl_nav_ring_seam *seam = &slot->rings.seams[edge->to & ~TL_NAV_RING_SEAM];
+    return seam->slot == to_slot && seam->polygon == to_polygon;
+}
+
+static tl_vec3 start_of(const tl_nav_ring_edge *edge)
+{
+    return tl_vec3_make(edge->x, edge->y, edge->z);
+}
+
 bool tl_nav_portal_between(const tl_navmesh *navmesh, tl_nav_ref from, uint32_t to_slot, uint32_t to_polygon,
                            tl_vec3 *left_out, tl_vec3 *right_out)
 {
-    uint32_t slot = 0;
+    uint32_t own_slot = 0;
     uint32_t polygon = 0;
-    if (!tl_nav_split_ref(navmesh, from, &slot, &polygon)) {
+    if (!tl_nav_split_ref(navmesh, from, &own_slot, &polygon)) {
         return false;
     }
+    const tl_nav_slot *slot = &navmesh->slots[own_slot];
     uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, slot, polygon, &count);
-    bool found = false;
-    double leftmost = 0.0;
-    double rightmost = 0.0;
-    double dx = 0.0;
-    double dz = 0.0;
-    for (uint32_t i = 0; i < count; i++) {
-        tl_nav_ring_seam to = { 0, 0 };
-        if (tl_nav_ring_is_open(&ring[i])) {
-            to = tl_nav_ring_across(navmesh, slot, ring[i].to);
-        }
-        if (!tl_nav_ring_is_open(&ring[i]) || to.slot != to_slot || to.polygon != to_polygon) {
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(&slot->rings, polygon, &count);
+    uint32_t first = 0;
+    while (first < count && !leads_to(slot, &ring[first], own_slot, to_slot, to_polygon)) {
+        first++;
+    }
+    if (first == count) {
+        return false;
+    }
+    const tl_nav_ring_edge *begin = &ring[first];
+    const tl_nav_ring_edge *end = &ring[first + 1 < count ? first + 1 : 0];
+    *right_out = start_of(begin);
+    *left_out = start_of(end);
+    // Two polygons share more than one edge where a vertex lies between, or a seam is cut there: all of them are one.
+    const double dx = (double)end->x - (double)begin->x;
+    const double dz = (double)end->z - (double)begin->z;
+    double leftmost = dx * (double)end->x + dz * (double)end->z;
+    double rightmost = dx * (double)begin->x + dz * (double)begin->z;
+    for (uint32_t i = first + 1; i < count; i++) {
+        if (!leads_to(slot, &ring[i], own_slot, to_slot, to_polygon)) {
             continue;
         }
-        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-        if (!found) {
-            dx = (double)end->x - (double)ring[i].x;
-            dz = (double)end->z - (double)ring[i].z;
-        }
-        double left = dx * (double)end->x + dz * (double)end->z;
-        double right = dx * (double)ring[i].x + dz * (double)ring[i].z;
-        if (!found || left > leftmost) {
-            leftmost = left;
-            *left_out = tl_vec3_make(end->x, end->y, end->z);
-        }
-        if (!found || right < rightmost) {
-            rightmost = right;
-            *right_out = tl_vec3_make(ring[i].x, ring[i].y, ring[i].z);
-        }
-        found = true;
+        const tl_nav_ring_edge *next = &ring[i + 1 < count ? i + 1 : 0];
+        const double left = dx * (double)next->x + dz * (double)next->z;
+        const double right = dx * (double)ring[i].x + dz * (double)ring[i].z;
+        *left_out = left > leftmost ? start_of(next) : *left_out;
+        *right_out = right < rightmost ? start_of(&ring[i]) : *right_out;
+        leftmost = left > leftmost ? left : leftmost;
+        rightmost = right < rightmost ? right : rightmost;
     }
-    return found;
+    return true;
 }
