@@ -116,6 +116,73 @@ static void test_nodes(void **state)
     tl_navmesh_destroy(navmesh);
 }
 
+// A table keeps the polygons of edges; a graph without one walks along them. Where both turn at the same corners, their
+// polygons are the same, with room for all of them or for some.
+static uint32_t compare_kept(const tl_navmesh *kept, const tl_navmesh *walked, test_random *random, uint32_t *long_ones)
+{
+    enum { ROOM = 512 };
+    static tl_nav_ref polygons[2][ROOM], few[ROOM];
+    static tl_nav_corner corners[2][ROOM];
+    tl_nav_query *query = fixture_query(4096);
+    fixture_refs all = fixture_all_refs(kept);
+    uint32_t same = 0;
+    for (uint32_t i = 0; i < 60; i++) {
+        const tl_nav_path_request request = { NULL, fixture_random_location(kept, &all, random),
+                                              fixture_random_location(kept, &all, random) };
+        tl_nav_shortest_path a, b, c;
+        const tl_nav_path_buffers room_a = { polygons[0], ROOM, corners[0], ROOM };
+        const tl_nav_path_buffers room_b = { polygons[1], ROOM, corners[1], ROOM };
+        TEST_RESULT(tl_nav_query_find_shortest_path(query, kept, &request, &room_a, &a), TL_OK);
+        TEST_RESULT(tl_nav_query_find_shortest_path(query, walked, &request, &room_b, &b), TL_OK);
+        TEST_CHECK(a.status == b.status);
+        bool turns_alike = a.corner_count == b.corner_count;
+        for (uint32_t k = 0; k < a.corner_count && turns_alike; k++) {
+            turns_alike =
+                corners[0][k].point.x == corners[1][k].point.x && corners[0][k].point.z == corners[1][k].point.z;
+        }
+        if (!turns_alike) {
+            continue;
+        }
+        TEST_CHECK(a.polygon_count == b.polygon_count);
+        TEST_CHECK(memcmp(polygons[0], polygons[1], a.polygon_count * sizeof(tl_nav_ref)) == 0);
+        for (uint32_t k = 0; k < a.corner_count; k++) {
+            TEST_CHECK(corners[0][k].polygon == corners[1][k].polygon && corners[0][k].flags == corners[1][k].flags);
+        }
+        const uint32_t part = a.polygon_count / 2;
+        const tl_nav_path_buffers room_c = { few, part, NULL, 0 };
+        few[part] = 77;
+        tl_nav_query_find_shortest_path(query, kept, &request, &room_c, &c);
+        TEST_CHECK(c.polygon_count == a.polygon_count && few[part] == 77);
+        TEST_CHECK(memcmp(few, polygons[0], part * sizeof(tl_nav_ref)) == 0);
+        same++;
+        *long_ones += a.corner_count > 4;
+    }
+    free(all.refs);
+    tl_nav_query_destroy(query);
+    return same;
+}
+
+static void test_kept_legs(void **state)
+{
+    (void)state;
+    test_random random = { 17 };
+    uint32_t same = 0, long_ones = 0;
+    for (uint32_t round = 0; round < 24; round++) {
+        fixture_level level = fixture_random(&random, round % 6, 12);
+        level.tile_cells = round % 2 == 0 ? 0 : 5;
+        tl_navmesh *kept = fixture_build(&level, NULL), *walked = fixture_build(&level, NULL);
+        tl_nav_prepare_def def = tl_default_nav_prepare_def();
+        tl_nav_prepared made;
+        TEST_RESULT(tl_navmesh_prepare(kept, &def, &made), TL_OK);
+        def.table_bytes = 0;
+        TEST_RESULT(tl_navmesh_prepare(walked, &def, NULL), TL_OK);
+        same += made.kind == TL_NAV_PREPARED_TABLE ? compare_kept(kept, walked, &random, &long_ones) : 0;
+        tl_navmesh_destroy(kept);
+        tl_navmesh_destroy(walked);
+    }
+    TEST_CHECK(same > 500 && long_ones > 100);
+}
+
 // A budget that is too small is named, and what is left finds the same paths.
 static void test_budgets(void **state)
 {
@@ -132,20 +199,24 @@ static void test_budgets(void **state)
                made.bytes > made.table_bytes);
     TEST_CHECK(compare(navmesh, twin, &random, 40) > 4);
     // The graph stays where the table goes and comes.
+    uint64_t graph_bytes = 0;
     for (uint32_t i = 0; i < 4; i++) {
         def.table_bytes = made.table_bytes - (i % 2 == 0 ? 1 : 0);
         TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &none), TL_OK);
         TEST_CHECK(none.kind == (i % 2 == 0 ? TL_NAV_PREPARED_GRAPH : TL_NAV_PREPARED_TABLE));
         TEST_CHECK(none.table_bytes == made.table_bytes && none.edge_count == made.edge_count);
-        TEST_CHECK(none.bytes == made.bytes - (i % 2 == 0 ? made.table_bytes : 0));
+        // With the table go the polygons of edges.
+        graph_bytes = i == 0 ? none.bytes : graph_bytes;
+        TEST_CHECK(none.bytes == (i % 2 == 0 ? graph_bytes : made.bytes));
+        TEST_CHECK(graph_bytes < made.bytes - made.table_bytes);
         TEST_CHECK(tl_navmesh_is_prepared(navmesh) && compare(navmesh, twin, &random, 40) > 4);
     }
     // Labels: as many bytes as they take are enough, and one less is not.
     def.table_bytes = 0;
     def.label_bytes = UINT64_MAX;
     TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &made), TL_OK);
-    TEST_CHECK(made.kind == TL_NAV_PREPARED_LABELS && made.bytes > none.bytes - none.table_bytes);
-    uint64_t label_bytes = made.bytes - (none.bytes - none.table_bytes);
+    TEST_CHECK(made.kind == TL_NAV_PREPARED_LABELS && made.bytes > graph_bytes);
+    uint64_t label_bytes = made.bytes - graph_bytes;
     for (uint32_t i = 0; i < 4; i++) {
         def.label_bytes = label_bytes - (i % 2 == 0 ? 1 : 0);
         TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &made), TL_OK);
@@ -275,8 +346,9 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edits),  cmocka_unit_test(test_nodes), cmocka_unit_test(test_budgets),
-        cmocka_unit_test(test_slices), cmocka_unit_test(test_links), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_edits),     cmocka_unit_test(test_nodes),  cmocka_unit_test(test_budgets),
+        cmocka_unit_test(test_kept_legs), cmocka_unit_test(test_slices), cmocka_unit_test(test_links),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,7 +55,8 @@ typedef struct graph_path {
     const tl_nav_path_buffers *room;
     tl_nav_shortest_path *path;
     tl_nav_trail trail;
-    tl_vec3 last; // corner
+    tl_vec3 last;       // corner
+    uint8_t arrived_at; // the place of the trail's last polygon in the fan that the last leg led to, if it is known
 } graph_path;
 
 static double corner_distance(tl_vec3 a, tl_vec3 b)
@@ -150,6 +151,69 @@ static bool turn_around(graph_path *p, const tl_nav_corner_vertex *vertex, const
     return true;
 }
 
+// Of the edge between two corner vertices, or NULL. Edges stand by where they lead.
+static const tl_nav_kept_leg *kept_between(const tl_nav_visibility_graph *graph, const tl_nav_corner_vertex *from,
+                                           const tl_nav_corner_vertex *to)
+{
+    const uint32_t end = (uint32_t)(to - graph->vertices);
+    uint32_t k = from[0].first_edge;
+    while (k < from[1].first_edge && graph->edges[k].to < end) {
+        k++;
+    }
+    const bool is_kept =
+        k < from[1].first_edge && graph->edges[k].to == end && graph->kept.legs[k].enters != TL_NAV_NO_PLACE;
+    return is_kept ? &graph->kept.legs[k] : NULL;
+}
+
+static void add_refs(tl_nav_trail *trail, const tl_nav_ref *refs, uint32_t count)
+{
+    if (trail->count < trail->capacity) {
+        const uint32_t room = trail->capacity - trail->count;
+        memcpy(trail->polygons + trail->count, refs, (count < room ? count : room) * sizeof *refs);
+    }
+    trail->count += count;
+}
+
+// The leg between two corner vertices by its kept polygons. False: they are not kept.
+static bool add_kept_leg(graph_path *p, const tl_nav_corner_vertex *from, const tl_nav_corner_vertex *to)
+{
+    const tl_nav_kept_legs *kept = &p->graph->kept;
+    const tl_nav_kept_leg *leg = kept->legs != NULL ? kept_between(p->graph, from, to) : NULL;
+    if (leg == NULL) {
+        return false;
+    }
+    const tl_navmesh *navmesh = p->search->navmesh;
+    const uint32_t *ends = &kept->fan_first[from - p->graph->vertices];
+    const tl_nav_ref *fan = kept->fans + ends[0];
+    const uint32_t fan_count = ends[1] - ends[0];
+    uint32_t at = p->arrived_at;
+    if (at == TL_NAV_NO_PLACE) {
+        const tl_nav_ref last = tl_nav_make_ref(navmesh, p->trail.slot, p->trail.polygon);
+        for (at = 0; at < fan_count && fan[at] != last; at++) {
+        }
+    }
+    if (at == fan_count) {
+        return false;
+    }
+    // fan[at] is there already; the leg begins with fan[enters].
+    const bool is_left = leg->enters > at;
+    if (is_left) {
+        add_refs(&p->trail, fan + at + 1, leg->enters - at - 1);
+    }
+    for (uint32_t i = at; i > (uint32_t)leg->enters + 1;) {
+        add_refs(&p->trail, fan + --i, 1);
+    }
+    const tl_nav_ref *polygons = kept->polygons + leg->first;
+    const uint32_t count = leg[1].first - leg->first;
+    const uint32_t known = leg->enters == at ? 1 : 0;
+    add_refs(&p->trail, polygons + known, count - known);
+    tl_nav_split_ref(navmesh, polygons[count - 1], &p->trail.slot, &p->trail.polygon);
+    p->arrived_at = leg->arrives;
+    add_corner_vertex(p, tl_vec3_make(from->x, from->y, from->z), tl_vec3_make(to->x, to->y, to->z), polygons[0],
+                      is_left);
+    return true;
+}
+
 // The leg from a corner vertex (NULL: the start) to another (NULL: the goal).
 static bool add_leg(graph_path *p, const tl_nav_corner_vertex *from, const tl_nav_corner_vertex *to)
 {
@@ -165,6 +229,10 @@ static bool add_leg(graph_path *p, const tl_nav_corner_vertex *from, const tl_na
                          search->goal_slot,
                          search->goal_polygon,
                          p->graph->rounding };
+    if (from != NULL && to != NULL && add_kept_leg(p, from, to)) {
+        return true;
+    }
+    p->arrived_at = TL_NAV_NO_PLACE;
     if (from != NULL && !turn_around(p, from, &line, next)) {
         return false;
     }
@@ -179,9 +247,8 @@ uint32_t tl_nav_write_graph_path(const tl_nav_shortest_search *search, const tl_
 {
     const tl_navmesh *navmesh = search->navmesh;
     memset(path_out, 0, sizeof *path_out);
-    graph_path p = {
-        search, graph, room, path_out, { room->polygons, room->polygon_capacity, 0, 0, 0 }, search->start
-    };
+    graph_path p = { search,        graph,          room, path_out, { room->polygons, room->polygon_capacity, 0, 0, 0 },
+                     search->start, TL_NAV_NO_PLACE };
     add_path_corner(&p, search->start, tl_nav_make_ref(navmesh, search->start_slot, search->start_polygon),
                     TL_NAV_CORNER_START);
     const tl_nav_corner_vertex *from = NULL;

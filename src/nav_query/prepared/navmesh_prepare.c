@@ -62,9 +62,15 @@ static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *de
     tl_nav_visibility_graph *graph = navmesh->graph;
     if (tl_nav_corner_distances_size(graph) <= def->table_bytes) {
         tl_nav_free_hub_labels(allocator, graph);
-        return graph->table == NULL ? tl_nav_bake_corner_distances(allocator, &host, graph) : TL_OK;
+        if (graph->table != NULL) {
+            return TL_OK;
+        }
+        TL_TRY(tl_nav_bake_corner_distances(allocator, &host, graph));
+        const tl_result kept = tl_nav_keep_legs(navmesh, graph);
+        return kept == TL_ERR_LIMIT ? TL_OK : kept; // the table serves without
     }
     tl_nav_free_corner_distances(allocator, graph);
+    tl_nav_free_legs(allocator, graph);
     if (graph->labels.first != NULL && tl_nav_hub_labels_size(graph) <= def->label_bytes) {
         return TL_OK;
     }
@@ -84,7 +90,8 @@ static void note_prepared(const tl_nav_visibility_graph *graph, tl_nav_prepared 
     made->corner_vertex_count = graph->vertex_count;
     made->edge_count = graph->edge_count;
     made->table_bytes = tl_nav_corner_distances_size(graph);
-    made->bytes = tl_nav_visibility_graph_size(graph) + (graph->table != NULL ? made->table_bytes : 0) +
+    made->bytes = tl_nav_visibility_graph_size(graph) + tl_nav_kept_legs_size(graph) +
+                  (graph->table != NULL ? made->table_bytes : 0) +
                   (graph->labels.first != NULL ? tl_nav_hub_labels_size(graph) : 0);
 }
 

@@ -13,6 +13,7 @@
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/prepared/corner_cones.h"
 #include "nav_query/prepared/hub_labels.h"
+#include "nav_query/prepared/kept_legs.h"
 
 #include <math.h>
 #include <talus/nav_prepare.h>
@@ -46,8 +47,9 @@ struct tl_nav_visibility_graph {
     uint32_t *slot_first;                 ///< by slot: where its polygons begin in the cones
     uint32_t vertex_count, edge_count, polygon_count, slot_count;
     tl_nav_corner_cones cones;
-    float *table;         ///< metres by corner vertex and corner vertex, or NULL (corner_distances.c)
-    uint16_t *table_next; ///< by the same pair: the next corner vertex on the path from the second to the first
+    float *table;          ///< metres by corner vertex and corner vertex, or NULL (corner_distances.c)
+    uint16_t *table_next;  ///< by the same pair: the next corner vertex on the path from the second to the first
+    tl_nav_kept_legs kept; ///< where there is a table
     tl_nav_hub_labels labels;
     uint64_t edit;        ///< number of the navmesh's edit for which the graph holds
     double rounding;      ///< metres within which a point is on a line
