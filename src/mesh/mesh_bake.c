@@ -81,6 +81,12 @@ static tl_result number_mesh_vertices(const tl_cleaning *cleaning, const uint32_
 // What tasks fill the mesh from, block by block.
 enum { BLOCK_ITEMS = 1 << 14, FILL_BATCH = 32 };
 
+// Of a block of vertices.
+typedef struct block_sum {
+    tl_aabb bounds;
+    uint32_t welded, unused;
+} block_sum;
+
 typedef struct filler {
     const tl_mesh_view *view;
     const uint32_t *representative;
@@ -88,15 +94,12 @@ typedef struct filler {
     const uint32_t *number;
     tl_mesh *mesh;
     uint32_t vertex_blocks;
-    struct block_sum {
-        tl_aabb bounds;
-        uint32_t welded, unused;
-    } * sums; // of blocks of vertices
+    block_sum *sums;
 } filler;
 
 static void fill_mesh_vertices(const filler *f, uint32_t block)
 {
-    struct block_sum sum = { tl_aabb_empty(), 0, 0 };
+    block_sum sum = { tl_aabb_empty(), 0, 0 };
     uint32_t end = tl_block_end(block, BLOCK_ITEMS, f->view->vertex_count);
     for (uint32_t vertex = block * BLOCK_ITEMS; vertex < end; vertex++) {
         if (f->number[vertex] != UINT32_MAX) {
@@ -139,7 +142,7 @@ static void fill_block(uint32_t block, uint32_t worker, void *user)
 static tl_result fill_mesh(filler *f, tl_stage *stage, tl_arena *arena, tl_mesh_report *report)
 {
     f->vertex_blocks = tl_block_count(f->view->vertex_count, BLOCK_ITEMS);
-    f->sums = TL_PUSH(arena, struct block_sum, f->vertex_blocks);
+    f->sums = TL_PUSH(arena, block_sum, f->vertex_blocks);
     if (f->sums == NULL) {
         return TL_ERR_MEMORY;
     }

@@ -158,7 +158,7 @@ static void write_off_mesh(set_tile at, const tl_detour_header *header, const tl
                                               { link->end.x, link->end.y, link->end.z } },
                                             link->radius,
                                             (uint16_t)(tile->polygon_count + n),
-                                            link->both_ways ? TL_DETOUR_BOTH_WAYS : 0,
+                                            (uint8_t)(link->both_ways ? TL_DETOUR_BOTH_WAYS : 0),
                                             side_of(header, link->end),
                                             link->user_id };
         memcpy(bytes + to->vertices + 12 * (uint64_t)(tile->vertex_count + 2 * n), connection.ends,

@@ -141,7 +141,7 @@ static void try_jump(const tl_nav_landing_search *search, const tl_nav_ledge_poi
 void tl_nav_find_candidates(const tl_nav_landing_search *search, const tl_nav_ledge_point *place,
                             tl_nav_link_candidate candidates[TL_NAV_CANDIDATES_PER_PLACE])
 {
-    static const tl_nav_link_candidate NO_CANDIDATE;
+    static const tl_nav_link_candidate NO_CANDIDATE = { 0 };
     for (uint32_t i = 0; i < TL_NAV_CANDIDATES_PER_PLACE; i++) {
         candidates[i] = NO_CANDIDATE;
     }

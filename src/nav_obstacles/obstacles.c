@@ -283,7 +283,8 @@ tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input
         *block_out = block;
     } else {
         tl_nav_tile_block_free(&block);
-        let_wait(o, &(tl_nav_tile_range){ 0, 0, o->tiles_x, o->tiles_z });
+        const tl_nav_tile_range all = { 0, 0, o->tiles_x, o->tiles_z };
+        let_wait(o, &all);
     }
     *obstacles_out = o;
     return TL_OK;
@@ -534,7 +535,8 @@ tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navme
         }
         result = tl_navmesh_replace_tiles(navmesh, rebaked.tile_x, rebaked.tile_z, &rebaked.stack);
         if (result != TL_OK) {
-            let_wait(o, &(tl_nav_tile_range){ index % o->tiles_x, index / o->tiles_x, 1, 1 });
+            const tl_nav_tile_range again = { index % o->tiles_x, index / o->tiles_x, 1, 1 };
+            let_wait(o, &again);
         }
     }
     if (waiting_out != NULL) {

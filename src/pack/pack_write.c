@@ -58,7 +58,7 @@ static tl_result check_chunk_names(const tl_pack_item *items, uint32_t count, tl
 
 static tl_result write_padding(uint64_t written, tl_write_fn *write, void *user)
 {
-    static const uint8_t ZEROS[TL_PACK_ALIGNMENT];
+    static const uint8_t ZEROS[TL_PACK_ALIGNMENT] = { 0 };
     uint64_t padding = tl_pack_align(written) - written;
     return padding > 0 ? write(ZEROS, (size_t)padding, user) : TL_OK;
 }

@@ -26,7 +26,7 @@ typedef struct counter {
     const tl_soup *soup;
     tl_ray_job job;
     tl_vec3 origin, direction;
-    crossings crossings;
+    crossings found;
 } counter;
 
 // Whether a point in a triangle's plane lies within it, in a projection in which the triangle has area.
@@ -82,8 +82,8 @@ static bool count_crossing(const tl_walk_triangle *triangle, void *user)
 {
     counter *c = user;
     (void)triangle;
-    c->crossings.winding += c->job.back ? 1 : -1;
-    c->crossings.count++;
+    c->found.winding += c->job.back ? 1 : -1;
+    c->found.count++;
     return true;
 }
 
@@ -101,7 +101,7 @@ static crossings count_crossings(const tl_soup *soup, tl_vec3 point, tl_vec3 dir
         tl_region region = { tl_region_enter_line, &line, is_crossed, count_crossing, &c };
         tl_region_walk(soup, &region);
     }
-    return c.crossings;
+    return c.found;
 }
 
 // Oblique, so that it seldom lies in the plane of a wall or meets an edge parallel to an axis.

@@ -63,7 +63,7 @@ tl_ray_isa tl_ray_best_isa(void)
 {
     tl_ray_isa isa = TL_RAY_SCALAR;
     while (tl_ray_walk_for(isa) != best_ray_walk()) {
-        isa++;
+        isa = (tl_ray_isa)(isa + 1);
     }
     return isa;
 }
