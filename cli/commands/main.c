@@ -2,6 +2,8 @@
 //
 // talus COMMAND ...: finds the command and hands over.
 
+#include "cli/manual/completion.h"
+#include "cli/manual/manual_page.h"
 #include "cli/options/closest_word.h"
 #include "cli/shared/command.h"
 #include "cli/shared/start.h"
@@ -47,6 +49,37 @@ static int unknown_command(const char *word)
     return TL_EXIT_USAGE;
 }
 
+static const tl_command *find_command(const char *name)
+{
+    uint32_t count;
+    const tl_command *const *commands = tl_command_table(&count);
+    for (uint32_t i = 0; i < count; ++i) {
+        if (strcmp(commands[i]->name, name) == 0) {
+            return commands[i];
+        }
+    }
+    return NULL;
+}
+
+// talus help --man [COMMAND], talus help --completion SHELL: what packages install beside the program.
+static int print_for_packages(int argc, char **argv)
+{
+    const char *word = argc > 3 ? argv[3] : NULL;
+    if (strcmp(argv[2], "--man") == 0) {
+        const tl_command *command = word != NULL ? find_command(word) : NULL;
+        if (word != NULL && command == NULL) {
+            return unknown_command(word);
+        }
+        tl_manual_page_print(command);
+        return TL_EXIT_OK;
+    }
+    if (word == NULL || !tl_completion_print(word)) {
+        fprintf(stderr, "talus: help --completion wants a shell: bash, zsh or fish\n");
+        return TL_EXIT_USAGE;
+    }
+    return TL_EXIT_OK;
+}
+
 int main(int argc, char **argv)
 {
     if (!tl_start(&argc, &argv)) {
@@ -66,15 +99,15 @@ int main(int argc, char **argv)
         printf("talus %s\n", tl_version());
         return TL_EXIT_OK;
     }
-    const char *name = help ? argv[2] : argv[1];
-    uint32_t count;
-    const tl_command *const *commands = tl_command_table(&count);
-    for (uint32_t i = 0; i < count; ++i) {
-        if (strcmp(commands[i]->name, name) == 0) {
-            const char *const ask_help[] = { name, "--help", NULL };
-            return (int)(help ? tl_command_run(commands[i], 2, ask_help)
-                              : tl_command_run(commands[i], argc - 1, (const char *const *)(argv + 1)));
-        }
+    if (help && (strcmp(argv[2], "--man") == 0 || strcmp(argv[2], "--completion") == 0)) {
+        return print_for_packages(argc, argv);
     }
-    return unknown_command(name);
+    const char *name = help ? argv[2] : argv[1];
+    const tl_command *command = find_command(name);
+    if (command == NULL) {
+        return unknown_command(name);
+    }
+    const char *const ask_help[] = { name, "--help", NULL };
+    return (int)(help ? tl_command_run(command, 2, ask_help)
+                      : tl_command_run(command, argc - 1, (const char *const *)(argv + 1)));
 }

@@ -377,7 +377,7 @@ void tl_options_print_text(const char *text)
     }
 }
 
-static void default_text(const tl_option *option, char *text, size_t capacity)
+void tl_option_default_text(const tl_option *option, char *text, size_t capacity)
 {
     const char *word = NULL;
     char number[TL_FLOAT_TEXT_BYTES];
@@ -427,7 +427,7 @@ static void print_option(const tl_option *option)
     } else {
         snprintf(name, sizeof(name), "      --%s%.60s", option->name, value);
     }
-    default_text(option, preset, sizeof(preset));
+    tl_option_default_text(option, preset, sizeof(preset));
     snprintf(text, sizeof(text), "%s%s", option->help, preset);
     if ((int)strlen(name) >= HELP_COLUMN) {
         printf("%s\n%*s", name, HELP_COLUMN, "");

@@ -85,6 +85,9 @@ void tl_options_print_wrapped(const char *text, int column, int indent);
 /// Prints paragraphs, parted by empty lines, wrapped to the help's width.
 void tl_options_print_text(const char *text);
 
+/// Writes the default, " [0.3]", or nothing where there is none.
+void tl_option_default_text(const tl_option *option, char *text, size_t capacity);
+
 /// Prints the options with their defaults, one or two lines each.
 void tl_options_print(const tl_option_group *groups);
 

@@ -31,6 +31,10 @@ static void print_usage_lines(const tl_command *command)
     }
 }
 
+const char tl_exit_codes_text[] =
+    "Exit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 4 file cannot be read or "
+    "written; 5 out of memory; 6 nothing is walkable; 130 cancelled.";
+
 static void print_help(const tl_command *command, const tl_option_group *groups)
 {
     print_usage_lines(command);
@@ -45,9 +49,7 @@ static void print_help(const tl_command *command, const tl_option_group *groups)
         line = end != NULL ? end + 1 : NULL;
     }
     putchar('\n');
-    tl_options_print_text(
-        "Exit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 4 file cannot be read or "
-        "written; 5 out of memory; 6 nothing is walkable; 130 cancelled.");
+    tl_options_print_text(tl_exit_codes_text);
 }
 
 static bool set_up_host(tl_cli *cli, int progress_style, tl_exit *exit_out)
@@ -108,6 +110,11 @@ bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t min_words
     all[count] = shared;
     all[count + 1] = end;
 
+    if (cli->describe != NULL) {
+        cli->describe(cli->command, all, cli->describe_user);
+        *exit_out = TL_EXIT_OK;
+        return false;
+    }
     // The help shows defaults, so it must be asked for before anything is set.
     for (int i = 1; i < cli->argc && strcmp(cli->argv[i], "--") != 0; ++i) {
         if (strcmp(cli->argv[i], "--help") == 0 || strcmp(cli->argv[i], "-h") == 0) {
@@ -255,6 +262,16 @@ tl_exit tl_command_run(const tl_command *command, int argc, const char *const *a
     tl_thread_pool_free(cli.pool);
     tl_arguments_free(&cli.arguments);
     return code;
+}
+
+void tl_command_describe(const tl_command *command, tl_describe_fn *describe, void *user)
+{
+    tl_cli cli;
+    memset(&cli, 0, sizeof(cli));
+    cli.command = command;
+    cli.describe = describe;
+    cli.describe_user = user;
+    (void)command->run(&cli);
 }
 
 bool tl_cli_read_triple(tl_cli *cli, uint32_t word, const char *what, float numbers_out[3], tl_exit *exit_out)

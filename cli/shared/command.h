@@ -44,6 +44,12 @@ typedef struct tl_command {
 
 enum { TL_MAX_OPTION_GROUPS = 8 };
 
+/// What each exit code means, for help and manual.
+extern const char tl_exit_codes_text[];
+
+/// Is told a command's options, the common ones last. The targets hold the defaults.
+typedef void tl_describe_fn(const tl_command *command, const tl_option_group *groups, void *user);
+
 /// All commands, `count_out` of them.
 const tl_command *const *tl_command_table(uint32_t *count_out);
 
@@ -61,11 +67,16 @@ struct tl_cli {
     const tl_pack_frame *frame; ///< the level's own coordinates, in which points are read and printed; NULL: as baked
     tl_pack_frame frame_room;   ///< what `frame` points to
     bool speaks_frame;          ///< the command does so; else opening a level with a frame is told of
+    tl_describe_fn *describe;   ///< not NULL: the options are wanted, and nothing is to be done
+    void *describe_user;
 };
 
 /// Runs a command from its name on: argv[0] is the name. Sets up, runs, cleans up, and makes sure that standard output
 /// was taken.
 tl_exit tl_command_run(const tl_command *command, int argc, const char *const *argv);
+
+/// Tells `describe` the command's options, and does nothing else.
+void tl_command_describe(const tl_command *command, tl_describe_fn *describe, void *user);
 
 /// Parses the command line with the command's own groups (NULL-ended, may be NULL) and the common options, and sets up
 /// host and progress. False: `*exit_out` says how to end (help was printed, or an error). Between
