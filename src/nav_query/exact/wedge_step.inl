@@ -16,6 +16,12 @@ typedef struct step_from {
     uint32_t count;
 } step_from;
 
+// The vertex behind another of a ring: by a mask, as where a ring ends is in no order that a processor could foresee.
+static inline uint32_t vertex_behind(uint32_t vertex, uint32_t count)
+{
+    return (vertex + 1) & (0u - (uint32_t)(vertex + 1 < count));
+}
+
 // The least length of a path through a wedge.
 static inline float total_of(const wedge_search *s, const tl_nav_wedge *wedge, const seen_edge *edge)
 {
@@ -290,11 +296,11 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
     seen_vertex right, left;
     uint32_t left_is = UINT32_MAX; // the vertex that was looked at last
     for (uint32_t k = 1; k < from.count; k++) {
-        i = i + 1 < from.count ? i + 1 : 0;
+        i = vertex_behind(i, from.count);
         if (!tl_nav_ring_is_open(&from.ring[i])) {
             continue;
         }
-        uint32_t next = i + 1 < from.count ? i + 1 : 0;
+        const uint32_t next = vertex_behind(i, from.count);
         right = left_is == i ? left : look_at(&view, &from.ring[i]);
         if (right.left_of_left) {
             break; // and so are all that follow
@@ -309,8 +315,10 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
         seen_edge edge = { right.at, left.at };
         edge_view v = view_of(s, &edge);
         if (v.facing && right.right_of_left && left.left_of_right) {
-            add_wedge(s, &from, i, root, &edge, left.left_of_left ? wedge.left : left.at,
-                      right.right_of_right ? wedge.right : right.at);
+            // Chosen by index: as branches they would go one way as often as the other.
+            const tl_nav_direction lefts[2] = { left.at, wedge.left };
+            const tl_nav_direction rights[2] = { right.at, wedge.right };
+            add_wedge(s, &from, i, root, &edge, lefts[left.left_of_left], rights[right.right_of_right]);
         }
         if (v.edge_on) {
             add_edge_on(s, &from, i, root, &edge);
@@ -318,13 +326,13 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
     }
     // Looking in, the edge of entry starts at its left end.
     const tl_nav_ring_edge *entry_left = &from.ring[wedge.edge];
-    const tl_nav_ring_edge *entry_right = &from.ring[wedge.edge + 1 < from.count ? wedge.edge + 1 : 0];
-    if (!view.left_open && wedge.left.x == (double)entry_left->x - view.root_x &&
-        wedge.left.z == (double)entry_left->z - view.root_z) {
+    const tl_nav_ring_edge *entry_right = &from.ring[vertex_behind(wedge.edge, from.count)];
+    if (!view.left_open & (wedge.left.x == (double)entry_left->x - view.root_x) &
+        (wedge.left.z == (double)entry_left->z - view.root_z)) {
         turn_at_limit(s, &from, &wedge, 1, last_seen, from.count);
     }
-    if (!view.right_open && wedge.right.x == (double)entry_right->x - view.root_x &&
-        wedge.right.z == (double)entry_right->z - view.root_z) {
+    if (!view.right_open & (wedge.right.x == (double)entry_right->x - view.root_x) &
+        (wedge.right.z == (double)entry_right->z - view.root_z)) {
         turn_at_limit(s, &from, &wedge, -1, 1, first_seen < from.count ? first_seen + 1 : from.count);
     }
 }
