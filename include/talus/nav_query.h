@@ -269,7 +269,7 @@ typedef struct tl_nav_query tl_nav_query;
 
 typedef struct tl_nav_query_def {
     /// Nodes that one search may use, 2 to 2^30. tl_navmesh_link_count + 2 is always enough to find a path where there
-    /// is one. A query begins with memory for 512 of them, 120 KB, and doubles it when a search needs more: 232 bytes a
+    /// is one. A query begins with memory for 512 of them, 120 KB, and doubles it when a search needs more: 236 bytes a
     /// node. Default 65536.
     uint32_t max_nodes;
     /// Copied; NULL: malloc. A search may ask it for memory; where it gets none it ends as one that is out of nodes.

@@ -87,11 +87,11 @@ static tl_vec3 entry_of(tl_vec3 from, tl_vec3 goal, const tl_nav_link *way)
     double gx = (double)goal.x - (double)way->right.x, gz = (double)goal.z - (double)way->right.z;
     double from_along = fx * ux + fz * uz, goal_along = gx * ux + gz * uz;
     double from_off = fabs(fx * uz - fz * ux), off = from_off + fabs(gx * uz - gz * ux);
-    double along = off > 0.0 ? from_along + (goal_along - from_along) * (from_off / off) : goal_along;
-    double length_sq = ux * ux + uz * uz;
-    return !(along > 0.0)       ? way->right
-           : along >= length_sq ? way->left
-                                : tl_lerp(way->right, way->left, (float)(along / length_sq));
+    double along = off > 0.0 ? from_along * off + (goal_along - from_along) * from_off : goal_along;
+    double whole = (off > 0.0 ? off : 1.0) * (ux * ux + uz * uz);
+    return !(along > 0.0)   ? way->right
+           : along >= whole ? way->left
+                            : tl_lerp(way->right, way->left, (float)(along / whole));
 }
 
 typedef struct twin_node {

@@ -16,6 +16,7 @@
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
+#include "nav_query/navmesh/ring_step.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/navmesh/ways.h"
 #include "nav_query/path/path_run.h"
@@ -47,11 +48,13 @@ static void relax_way(tl_nav_way_search *search, uint64_t key, uint32_t slot, ui
     }
 }
 
-static tl_vec3 crossing_point(tl_vec3 from, tl_vec3 goal, const tl_nav_way *way)
+static tl_vec3 crossing_point(tl_vec3 from, tl_vec3 goal, const tl_nav_ring_edge *begin, const tl_nav_ring_edge *end)
 {
-    tl_nav_segment portal = { tl_nav_spot_of(way->right), tl_nav_spot_of(way->left) };
+    const tl_vec3 right = { begin->x, begin->y, begin->z };
+    const tl_vec3 left = { end->x, end->y, end->z };
+    tl_nav_segment portal = { tl_nav_spot_of(right), tl_nav_spot_of(left) };
     double share = tl_nav_crossing_share(tl_nav_spot_of(from), tl_nav_spot_of(goal), portal);
-    return tl_lerp(way->right, way->left, (float)share);
+    return tl_lerp(right, left, (float)share);
 }
 
 // Crosses the off-mesh links that can be taken from a node's polygon.
@@ -104,22 +107,31 @@ static void expand_way(tl_nav_way_search *search, uint32_t index)
         float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, search->goal);
         relax_way(search, PATH_GOAL_KEY, node.slot, node.polygon, search->goal, node.cost + cost, index);
     }
-    relax_links(search, index);
-    bool walked_in = node.parent != TL_NAV_NO_NODE && !is_crossing(&node);
-    const tl_nav_node *parent = walked_in ? &search->query->nodes[node.parent] : NULL;
-    tl_nav_ways ways = tl_nav_ways_of(search->navmesh, node.slot, node.polygon);
-    tl_nav_way way;
-    while (tl_nav_ways_next(&ways, &way)) {
-        // Polygons are convex: to go back to the one we come from never pays.
-        if (parent != NULL && way.polygon == parent->polygon && way.slot == parent->slot) {
+    if (search->navmesh->slots[node.slot].anchor_count > 0) {
+        relax_links(search, index);
+    }
+    // Polygons are convex: to go back to the one we come from never pays.
+    tl_nav_ring_seam before = { TL_NAV_NO_SLOT, TL_NO_POLYGON };
+    if (node.parent != TL_NAV_NO_NODE && !is_crossing(&node)) {
+        before.slot = search->query->nodes[node.parent].slot;
+        before.polygon = search->query->nodes[node.parent].polygon;
+    }
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(search->navmesh, node.slot, node.polygon, &count);
+    const uint64_t first = (uint64_t)(ring - search->navmesh->slots[node.slot].rings.edges);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!tl_nav_ring_is_open(&ring[i])) {
             continue;
         }
-        if (!tl_nav_passes(search->filter, search->navmesh->slots[way.slot].tile, way.polygon)) {
+        const tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, node.slot, ring[i].to);
+        if ((to.polygon == before.polygon && to.slot == before.slot) ||
+            !tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
             continue;
         }
-        tl_vec3 point = crossing_point(node.point, search->goal, &way);
-        float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, point);
-        relax_way(search, way.key, way.slot, way.polygon, point, node.cost + cost, index);
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        const tl_vec3 point = crossing_point(node.point, search->goal, &ring[i], end);
+        const float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, point);
+        relax_way(search, tl_nav_way_key(node.slot, first + i), to.slot, to.polygon, point, node.cost + cost, index);
     }
 }
 

@@ -23,9 +23,10 @@ static inline double tl_nav_crossing_share(tl_nav_spot from, tl_nav_spot goal, t
     double from_off = fabs(from_x * uz - from_z * ux);
     double goal_off = fabs(goal_x * uz - goal_z * ux);
     double off = from_off + goal_off;
-    double along = off > 0.0 ? from_along + (goal_along - from_along) * (from_off / off) : goal_along;
-    double length_sq = ux * ux + uz * uz;
-    return !(along > 0.0) ? 0.0 : along >= length_sq ? 1.0 : along / length_sq;
+    // As one fraction: a division takes longer than all else here.
+    double along = off > 0.0 ? from_along * off + (goal_along - from_along) * from_off : goal_along;
+    double whole = (off > 0.0 ? off : 1.0) * (ux * ux + uz * uz);
+    return !(along > 0.0) ? 0.0 : along >= whole ? 1.0 : along / whole;
 }
 
 #endif
