@@ -174,8 +174,8 @@ TL_API bool tl_convex_cast(const tl_convex *a, tl_transform pose_a, const tl_con
 TL_API bool tl_convex_cast_ray(const tl_convex *shape, tl_transform pose, tl_vec3 origin, tl_vec3 direction,
                                float t_max, tl_convex_hit *hit_out);
 
-/// Contacts of one pair.
-#define TL_MAX_CONTACTS 4u
+/// Contacts of one pair: four that span the common patch, and the deepest point where it is none of these.
+#define TL_MAX_CONTACTS 5u
 
 /// Which contacts are wanted. A hundredth of the size of the smaller shape serves well for both lengths. All zero, or a
 /// NULL: only shapes that touch or overlap have contacts, and only the corners as deep as the deepest point.
@@ -184,11 +184,27 @@ typedef struct tl_contact_limits {
     float tolerance; ///< metres, >= 0: a corner of the common patch may be so much less deep than the deepest point
 } tl_contact_limits;
 
+/// The kind of a contact's feature, in its upper two bits. The others are the index: a vertex or face of a hull, or an
+/// edge by the lower of its two half-edges; of shapes without a hull numbers that stay the same from call to call.
+/// Zero: a point that no feature is known of.
+#define TL_FEATURE_VERTEX 0x40000000u
+#define TL_FEATURE_EDGE   0x80000000u ///< see TL_FEATURE_VERTEX
+#define TL_FEATURE_FACE   0xc0000000u ///< see TL_FEATURE_VERTEX
+
+/// In tl_contact.previous: a new contact.
+#define TL_NO_CONTACT UINT32_MAX
+
 /// A pair of points where two shapes rest on each other.
 typedef struct tl_contact {
-    tl_vec3 point_a;  ///< on A's surface, world
-    tl_vec3 point_b;  ///< on B's surface, world; point_a + separation * normal
-    float separation; ///< metres; negative: this deep
+    tl_vec3 point_a;    ///< on A's surface, world
+    tl_vec3 point_b;    ///< on B's surface, world; point_a + separation * normal
+    float separation;   ///< metres; negative: this deep
+    uint32_t feature_a; ///< of A: a vertex on a face, two edges that cross, ...
+    uint32_t feature_b; ///< of B
+    /// Which contact of the last call with the same cache this one continues, to start a solver with its impulse;
+    /// TL_NO_CONTACT when there is none. Of the same two features, or, where corners coincide and features change from
+    /// call to call, at the same place on A.
+    uint32_t previous;
 } tl_contact;
 
 /// The contacts of two shapes along one normal.
@@ -196,19 +212,42 @@ typedef struct tl_contact_manifold {
     uint32_t count;                       ///< 0 .. TL_MAX_CONTACTS
     tl_contact contacts[TL_MAX_CONTACTS]; ///< [count]; the others are zero
     tl_vec3 normal;                       ///< unit, from A to B, world
+    float separation;                     ///< metres, of the deepest point along the normal; negative: depth
     tl_convex_status status;              ///< how far the answer can be trusted
 } tl_contact_manifold;
+
+/// What contacts keep from call to call. All zero starts cold. Keep one for each pair and thread; its fields are
+/// private.
+typedef struct tl_contact_cache {
+    tl_simplex_cache simplex;              ///< that the distance ended with
+    uint32_t count;                        ///< contacts of the last call
+    uint32_t has_axis;                     ///< the fields from axis_a on are set
+    uint32_t features[TL_MAX_CONTACTS][2]; ///< of the last call's contacts
+    tl_vec3 points[TL_MAX_CONTACTS];       ///< the same contacts, in A's frame
+    tl_vec3 axis_a, axis_b;                ///< the normal in each shape's frame when the depth was proven
+    float b_to_a[12];                      ///< the pose of B seen from A then
+    float proven_depth;                    ///< metres, of the cores; they were no less deep
+} tl_contact_cache;
+
+/// With a cache a contact may be kept although another point is deeper, by up to this part of the limits' tolerance.
+#define TL_CONTACT_SLACK (1.0f / 32.0f)
 
 /// Where two shapes rest on each other: their contact manifold. Returns the number of contacts; 0 when the shapes are
 /// farther apart than the limits' margin.
 ///
-/// Where faces of hulls, boxes or triangles meet, or an edge of one rests on a face, these are the corners of their
-/// common patch within the limits' tolerance; of more than four, the deepest and those that span the largest area. The
-/// deepest point is always among them, also where it lies between the corners. Everything else gives one contact. Costs
-/// a distance, a support query and a search for each shape's face. `limits` may be NULL.
-/// Poses, cache, threads as in tl_convex_distance.
+/// Where faces meet, or an edge rests on a face or along an edge, these are the corners of their common patch within
+/// the limits' tolerance; of more than four, those that span the largest area. Faces and edges are those of hulls,
+/// boxes and triangles, the segment of a capsule, the sides and caps of cylinders and cones (a cap as a polygon of 16
+/// corners). Everything else gives one contact. The deepest point is always among them, also where it lies between the
+/// corners.
+///
+/// With a cache, contacts stay what they were: the last ones are chosen again while they span half of what the patch
+/// does and the deepest of them is within TL_CONTACT_SLACK of the tolerance; and the last normal serves while the
+/// motion since its proof cannot have made another one shallower by more than that. Without, the deepest point is
+/// exact. Costs at most a distance, a penetration depth and a search for each shape's face; linear in the corners of
+/// both faces. `limits` may be NULL. Poses, threads as in tl_convex_distance; `cache` may be NULL.
 TL_API uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
-                                   const tl_contact_limits *limits, tl_simplex_cache *cache,
+                                   const tl_contact_limits *limits, tl_contact_cache *cache,
                                    tl_contact_manifold *manifold_out);
 
 #ifdef __cplusplus

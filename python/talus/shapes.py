@@ -266,8 +266,12 @@ def cast(
     return CastHits(t, gap, hit, point, normal, status)
 
 
-_CONTACT = np.dtype([("point_a", "f4", 3), ("point_b", "f4", 3), ("separation", "f4")])
-_MANIFOLD = np.dtype([("count", "u4"), ("contacts", _CONTACT, 4), ("normal", "f4", 3), ("status", "i4")])
+_CONTACT = np.dtype(
+    [("point_a", "f4", 3), ("point_b", "f4", 3), ("separation", "f4"), ("features", "u4", 2), ("previous", "u4")]
+)
+_MANIFOLD = np.dtype(
+    [("count", "u4"), ("contacts", _CONTACT, 5), ("normal", "f4", 3), ("separation", "f4"), ("status", "i4")]
+)
 
 
 def contacts(

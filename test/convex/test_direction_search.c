@@ -7,7 +7,7 @@
 
 #include "convex_oracle.h"
 
-#include "convex/direction_search.h"
+#include "convex/depth/direction_search.h"
 
 #include <string.h>
 

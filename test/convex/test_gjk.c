@@ -7,7 +7,7 @@
 
 #include "convex_oracle.h"
 
-#include "convex/gjk.h"
+#include "convex/core/gjk.h"
 
 #include <float.h>
 #include <string.h>

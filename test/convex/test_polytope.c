@@ -4,7 +4,7 @@
 
 #include "talus_test.h"
 
-#include "convex/polytope.h"
+#include "convex/depth/polytope.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 
 #include "convex_oracle.h"
 
-#include "convex/simplex.h"
+#include "convex/core/simplex.h"
 
 #include <math.h>
 #include <string.h>

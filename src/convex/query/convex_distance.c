@@ -2,7 +2,7 @@
 //
 // Distance and overlap of rounded shapes: GJK on the cores, then the radii.
 
-#include "convex/gjk.h"
+#include "convex/core/gjk.h"
 
 #include "base/assert.h"
 #include "math/tolerance.h"

@@ -18,7 +18,7 @@
 // A search with a fine gap that runs out of steps would leave some cones unseen and so prove nothing. So each pass
 // narrows the gap, and the bounds of the last complete pass stand.
 
-#include "convex/direction_search.h"
+#include "convex/depth/direction_search.h"
 
 #include "base/min_max.h"
 #include "math/tolerance.h"

@@ -3,7 +3,7 @@
 #ifndef TALUS_SRC_CONVEX_GJK_H
 #define TALUS_SRC_CONVEX_GJK_H
 
-#include "convex/simplex.h"
+#include "convex/core/simplex.h"
 
 typedef struct tl_gjk {
     tl_simplex simplex;

@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_CONVEX_CORE_DEPTH_H
 #define TALUS_SRC_CONVEX_CORE_DEPTH_H
 
-#include "convex/gjk.h"
+#include "convex/core/gjk.h"
 
 typedef struct tl_core_depth {
     tl_vec3d normal; // unit, of A - B: moving B along it separates the shapes

@@ -7,7 +7,7 @@
 // rounding of coordinates explains. The hull is convex: what lies so high on it is one piece without holes. Nothing is
 // stored; the outline is walked from half-edge to half-edge, and each face met is tested again.
 
-#include "convex/facet.h"
+#include "convex/contact/facet.h"
 
 #include "math/tolerance.h"
 #include "math/vec3d.h"
@@ -97,4 +97,19 @@ uint32_t tl_facet_next(const tl_facet *facet, uint32_t half_edge)
         edge = half_edges[half_edges[edge].twin].next;
     }
     return edge;
+}
+
+uint32_t tl_facet_previous(const tl_facet *facet, uint32_t half_edge)
+{
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
+    uint32_t edge = half_edge;
+    for (;;) {
+        tl_hull_face face = tl_hull_faces(facet->hull)[half_edges[edge].face];
+        edge = edge == face.first ? face.first + face.count - 1 : edge - 1;
+        uint32_t twin = half_edges[edge].twin;
+        if (!facet_holds(facet, half_edges[twin].face)) {
+            return edge;
+        }
+        edge = twin;
+    }
 }

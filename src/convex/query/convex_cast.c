@@ -10,7 +10,7 @@
 //
 // The time only grows by what a plane proves to be free, less the rounding, so the time reported is never late.
 
-#include "convex/simplex.h"
+#include "convex/core/simplex.h"
 
 #include "base/assert.h"
 #include "math/tolerance.h"

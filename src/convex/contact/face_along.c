@@ -9,9 +9,9 @@
 // vertex or next to it; far from every normal the climb may end at a face that is not quite the best, and there is
 // nothing to rest on.
 
-#include "convex/face_patch.h"
+#include "convex/contact/face_patch.h"
 
-#include "convex/farthest.h"
+#include "convex/core/farthest.h"
 
 // A face that is steeper than 60 degrees to the direction is no face to rest on.
 #define MIN_COSINE 0.5
@@ -75,8 +75,22 @@ static void hull_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
     }
     face->facet = tl_facet_around(shape->hull, best.face);
     face->first = face->facet.first;
+    face->feature = TL_FEATURE_FACE | best.face;
     const double *n = face->facet.plane.normal;
     face->normal = tl_vec3d_make(n[0], n[1], n[2]);
+}
+
+// The features of corners that hold the numbers of their vertices, which are less than `stride`.
+static void number_face_edges(tl_face *face, uint32_t count, uint32_t stride)
+{
+    face->count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t p = face->vertices[i], q = face->vertices[(i + 1) % count];
+        face->edges[i] = TL_FEATURE_EDGE | (p < q ? p * stride + q : q * stride + p);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        face->vertices[i] |= TL_FEATURE_VERTEX;
+    }
 }
 
 static void box_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
@@ -89,10 +103,13 @@ static void box_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
              v = tl_vec3d_scale(axes[(axis + 2) % 3], side);
     tl_vec3d middle = tl_vec3d_add(tl_vec3d_from(shape->corners[0]), out);
     static const double corners[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
+    uint32_t u_bit = 1u << (axis + 1) % 3, v_bit = 1u << (axis + 2) % 3, bits = side > 0.0 ? 1u << axis : 0u;
     for (int i = 0; i < 4; i++) {
         face->corners[i] = tl_vec3d_mul_add(tl_vec3d_mul_add(middle, u, corners[i][0]), v, corners[i][1]);
+        face->vertices[i] = bits | (corners[i][0] > 0.0 ? u_bit : 0u) | (corners[i][1] * side > 0.0 ? v_bit : 0u);
     }
-    face->count = 4;
+    number_face_edges(face, 4, 8);
+    face->feature = TL_FEATURE_FACE | (2 * (uint32_t)axis + (side > 0.0 ? 1u : 0u));
     face->normal = tl_vec3d_make(axis == 0 ? side : 0.0, axis == 1 ? side : 0.0, axis == 2 ? side : 0.0);
 }
 
@@ -106,7 +123,11 @@ static bool triangle_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
     face->corners[0] = a;
     face->corners[1] = back ? c : b;
     face->corners[2] = back ? b : c;
-    face->count = 3;
+    face->vertices[0] = 0;
+    face->vertices[1] = back ? 2 : 1;
+    face->vertices[2] = back ? 1 : 2;
+    number_face_edges(face, 3, 3);
+    face->feature = TL_FEATURE_FACE | (back ? 1u : 0u);
     face->normal = tl_vec3d_scale(n, (back ? -1.0 : 1.0) / length);
     return length > 0.0;
 }
@@ -121,17 +142,20 @@ static bool find_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
         box_face(shape, d, face);
         return true;
     }
-    return shape->kind == TL_CONVEX_INLINE && shape->point_count == 3 && triangle_face(shape, d, face);
+    if (shape->kind == TL_CONVEX_INLINE && shape->point_count == 3) {
+        return triangle_face(shape, d, face);
+    }
+    return tl_face_round(shape, d, face);
 }
 
 // Makes the edge from p to q the face when it is the most level one yet. Its normal is the one across it that is
 // closest to the direction.
-static void consider_edge(tl_vec3d p, tl_vec3d q, tl_vec3d d, double *best, tl_face *face)
+static bool consider_edge(tl_vec3d p, tl_vec3d q, tl_vec3d d, double *best, tl_face *face)
 {
     tl_vec3d along = tl_vec3d_sub(q, p);
     double length = tl_vec3d_length(along), rise = tl_vec3d_dot(along, d);
     if (!(length > 0.0) || !(fabs(rise) < *best * length)) {
-        return;
+        return false;
     }
     *best = fabs(rise) / length;
     tl_vec3d across = tl_vec3d_mul_add(d, along, -rise / (length * length));
@@ -139,6 +163,7 @@ static void consider_edge(tl_vec3d p, tl_vec3d q, tl_vec3d d, double *best, tl_f
     face->corners[1] = q;
     face->count = 2;
     face->normal = tl_vec3d_scale(across, 1.0 / tl_vec3d_length(across));
+    return true;
 }
 
 static void find_hull_edge(const tl_hull *hull, tl_vec3d d, double *best, tl_face *face)
@@ -148,25 +173,39 @@ static void find_hull_edge(const tl_hull *hull, tl_vec3d d, double *best, tl_fac
     uint32_t vertex = tl_hull_support(hull, tl_vec3d_to_float(d), TL_NO_VERTEX);
     uint32_t first = tl_hull_vertex_edges(hull)[vertex], edge = first;
     do {
-        uint32_t twin = half_edges[edge].twin;
-        consider_edge(tl_vec3d_from(vertices[vertex]), tl_vec3d_from(vertices[half_edges[twin].origin]), d, best, face);
+        uint32_t twin = half_edges[edge].twin, other = half_edges[twin].origin;
+        if (consider_edge(tl_vec3d_from(vertices[vertex]), tl_vec3d_from(vertices[other]), d, best, face)) {
+            face->vertices[0] = TL_FEATURE_VERTEX | vertex;
+            face->vertices[1] = TL_FEATURE_VERTEX | other;
+            face->edges[0] = face->edges[1] = face->feature = TL_FEATURE_EDGE | (edge < twin ? edge : twin);
+        }
         edge = half_edges[twin].next;
     } while (edge != first);
 }
 
-// Of a box some face is never so steep.
+static void find_triangle_edge(const tl_convex *shape, tl_vec3d d, double *best, tl_face *face)
+{
+    uint32_t top = tl_farthest(shape->corners, 3, &d);
+    for (uint32_t i = 1; i < 3; i++) {
+        uint32_t other = (top + i) % 3;
+        if (consider_edge(tl_vec3d_from(shape->corners[top]), tl_vec3d_from(shape->corners[other]), d, best, face)) {
+            face->vertices[0] = top;
+            face->vertices[1] = other;
+            number_face_edges(face, 2, 3);
+            face->feature = face->edges[0];
+        }
+    }
+}
+
+// Of a box some face is never so steep, and round shapes have their edges already.
 static bool find_edge(const tl_convex *shape, tl_vec3d d, tl_face *face)
 {
     double best = sqrt(1.0 - MIN_COSINE * MIN_COSINE); // an edge is as steep as a face may be
     face->first = face->count = 0;
     if (shape->kind == TL_CONVEX_HULL) {
         find_hull_edge(shape->hull, d, &best, face);
-    } else {
-        uint32_t top = tl_farthest(shape->corners, 3, &d);
-        for (uint32_t i = 1; i < 3; i++) {
-            consider_edge(tl_vec3d_from(shape->corners[top]), tl_vec3d_from(shape->corners[(top + i) % 3]), d, &best,
-                          face);
-        }
+    } else if (shape->kind == TL_CONVEX_INLINE && shape->point_count == 3) {
+        find_triangle_edge(shape, d, &best, face);
     }
     return face->count == 2;
 }
@@ -202,5 +241,24 @@ tl_vec3d tl_face_corner(const tl_face *face, uint32_t at)
 
 uint32_t tl_face_next(const tl_face *face, uint32_t at)
 {
-    return face->count > 0 ? (at + 1) % face->count : tl_facet_next(&face->facet, at);
+    return face->count > 0 ? (at + 1 < face->count ? at + 1 : 0) : tl_facet_next(&face->facet, at);
+}
+
+uint32_t tl_face_previous(const tl_face *face, uint32_t at)
+{
+    return face->count > 0 ? (at > 0 ? at : face->count) - 1 : tl_facet_previous(&face->facet, at);
+}
+
+uint32_t tl_face_vertex_feature(const tl_face *face, uint32_t at)
+{
+    return face->count > 0 ? face->vertices[at] : TL_FEATURE_VERTEX | tl_hull_half_edges(face->shape->hull)[at].origin;
+}
+
+uint32_t tl_face_edge_feature(const tl_face *face, uint32_t at)
+{
+    if (face->count > 0) {
+        return face->edges[at];
+    }
+    uint32_t twin = tl_hull_half_edges(face->shape->hull)[at].twin;
+    return TL_FEATURE_EDGE | (at < twin ? at : twin);
 }

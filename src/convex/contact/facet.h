@@ -19,5 +19,6 @@ tl_facet tl_facet_around(const tl_hull *hull, uint32_t face);
 
 // The half-edge of the outline that follows, counter-clockwise seen from outside.
 uint32_t tl_facet_next(const tl_facet *facet, uint32_t half_edge);
+uint32_t tl_facet_previous(const tl_facet *facet, uint32_t half_edge);
 
 #endif

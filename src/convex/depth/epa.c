@@ -8,9 +8,9 @@
 // Both bounds hold at any time, so the loop may end anywhere and the answer says how good it is. A flat difference,
 // which has no tetrahedron to start from, is no failure: its depth is 0 and its normal that of the plane.
 
-#include "convex/epa.h"
+#include "convex/depth/epa.h"
 
-#include "convex/polytope.h"
+#include "convex/depth/polytope.h"
 #include "math/tolerance.h"
 
 #include <string.h>

@@ -6,9 +6,9 @@
 // Only differences of the two poses enter, taken in double: two shapes far from the origin see each other as well as
 // two near it.
 
-#include "convex/minkowski.h"
+#include "convex/core/minkowski.h"
 
-#include "convex/farthest.h"
+#include "convex/core/farthest.h"
 #include "math/tolerance.h"
 
 // A direction is rounded to float once in each shape's frame: a component is off by half an ulp, so the direction by at

@@ -10,7 +10,7 @@
 // Collision Detection, 5.1; Montanari, Petrinic, Barbieri, Improving the GJK Algorithm for Faster and More Reliable
 // Distance Queries, 2017.
 
-#include "convex/simplex.h"
+#include "convex/core/simplex.h"
 
 #include "math/tolerance.h"
 

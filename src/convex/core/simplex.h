@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_CONVEX_SIMPLEX_H
 #define TALUS_SRC_CONVEX_SIMPLEX_H
 
-#include "convex/minkowski.h"
+#include "convex/core/minkowski.h"
 
 typedef struct tl_simplex {
     uint32_t count; // 1 .. 4

@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_CONVEX_POLYTOPE_H
 #define TALUS_SRC_CONVEX_POLYTOPE_H
 
-#include "convex/minkowski.h"
+#include "convex/core/minkowski.h"
 
 #include <assert.h>
 

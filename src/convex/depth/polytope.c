@@ -10,7 +10,7 @@
 // The faces that a point sees are walked depth first, the edges of each in their order. So the edges of the rim
 // are met in the order of the rim, and need no table to be sorted by.
 
-#include "convex/polytope.h"
+#include "convex/depth/polytope.h"
 
 #include "base/assert.h"
 

@@ -3,10 +3,10 @@
 // Penetration depth of two cores: EPA, which converges in ten or twenty steps for nearly every pair; for the others a
 // search over directions, which is slower and has no limit of size.
 
-#include "convex/core_depth.h"
+#include "convex/depth/core_depth.h"
 
-#include "convex/direction_search.h"
-#include "convex/epa.h"
+#include "convex/depth/direction_search.h"
+#include "convex/depth/epa.h"
 
 void tl_core_depth_find(tl_minkowski *pair, const tl_gjk *gjk, tl_core_depth *depth)
 {

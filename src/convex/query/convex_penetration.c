@@ -3,10 +3,10 @@
 // Penetration of rounded shapes: while the cores are apart, the radii less their distance (GJK); when the cores
 // overlap, the radii plus the cores' depth (EPA).
 
-#include "convex/core_depth.h"
+#include "convex/depth/core_depth.h"
 
 #include "base/assert.h"
-#include "convex/polytope.h"
+#include "convex/depth/polytope.h"
 #include "math/tolerance.h"
 
 #include <string.h>

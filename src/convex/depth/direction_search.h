@@ -3,7 +3,7 @@
 #ifndef TALUS_SRC_CONVEX_DIRECTION_SEARCH_H
 #define TALUS_SRC_CONVEX_DIRECTION_SEARCH_H
 
-#include "convex/core_depth.h"
+#include "convex/depth/core_depth.h"
 
 // Brings the bounds of a depth together, with the normal and the witnesses, from what EPA had to leave. The status says
 // CONVERGED, or ITERATIONS when TL_MAX_DIRECTION_STEPS were not enough.

@@ -9,7 +9,7 @@
 // There is no tolerance that decides anything but "equal": the walk ends when the bounds meet to float precision, when
 // the support brings nothing new, or when rounding allows no progress; and the bounds hold in each case.
 
-#include "convex/gjk.h"
+#include "convex/core/gjk.h"
 
 #include "math/tolerance.h"
 

@@ -3,7 +3,7 @@
 // The box of a shape: six support points, moved out by what rounding may have kept from them.
 
 #include "base/assert.h"
-#include "convex/minkowski.h"
+#include "convex/core/minkowski.h"
 #include "math/tolerance.h"
 
 #include <float.h>

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+//
+// The normal of a pair that penetrates, without a search: of two boxes, and of a pair whose depth was proven before.
+
+#ifndef TALUS_SRC_CONVEX_CONTACT_AXIS_H
+#define TALUS_SRC_CONVEX_CONTACT_AXIS_H
+
+#include "convex/depth/core_depth.h"
+
+// The deepest points of both cores.
+typedef struct tl_deepest {
+    tl_vec3d normal;      // unit, from A to B
+    double separation;    // of the cores along it, negative when they overlap
+    double lower_depth;   // the cores are no less deep
+    bool has_points;      // false: they are among the corners of the patch
+    tl_vec3d on_a, on_b;  // deepest points
+    uint32_t features[2]; // theirs, or 0
+} tl_deepest;
+
+// box_depth.c
+// Depth of two boxes by their 15 axes, exact to double rounding. When the boxes are apart, `separation` is positive,
+// less than or equal to the distance, and nothing else is set.
+void tl_box_depth(tl_minkowski *pair, tl_deepest *deepest_out);
+
+// contact_axis.c
+// Whether the last normal is, to `slack` metres, still the one of least depth.
+bool tl_axis_holds(tl_minkowski *pair, const tl_contact_cache *cache, double slack, tl_deepest *deepest_out);
+void tl_axis_store(const tl_minkowski *pair, const tl_deepest *deepest, tl_contact_cache *cache);
+
+#endif

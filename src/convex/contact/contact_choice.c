@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+//
+// Which four corners of a patch are kept: the ones of the last manifold, else those that span the largest area.
+//
+// The area of the best four changes little when bodies tremble, which corners these are may change at any time: a
+// polygon of 16 equal sides has four best choices. A solver that starts with the last impulses needs the same corners,
+// so the last four stay while they span half of what the patch does (any convex region has four corners of at least
+// 0.63 of its area; Blaschke 1917), and a corner known already counts for more in a new choice. Starting from the
+// deepest corner, as is common, chooses anew with each tremor.
+
+#include "convex/contact/face_patch.h"
+
+// The last four stay while they span at least this part of the patch.
+#define KEPT_AREA 0.5
+
+// Each corner of the last manifold makes a choice so much larger.
+#define KNOWN_BONUS 0.1
+
+// A corner is the last one when it is within this part of the patch's extent of it.
+#define SAME_CORNER 0.02
+
+enum { DIRECTIONS = 8, MAX_CANDIDATES = DIRECTIONS + TL_MAX_CONTACTS + 1 };
+
+typedef struct choice {
+    tl_patch_point *points[MAX_CANDIDATES];
+    uint32_t count;
+} choice;
+
+static void add_candidate(choice *c, tl_patch_point *point)
+{
+    for (uint32_t i = 0; i < c->count; i++) {
+        if (c->points[i] == point) {
+            return;
+        }
+    }
+    c->points[c->count++] = point;
+}
+
+// The corners farthest along eight directions, which are far from the axes and the diagonals that many faces have. A
+// corner where a polygon turns by an eighth or more is among them.
+static void add_extremes(tl_patch *patch, choice *c)
+{
+    static const double turn[DIRECTIONS / 2][2] = { { 0.9238795325112867, 0.3826834323650898 },
+                                                    { 0.3826834323650898, 0.9238795325112867 },
+                                                    { -0.3826834323650898, 0.9238795325112867 },
+                                                    { -0.9238795325112867, 0.3826834323650898 } };
+    for (int k = 0; k < DIRECTIONS / 2; k++) {
+        uint32_t low = 0, high = 0;
+        double least = (double)INFINITY, most = -(double)INFINITY;
+        for (uint32_t i = 0; i < patch->count; i++) {
+            double along = turn[k][0] * patch->points[i].x + turn[k][1] * patch->points[i].y;
+            low = along < least ? i : low;
+            least = along < least ? along : least;
+            high = along > most ? i : high;
+            most = along > most ? along : most;
+        }
+        add_candidate(c, &patch->points[low]);
+        add_candidate(c, &patch->points[high]);
+    }
+}
+
+static void add_known(tl_patch *patch, choice *c)
+{
+    for (uint32_t i = 0; i < patch->count; i++) {
+        if (patch->points[i].previous != TL_NO_CONTACT && c->count < MAX_CANDIDATES) {
+            add_candidate(c, &patch->points[i]);
+        }
+    }
+}
+
+static uint32_t find_lowest(const tl_patch *patch)
+{
+    uint32_t lowest = 0;
+    for (uint32_t i = 1; i < patch->count; i++) {
+        lowest = tl_patch_separation(&patch->points[i]) < tl_patch_separation(&patch->points[lowest]) ? i : lowest;
+    }
+    return lowest;
+}
+
+static double half_turn(double x, double y)
+{
+    double size = fabs(x) + fabs(y); // rises with the angle, 0 .. 4
+    return size > 0.0 ? (y >= 0.0 ? 1.0 - x / size : 3.0 + x / size) : 0.0;
+}
+
+// Around their middle, counter-clockwise.
+static void sort_around(choice *c)
+{
+    double x = 0.0, y = 0.0, keys[MAX_CANDIDATES];
+    for (uint32_t i = 0; i < c->count; i++) {
+        x += c->points[i]->x / (double)c->count;
+        y += c->points[i]->y / (double)c->count;
+    }
+    for (uint32_t i = 0; i < c->count; i++) {
+        tl_patch_point *point = c->points[i];
+        double key = half_turn(point->x - x, point->y - y);
+        uint32_t k = i;
+        for (; k > 0 && keys[k - 1] > key; k--) {
+            keys[k] = keys[k - 1];
+            c->points[k] = c->points[k - 1];
+        }
+        keys[k] = key;
+        c->points[k] = point;
+    }
+}
+
+// Twice the area of four points in order around: the cross product of the diagonals.
+static double area_of(const tl_patch_point *p, const tl_patch_point *q, const tl_patch_point *r,
+                      const tl_patch_point *s)
+{
+    return (r->x - p->x) * (s->y - q->y) - (r->y - p->y) * (s->x - q->x);
+}
+
+static double whole_area(const choice *c)
+{
+    double sum = 0.0;
+    for (uint32_t i = 2; i < c->count; i++) {
+        const tl_patch_point *p = c->points[0], *q = c->points[i - 1], *r = c->points[i];
+        sum += (q->x - p->x) * (r->y - p->y) - (q->y - p->y) * (r->x - p->x);
+    }
+    return sum;
+}
+
+static double worth(const choice *c, const uint32_t four[4])
+{
+    double known = 1.0;
+    for (int i = 0; i < 4; i++) {
+        known += c->points[four[i]]->previous != TL_NO_CONTACT ? KNOWN_BONUS : 0.0;
+    }
+    return known * area_of(c->points[four[0]], c->points[four[1]], c->points[four[2]], c->points[four[3]]);
+}
+
+static double distance_sq(const tl_patch_point *p, const tl_patch_point *q)
+{
+    return (p->x - q->x) * (p->x - q->x) + (p->y - q->y) * (p->y - q->y);
+}
+
+// Of a patch that is a line: the two farthest from one another.
+static uint32_t keep_two(const choice *c, tl_patch_point kept[4])
+{
+    uint32_t first = 0, second = 0;
+    for (uint32_t i = 0; i < c->count; i++) {
+        for (uint32_t k = 0; k < i; k++) {
+            if (distance_sq(c->points[i], c->points[k]) > distance_sq(c->points[first], c->points[second])) {
+                first = i;
+                second = k;
+            }
+        }
+    }
+    kept[0] = *c->points[first];
+    kept[1] = *c->points[second];
+    return first != second ? 2 : 1;
+}
+
+static uint32_t keep_largest(const choice *c, double least_area, tl_patch_point kept[4])
+{
+    uint32_t best[4] = { 0 }, at[4];
+    double most = least_area;
+    for (at[0] = 0; at[0] + 3 < c->count; at[0]++) {
+        for (at[1] = at[0] + 1; at[1] + 2 < c->count; at[1]++) {
+            for (at[2] = at[1] + 1; at[2] + 1 < c->count; at[2]++) {
+                for (at[3] = at[2] + 1; at[3] < c->count; at[3]++) {
+                    double value = worth(c, at);
+                    if (value > most) {
+                        most = value;
+                        best[0] = at[0], best[1] = at[1], best[2] = at[2], best[3] = at[3];
+                    }
+                }
+            }
+        }
+    }
+    if (best[3] == 0) {
+        return keep_two(c, kept);
+    }
+    for (int i = 0; i < 4; i++) {
+        kept[i] = *c->points[best[i]];
+    }
+    return 4;
+}
+
+// The last manifold's corners, if there are at least four and they still span enough.
+static uint32_t keep_last(const tl_patch *patch, double area, tl_patch_point kept[4])
+{
+    choice last = { { NULL }, 0 };
+    tl_patch_point found[4];
+    for (uint32_t i = 0; i < patch->count && last.count < 4; i++) {
+        if (patch->points[i].previous < 4) { // the fifth is the deepest, which came and goes
+            found[last.count] = patch->points[i];
+            last.points[last.count] = &found[last.count];
+            last.count++;
+        }
+    }
+    if (last.count < 4) {
+        return 0;
+    }
+    sort_around(&last);
+    if (!(whole_area(&last) >= KEPT_AREA * area)) {
+        return 0;
+    }
+    for (int i = 0; i < 4; i++) {
+        kept[i] = *last.points[i];
+    }
+    return 4;
+}
+
+static bool is_taken(const tl_patch *patch, uint32_t contact)
+{
+    for (uint32_t i = 0; i < patch->count; i++) {
+        if (patch->points[i].previous == contact) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Where features changed though places did not.
+static void match_places(tl_patch *patch, double extent)
+{
+    for (uint32_t k = 0; patch->last != NULL && k < patch->last->count; k++) {
+        if (is_taken(patch, k)) {
+            continue;
+        }
+        tl_point2 place = tl_patch_project(patch, tl_vec3d_from(patch->last->points[k]));
+        tl_patch_point at = { place.x, place.y, 0.0, 0.0, { 0 }, 0 }, *nearest = NULL;
+        double within = SAME_CORNER * extent * SAME_CORNER * extent;
+        for (uint32_t i = 0; i < patch->count; i++) {
+            double apart = distance_sq(&patch->points[i], &at);
+            if (patch->points[i].previous == TL_NO_CONTACT && apart <= within) {
+                within = apart;
+                nearest = &patch->points[i];
+            }
+        }
+        if (nearest != NULL) {
+            nearest->previous = k;
+        }
+    }
+}
+
+static double extent_of_patch(const tl_patch *patch)
+{
+    double most = 0.0;
+    for (uint32_t i = 1; i < patch->count; i++) {
+        double apart = distance_sq(&patch->points[0], &patch->points[i]);
+        most = apart > most ? apart : most;
+    }
+    return sqrt(most);
+}
+
+static void keep_points(tl_patch *patch, const tl_patch_point *kept, uint32_t count)
+{
+    patch->count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        patch->points[i] = kept[i];
+    }
+}
+
+void tl_patch_choose(tl_patch *patch, double slack)
+{
+    double extent = extent_of_patch(patch);
+    match_places(patch, extent);
+    if (patch->count <= 4) {
+        return;
+    }
+    choice c = { { NULL }, 0 };
+    add_extremes(patch, &c);
+    sort_around(&c);
+    tl_patch_point kept[4], lowest = patch->points[find_lowest(patch)];
+    uint32_t count = keep_last(patch, whole_area(&c), kept);
+    if (count == 0) {
+        add_known(patch, &c);
+        sort_around(&c);
+        count = keep_largest(&c, patch->gap * extent, kept);
+    }
+    keep_points(patch, kept, count);
+    if (tl_patch_separation(&kept[find_lowest(patch)]) > tl_patch_separation(&lowest) + slack) {
+        patch->points[patch->count++] = lowest;
+    }
+}
+
+void tl_patch_thin(tl_patch *patch)
+{
+    choice c = { { NULL }, 0 };
+    add_extremes(patch, &c);
+    add_candidate(&c, &patch->points[find_lowest(patch)]);
+    add_known(patch, &c);
+    tl_patch_point kept[MAX_CANDIDATES];
+    for (uint32_t i = 0; i < c.count; i++) {
+        kept[i] = *c.points[i];
+    }
+    keep_points(patch, kept, c.count);
+}

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+//
+// The contact manifold of two shapes: the normal and depth of the distance or penetration query, and where faces or
+// edges rest on each other the corners of their common patch.
+//
+// No angle decides whether faces touch. The two most opposed faces are clipped to their common patch, and of its
+// corners those count that are not much farther apart than the deepest point. That is one length, it gives a tilted box
+// one edge and a flat one four corners, and it has no angle at which the number of contacts would jump for large faces
+// but not for small ones.
+//
+// Where two edges cross in front of the faces, as corners of bodies do, no corner of the patch is as deep as their
+// crossing. The deepest point is always a contact: the query's witness joins the corners then.
+//
+// The normal comes from the last call where that is proven to serve still (contact_axis.c), of two boxes from their 15
+// axes (box_depth.c), and else from GJK and EPA. The first two know no deepest point: it is a corner of the patch, or
+// the search is made after all.
+
+#include "convex/contact/contact_axis.h"
+
+#include "base/assert.h"
+#include "convex/contact/face_patch.h"
+#include "math/tolerance.h"
+
+#include <string.h>
+
+// A corner of the patch within so many float roundings of the coordinates is the deepest point: sides are plane to
+// eight roundings, and so are their planes.
+#define DEEPEST_GAP (16.0 * (double)TL_FLOAT_ROUNDING)
+
+typedef struct contact_search {
+    tl_minkowski pair;
+    double margin, tolerance, radii;
+    double slack; // metres that the deepest contact may be off
+    tl_contact_cache *cache;
+    tl_contact_manifold *out;
+    tl_patch patch;
+} contact_search;
+
+static void add_contact(contact_search *s, const tl_vec3d points[2], tl_vec3d normal, const uint32_t features[2],
+                        uint32_t previous)
+{
+    const tl_minkowski *pair = &s->pair;
+    double radius_a = (double)pair->a->radius, radius_b = (double)pair->b->radius;
+    tl_contact *contact = &s->out->contacts[s->out->count++];
+    contact->point_a = tl_minkowski_to_world(pair, tl_vec3d_mul_add(points[0], normal, radius_a));
+    contact->point_b = tl_minkowski_to_world(pair, tl_vec3d_mul_add(points[1], normal, -radius_b));
+    contact->separation = (float)(tl_vec3d_dot(normal, tl_vec3d_sub(points[1], points[0])) - radius_a - radius_b);
+    contact->feature_a = features[0];
+    contact->feature_b = features[1];
+    contact->previous = previous;
+}
+
+// A contact's place, which the next call looks for, is on A's core.
+static void keep_in_cache(contact_search *s, uint32_t contact, tl_vec3d on_a)
+{
+    if (s->cache != NULL) {
+        s->cache->points[contact] = tl_vec3d_to_float(on_a);
+        s->cache->features[contact][0] = s->out->contacts[contact].feature_a;
+        s->cache->features[contact][1] = s->out->contacts[contact].feature_b;
+    }
+}
+
+static double lowest_of(const tl_patch *patch)
+{
+    double lowest = (double)INFINITY;
+    for (uint32_t i = 0; i < patch->count; i++) {
+        lowest = fmin(lowest, tl_patch_separation(&patch->points[i]));
+    }
+    return lowest;
+}
+
+static void add_deepest(tl_patch *patch, const tl_deepest *deepest)
+{
+    tl_patch_point point = { tl_vec3d_dot(patch->u, deepest->on_a),          tl_vec3d_dot(patch->v, deepest->on_a),
+                             tl_vec3d_dot(patch->normal, deepest->on_a),     tl_vec3d_dot(patch->normal, deepest->on_b),
+                             { deepest->features[0], deepest->features[1] }, TL_NO_CONTACT };
+    tl_patch_match(patch, &point);
+    patch->points[patch->count++] = point;
+}
+
+// The corners of the patch, with the deepest point. False when that is neither among them nor known.
+static bool find_common_patch(contact_search *s, const tl_deepest *deepest)
+{
+    const tl_vec3d normal = deepest->normal;
+    const double gap = DEEPEST_GAP * s->pair.scale;
+    tl_face face_a, face_b;
+    s->patch.count = 0;
+    if (!tl_face_along(s->pair.a, NULL, normal, &face_a) ||
+        !tl_face_along(s->pair.b, &s->pair.b_to_a, tl_vec3d_neg(normal), &face_b)) {
+        return deepest->has_points;
+    }
+    double limit = fmin(deepest->separation + s->tolerance, s->margin + s->radii);
+    tl_patch_find(&face_a, &face_b, normal, fmax(limit, deepest->separation + gap), s->cache, &s->patch);
+    double slack = deepest->has_points ? gap : fmax(gap, s->slack);
+    if (s->patch.count > 0 && lowest_of(&s->patch) <= deepest->separation + slack) {
+        tl_patch_choose(&s->patch, fmax(gap, s->slack));
+        return true;
+    }
+    if (!deepest->has_points) {
+        return false;
+    }
+    // One end of an edge is the deepest point itself.
+    if (s->patch.count < 2 && (face_a.count == 2 || face_b.count == 2)) {
+        s->patch.count = 0;
+    }
+    if (s->patch.count > 0) {
+        add_deepest(&s->patch, deepest);
+        tl_patch_choose(&s->patch, fmax(gap, s->slack));
+    }
+    return true;
+}
+
+static bool finish_manifold(contact_search *s, const tl_deepest *deepest)
+{
+    if (!find_common_patch(s, deepest)) {
+        return false;
+    }
+    const tl_vec3d normal = deepest->normal;
+    s->out->count = 0;
+    s->out->normal = tl_vec3d_to_float(tl_frame_rotate(&s->pair.a_to_world, normal));
+    s->out->separation = (float)(deepest->separation - s->radii);
+    if (s->patch.count == 0) {
+        const tl_vec3d points[2] = { deepest->on_a, deepest->on_b };
+        bool known = s->cache != NULL && s->cache->count == 1 && deepest->features[0] != 0 &&
+                     deepest->features[0] == s->cache->features[0][0] &&
+                     deepest->features[1] == s->cache->features[0][1];
+        add_contact(s, points, normal, deepest->features, known ? 0 : TL_NO_CONTACT);
+        keep_in_cache(s, 0, points[0]);
+    }
+    for (uint32_t i = 0; i < s->patch.count; i++) {
+        const tl_patch_point *p = &s->patch.points[i];
+        tl_vec3d flat = tl_vec3d_mul_add(tl_vec3d_scale(s->patch.u, p->x), s->patch.v, p->y);
+        const tl_vec3d points[2] = { tl_vec3d_mul_add(flat, normal, p->on_a), tl_vec3d_mul_add(flat, normal, p->on_b) };
+        add_contact(s, points, normal, p->features, p->previous);
+        keep_in_cache(s, i, points[0]);
+    }
+    return true;
+}
+
+// A vertex, when all points of the simplex have the same one.
+static void simplex_features(const tl_simplex *simplex, uint32_t features[2])
+{
+    uint32_t a = simplex->points[0].vertex_a, b = simplex->points[0].vertex_b;
+    for (uint32_t i = 1; i < simplex->count; i++) {
+        a = simplex->points[i].vertex_a == a ? a : TL_NO_VERTEX;
+        b = simplex->points[i].vertex_b == b ? b : TL_NO_VERTEX;
+    }
+    features[0] = a != TL_NO_VERTEX ? TL_FEATURE_VERTEX | a : 0;
+    features[1] = b != TL_NO_VERTEX ? TL_FEATURE_VERTEX | b : 0;
+}
+
+// By GJK and EPA. False when the shapes are farther apart than the margin.
+static bool search_deepest(contact_search *s, tl_deepest *deepest)
+{
+    tl_gjk gjk;
+    tl_gjk_run(&s->pair, s->cache != NULL ? &s->cache->simplex : NULL, -1.0, &gjk);
+    s->out->status = gjk.status;
+    deepest->has_points = true;
+    deepest->features[0] = deepest->features[1] = 0;
+    if (gjk.overlap) {
+        tl_core_depth depth;
+        tl_core_depth_find(&s->pair, &gjk, &depth);
+        s->out->status = depth.status;
+        deepest->normal = depth.normal;
+        deepest->on_a = depth.on_a;
+        deepest->on_b = depth.on_b;
+        deepest->separation = -depth.upper;
+        deepest->lower_depth = depth.status == TL_CONVEX_CONVERGED ? depth.lower : 0.0;
+        return true;
+    }
+    if (gjk.upper - s->radii > s->margin) {
+        return false;
+    }
+    deepest->normal = gjk.normal;
+    tl_simplex_witness(&gjk.simplex, &deepest->on_a, &deepest->on_b);
+    simplex_features(&gjk.simplex, deepest->features);
+    deepest->separation = gjk.upper;
+    deepest->lower_depth = 0.0;
+    return true;
+}
+
+// The ways from the cheapest on.
+static void find_manifold(contact_search *s)
+{
+    tl_deepest deepest;
+    if (s->cache != NULL && tl_axis_holds(&s->pair, s->cache, s->slack, &deepest) && finish_manifold(s, &deepest)) {
+        return;
+    }
+    bool done = false, near_enough = true;
+    if (s->pair.a->kind == TL_CONVEX_BOX && s->pair.b->kind == TL_CONVEX_BOX) {
+        tl_box_depth(&s->pair, &deepest);
+        near_enough = deepest.separation - s->radii <= s->margin;
+        done = deepest.separation <= 0.0 && finish_manifold(s, &deepest);
+    }
+    if (!done && near_enough) {
+        near_enough = search_deepest(s, &deepest);
+        if (near_enough) {
+            finish_manifold(s, &deepest);
+        }
+    }
+    if (s->cache != NULL) {
+        s->cache->has_axis = 0;
+        if (near_enough) {
+            tl_axis_store(&s->pair, &deepest, s->cache);
+        }
+    }
+}
+
+uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
+                            const tl_contact_limits *limits, tl_contact_cache *cache, tl_contact_manifold *manifold_out)
+{
+    TL_ASSERT(a != NULL && b != NULL && manifold_out != NULL);
+    contact_search s;
+    s.margin = limits != NULL ? (double)limits->margin : 0.0;
+    s.tolerance = limits != NULL ? (double)limits->tolerance : 0.0;
+    s.cache = cache;
+    s.out = manifold_out;
+    memset(manifold_out, 0, sizeof *manifold_out);
+    if (!tl_minkowski_init(&s.pair, a, pose_a, b, pose_b) || isnan(s.margin) || isnan(s.tolerance)) {
+        manifold_out->status = TL_CONVEX_NOT_FINITE;
+        return 0;
+    }
+    s.radii = (double)a->radius + (double)b->radius;
+    s.slack = cache != NULL && cache->count > 0 ? (double)TL_CONTACT_SLACK * s.tolerance : 0.0;
+    if (cache != NULL && cache->count > TL_MAX_CONTACTS) {
+        cache->count = 0; // not what a call left there
+    }
+    find_manifold(&s);
+    if (cache != NULL) {
+        cache->count = manifold_out->count;
+    }
+    return manifold_out->count;
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+//
+// The depth of two boxes by their 15 axes, against GJK and EPA; boxes that are nearly parallel, flat or thin too.
+
+#include "talus_test.h"
+
+#include "convex/contact/contact_axis.h"
+
+static tl_quat random_rotation(test_random *random, float spread)
+{
+    tl_vec3 axis = tl_scale(test_random_direction(random), spread);
+    return tl_quat_normalize((tl_quat){ axis.x, axis.y, axis.z, 1.0f });
+}
+
+static void test_depth(void **state)
+{
+    (void)state;
+    static const float spreads[] = { 0.0f, 1e-7f, 1e-5f, 1e-3f, 1.0f, 1.0f };
+    test_random random = { 71 };
+    uint32_t deep = 0, apart = 0, edges = 0;
+    for (int i = 0; i < 60000; i++) {
+        tl_vec3 half_a = test_random_point(&random, tl_vec3_make(.1f, .1f, .1f), tl_vec3_make(1, 1, 1)),
+                half_b = test_random_point(&random, tl_vec3_make(.1f, .1f, .1f), tl_vec3_make(1, 1, 1));
+        half_b.y = i % 7 == 0 ? 0.0f : half_b.y;
+        tl_convex a = tl_convex_box(tl_scale(test_random_direction(&random), 0.1f), half_a, 0.0f),
+                  b = tl_convex_box(tl_scale(test_random_direction(&random), 0.1f), half_b, 0.0f);
+        tl_transform pose_a = { random_rotation(&random, 1.0f), { 3, 2, 1 } }, pose_b = pose_a;
+        pose_b.rotation = tl_quat_normalize(tl_quat_mul(pose_a.rotation, random_rotation(&random, spreads[i % 6])));
+        pose_b.position =
+            tl_mul_add(pose_a.position, test_random_direction(&random), test_random_range(&random, 0.1f, 2.0f));
+        tl_minkowski pair;
+        TEST_CHECK(tl_minkowski_init(&pair, &a, pose_a, &b, pose_b));
+        tl_deepest found;
+        tl_box_depth(&pair, &found);
+        tl_separation s;
+        tl_penetration p;
+        if (tl_convex_penetration(&a, pose_a, &b, pose_b, NULL, &p) && p.depth > 1e-6f) {
+            TEST_CHECK(fabs(-found.separation - (double)p.depth) <= 2e-6 && found.lower_depth <= (double)p.upper_bound);
+            TEST_CHECK(found.lower_depth >= -found.separation - 2e-6);
+            tl_minkowski_point support;
+            tl_minkowski_support(&pair, found.normal, &support);
+            TEST_CHECK(fabs(tl_vec3d_dot(support.w, found.normal) + found.separation) <= 1e-9);
+            if (found.has_points) {
+                tl_vec3d off =
+                    tl_vec3d_sub(tl_vec3d_sub(found.on_a, found.on_b), tl_vec3d_scale(found.normal, -found.separation));
+                TEST_CHECK(tl_vec3d_length(off) < 1e-6);
+                edges++;
+            }
+            deep++;
+        } else if (found.separation > 0.0) {
+            tl_convex_distance(&a, pose_a, &b, pose_b, NULL, &s);
+            TEST_CHECK(found.separation <= (double)s.distance + 1e-6 && s.distance > 0.0f);
+            apart++;
+        }
+    }
+    print_message("deep %u (edges %u), apart %u\n", deep, edges, apart);
+    TEST_CHECK(deep > 20000 && edges > 2000 && apart > 5000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_depth),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
