@@ -146,16 +146,21 @@ static void test_polygons(void **state)
         set_face(&face_a, a, a_count, true);
         set_face(&face_b, b, b_count, false);
         tl_patch patch;
-        // A normal that is not along an axis sweeps along another direction.
         tl_vec3d normal = tl_vec3d_make(0.0, 1.0, 0.0);
         tl_patch_find(&face_a, &face_b, normal, 1.0, NULL, &patch);
         uint32_t count = clip(a, a_count, b, b_count, both);
+        // Small faces are cut; swept they have the same corners.
+        static const tl_patch_heights flat[2];
+        tl_patch swept = patch;
+        swept.count = 0;
+        tl_face_sweep(&face_a, &face_b, flat, &swept);
         if (area_of(both, count) > 1e-4) {
             check_patch(&patch, both, count);
+            check_patch(&swept, both, count);
             together++;
         } else if (count == 0) {
             // What is apart by less than the gap may touch.
-            TEST_CHECK(patch.count <= 4);
+            TEST_CHECK(patch.count <= 4 && swept.count <= 4);
             apart++;
         }
     }

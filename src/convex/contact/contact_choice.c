@@ -104,13 +104,7 @@ static void sort_around(choice *c)
     }
 }
 
-// Twice the area of four points in order around: the cross product of the diagonals.
-static double area_of(const tl_patch_point *p, const tl_patch_point *q, const tl_patch_point *r,
-                      const tl_patch_point *s)
-{
-    return (r->x - p->x) * (s->y - q->y) - (r->y - p->y) * (s->x - q->x);
-}
-
+// Twice the area.
 static double whole_area(const choice *c)
 {
     double sum = 0.0;
@@ -119,15 +113,6 @@ static double whole_area(const choice *c)
         sum += (q->x - p->x) * (r->y - p->y) - (q->y - p->y) * (r->x - p->x);
     }
     return sum;
-}
-
-static double worth(const choice *c, const uint32_t four[4])
-{
-    double known = 1.0;
-    for (int i = 0; i < 4; i++) {
-        known += c->points[four[i]]->previous != TL_NO_CONTACT ? KNOWN_BONUS : 0.0;
-    }
-    return known * area_of(c->points[four[0]], c->points[four[1]], c->points[four[2]], c->points[four[3]]);
 }
 
 static double distance_sq(const tl_patch_point *p, const tl_patch_point *q)
@@ -154,16 +139,22 @@ static uint32_t keep_two(const choice *c, tl_patch_point kept[4])
 
 static uint32_t keep_largest(const choice *c, double least_area, tl_patch_point kept[4])
 {
-    uint32_t best[4] = { 0 }, at[4];
-    double most = least_area;
-    for (at[0] = 0; at[0] + 3 < c->count; at[0]++) {
-        for (at[1] = at[0] + 1; at[1] + 2 < c->count; at[1]++) {
-            for (at[2] = at[1] + 1; at[2] + 1 < c->count; at[2]++) {
-                for (at[3] = at[2] + 1; at[3] < c->count; at[3]++) {
-                    double value = worth(c, at);
+    double bonus[MAX_CANDIDATES], most = least_area;
+    uint32_t best[4] = { 0 };
+    for (uint32_t i = 0; i < c->count; i++) {
+        bonus[i] = c->points[i]->previous != TL_NO_CONTACT ? KNOWN_BONUS : 0.0;
+    }
+    for (uint32_t i = 0; i + 3 < c->count; i++) {
+        for (uint32_t k = i + 2; k + 1 < c->count; k++) {
+            const tl_patch_point *p = c->points[i], *r = c->points[k];
+            double x = r->x - p->x, y = r->y - p->y, known = 1.0 + bonus[i] + bonus[k];
+            for (uint32_t j = i + 1; j < k; j++) {
+                for (uint32_t l = k + 1; l < c->count; l++) {
+                    const tl_patch_point *q = c->points[j], *s = c->points[l];
+                    double value = (x * (s->y - q->y) - y * (s->x - q->x)) * (known + bonus[j] + bonus[l]);
                     if (value > most) {
                         most = value;
-                        best[0] = at[0], best[1] = at[1], best[2] = at[2], best[3] = at[3];
+                        best[0] = i, best[1] = j, best[2] = k, best[3] = l;
                     }
                 }
             }
@@ -178,24 +169,33 @@ static uint32_t keep_largest(const choice *c, double least_area, tl_patch_point 
     return 4;
 }
 
-// The last manifold's corners, if there are at least four and they still span enough.
-static uint32_t keep_last(const tl_patch *patch, double area, tl_patch_point kept[4])
+// The last manifold's corners, if there are four and they still span enough: of the box around the patch, or, which
+// takes longer, of its corners.
+static uint32_t keep_last(tl_patch *patch, tl_patch_point kept[4])
 {
-    choice last = { { NULL }, 0 };
-    tl_patch_point found[4];
-    for (uint32_t i = 0; i < patch->count && last.count < 4; i++) {
-        if (patch->points[i].previous < 4) { // the fifth is the deepest, which came and goes
-            found[last.count] = patch->points[i];
-            last.points[last.count] = &found[last.count];
-            last.count++;
+    choice last = { { NULL }, 0 }, all = { { NULL }, 0 };
+    double low_x = patch->points[0].x, high_x = low_x, low_y = patch->points[0].y, high_y = low_y;
+    for (uint32_t i = 0; i < patch->count; i++) {
+        tl_patch_point *p = &patch->points[i];
+        low_x = p->x < low_x ? p->x : low_x;
+        high_x = p->x > high_x ? p->x : high_x;
+        low_y = p->y < low_y ? p->y : low_y;
+        high_y = p->y > high_y ? p->y : high_y;
+        if (p->previous < 4 && last.count < 4) { // the fifth is the deepest, which came and goes
+            last.points[last.count++] = p;
         }
     }
     if (last.count < 4) {
         return 0;
     }
     sort_around(&last);
-    if (!(whole_area(&last) >= KEPT_AREA * area)) {
-        return 0;
+    double area = whole_area(&last);
+    if (!(area >= 2.0 * KEPT_AREA * (high_x - low_x) * (high_y - low_y))) {
+        add_extremes(patch, &all);
+        sort_around(&all);
+        if (!(area >= KEPT_AREA * whole_area(&all))) {
+            return 0;
+        }
     }
     for (int i = 0; i < 4; i++) {
         kept[i] = *last.points[i];
@@ -203,21 +203,15 @@ static uint32_t keep_last(const tl_patch *patch, double area, tl_patch_point kep
     return 4;
 }
 
-static bool is_taken(const tl_patch *patch, uint32_t contact)
-{
-    for (uint32_t i = 0; i < patch->count; i++) {
-        if (patch->points[i].previous == contact) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // Where features changed though places did not.
 static void match_places(tl_patch *patch, double extent)
 {
-    for (uint32_t k = 0; patch->last != NULL && k < patch->last->count; k++) {
-        if (is_taken(patch, k)) {
+    uint32_t taken = 0;
+    for (uint32_t i = 0; i < patch->count; i++) {
+        taken |= patch->points[i].previous != TL_NO_CONTACT ? 1u << patch->points[i].previous : 0u;
+    }
+    for (uint32_t k = 0; k < patch->last->count; k++) {
+        if ((taken >> k & 1u) != 0) {
             continue;
         }
         tl_point2 place = tl_patch_project(patch, tl_vec3d_from(patch->last->points[k]));
@@ -257,16 +251,17 @@ static void keep_points(tl_patch *patch, const tl_patch_point *kept, uint32_t co
 void tl_patch_choose(tl_patch *patch, double slack)
 {
     double extent = extent_of_patch(patch);
-    match_places(patch, extent);
+    if (patch->last != NULL && patch->last->count > 0) {
+        match_places(patch, extent);
+    }
     if (patch->count <= 4) {
         return;
     }
     choice c = { { NULL }, 0 };
-    add_extremes(patch, &c);
-    sort_around(&c);
     tl_patch_point kept[4], lowest = patch->points[find_lowest(patch)];
-    uint32_t count = keep_last(patch, whole_area(&c), kept);
+    uint32_t count = patch->last != NULL && patch->last->count >= 4 ? keep_last(patch, kept) : 0;
     if (count == 0) {
+        add_extremes(patch, &c);
         add_known(patch, &c);
         sort_around(&c);
         count = keep_largest(&c, patch->gap * extent, kept);

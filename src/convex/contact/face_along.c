@@ -63,6 +63,26 @@ static void climb(candidate *best)
     } while (best->face != from);
 }
 
+// The corners of a facet that has few, to be walked no more.
+static void keep_corners(tl_face *face)
+{
+    const tl_hull *hull = face->facet.hull;
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
+    uint32_t at = face->first, count = 0;
+    do {
+        if (count == TL_FACE_CORNERS) {
+            return;
+        }
+        uint32_t twin = half_edges[at].twin, vertex = half_edges[at].origin;
+        face->corners[count] = tl_vec3d_from(tl_hull_vertices(hull)[vertex]);
+        face->vertices[count] = TL_FEATURE_VERTEX | vertex;
+        face->edges[count++] = TL_FEATURE_EDGE | (at < twin ? at : twin);
+        at = tl_facet_next(&face->facet, at);
+    } while (at != face->first);
+    face->first = 0;
+    face->count = count;
+}
+
 static void hull_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
 {
     candidate best = { shape->hull, d, 0, -2.0 };
@@ -78,6 +98,7 @@ static void hull_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
     face->feature = TL_FEATURE_FACE | best.face;
     const double *n = face->facet.plane.normal;
     face->normal = tl_vec3d_make(n[0], n[1], n[2]);
+    keep_corners(face);
 }
 
 // The features of corners that hold the numbers of their vertices, which are less than `stride`.

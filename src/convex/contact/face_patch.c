@@ -21,18 +21,13 @@ static tl_patch_heights face_heights(const tl_face *face, const tl_patch *patch)
     return heights;
 }
 
-static double height_at(const tl_patch_heights *h, tl_point2 p)
-{
-    return h->at_origin + h->along_x * p.x + h->along_y * p.y;
-}
-
-static double extent(const tl_patch *patch, const tl_face *face)
+static double extent(const tl_face *face)
 {
     double most = 0.0;
     uint32_t at = face->first;
     do {
-        tl_point2 p = tl_patch_project(patch, tl_face_corner(face, at));
-        most = fmax(most, fabs(p.x) + fabs(p.y));
+        double size = tl_vec3d_size(tl_face_corner(face, at));
+        most = size > most ? size : most;
         at = tl_face_next(face, at);
     } while (at != face->first);
     return most;
@@ -49,20 +44,28 @@ void tl_patch_match(const tl_patch *patch, tl_patch_point *point)
     }
 }
 
-void tl_patch_add(tl_patch *patch, tl_patch_point point)
+static bool same_place(const tl_patch *patch, const tl_patch_point *p, const tl_patch_point *q)
 {
-    if (tl_patch_separation(&point) > patch->limit) {
+    return fabs(p->x - q->x) + fabs(p->y - q->y) <= 2.0 * patch->gap;
+}
+
+void tl_patch_add(tl_patch *patch, tl_patch_point *point)
+{
+    uint32_t count = patch->count;
+    if (tl_patch_separation(point) > patch->limit) {
         return;
     }
-    // Whoever sweeps or cuts finds points that coincide soon after one another.
-    for (uint32_t i = patch->count, looks = 4; i > 0 && looks > 0; i--, looks--) {
-        const tl_patch_point *other = &patch->points[i - 1];
-        if (fabs(other->x - point.x) + fabs(other->y - point.y) <= 2.0 * patch->gap) {
+    // Whoever sweeps or cuts finds points that coincide soon after one another, or around.
+    for (uint32_t i = count, looks = 4; i > 0 && looks > 0; i--, looks--) {
+        if (same_place(patch, &patch->points[i - 1], point)) {
             return;
         }
     }
-    tl_patch_match(patch, &point);
-    patch->points[patch->count++] = point;
+    if (count > 4 && same_place(patch, &patch->points[0], point)) {
+        return;
+    }
+    tl_patch_match(patch, point);
+    patch->points[patch->count++] = *point;
     if (patch->count == TL_PATCH_POINTS) {
         tl_patch_thin(patch);
     }
@@ -105,12 +108,12 @@ static void add_edge_point(tl_patch *patch, const tl_face *edge, const tl_point2
                            const tl_patch_heights heights[2], const uint32_t features[2])
 {
     tl_point2 p = { ends[0].x + (ends[1].x - ends[0].x) * share, ends[0].y + (ends[1].y - ends[0].y) * share };
-    tl_patch_point point = { p.x, p.y, height_at(&heights[0], p), height_at(&heights[1], p), { 0 }, 0 };
+    tl_patch_point point = { p.x, p.y, tl_patch_height(&heights[0], p), tl_patch_height(&heights[1], p), { 0 }, 0 };
     // `features` are those of the edge and of the face, in this order.
     bool edge_is_a = edge == NULL;
     point.features[0] = features[edge_is_a ? 0 : 1];
     point.features[1] = features[edge_is_a ? 1 : 0];
-    tl_patch_add(patch, point);
+    tl_patch_add(patch, &point);
 }
 
 static void patch_of_edge(tl_patch *patch, const tl_face *edge, const tl_face *within, bool edge_is_a,
@@ -162,7 +165,7 @@ static void patch_of_edges(tl_patch *patch, const tl_face faces[2])
             point.features[1 - side] = share == 0.0   ? other->vertices[0]
                                        : share == 1.0 ? other->vertices[1]
                                                       : other->feature;
-            tl_patch_add(patch, point);
+            tl_patch_add(patch, &point);
         }
     }
 }
@@ -176,7 +179,7 @@ void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double l
     patch->last = last;
     patch->limit = limit;
     patch->count = 0;
-    patch->gap = EDGE_GAP * fmax(extent(patch, a), extent(patch, b));
+    patch->gap = EDGE_GAP * fmax(extent(a), extent(b));
     const tl_patch_heights heights[2] = { face_heights(a, patch), face_heights(b, patch) };
     if (a->count == 2 && b->count == 2) {
         const tl_face faces[2] = { *a, *b };
@@ -185,6 +188,8 @@ void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double l
         patch_of_edge(patch, a, b, true, heights);
     } else if (b->count == 2) {
         patch_of_edge(patch, b, a, false, heights);
+    } else if (a->count > 0 && a->count <= TL_SMALL_FACE && b->count > 0 && b->count <= TL_SMALL_FACE) {
+        tl_face_clip(a, b, heights, patch);
     } else {
         tl_face_sweep(a, b, heights, patch);
     }

@@ -65,21 +65,28 @@ typedef struct tl_patch {
     double limit; // metres; points farther apart than this are left out
 } tl_patch;
 
+// A face's plane over the patch's.
+typedef struct tl_patch_heights {
+    double at_origin, along_x, along_y;
+} tl_patch_heights;
+
 // face_patch.c
 // Corners of the common part of both faces, seen along the normal, where B's face lies at most `limit` above A's. A few
 // are kept where there are many: those that span the largest area, the deepest, and those of the last manifold.
 void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double limit, const tl_contact_cache *last,
                    tl_patch *patch_out);
 // Adds a point unless it is too far apart or there already.
-void tl_patch_add(tl_patch *patch, tl_patch_point point);
+void tl_patch_add(tl_patch *patch, tl_patch_point *point);
 
 // face_sweep.c
-// Two faces seen in the patch's plane: calls tl_patch_add for each corner of their intersection, with heights by the
-// planes, which are those of face_patch.c.
-typedef struct tl_patch_heights {
-    double at_origin, along_x, along_y;
-} tl_patch_heights;
+// Two faces of any number of corners seen in the patch's plane: calls tl_patch_add for each corner of their
+// intersection, with heights by the planes, which are those of face_patch.c.
 void tl_face_sweep(const tl_face *a, const tl_face *b, const tl_patch_heights heights[2], tl_patch *patch);
+
+// face_clip.c
+// The same of two faces whose corners are kept, at most TL_SMALL_FACE of each.
+enum { TL_SMALL_FACE = 8 };
+void tl_face_clip(const tl_face *a, const tl_face *b, const tl_patch_heights heights[2], tl_patch *patch);
 
 // Sets the contact of the last manifold that has the point's features.
 void tl_patch_match(const tl_patch *patch, tl_patch_point *point);
@@ -94,6 +101,11 @@ void tl_patch_thin(tl_patch *patch);
 static inline double tl_patch_separation(const tl_patch_point *point)
 {
     return point->on_b - point->on_a;
+}
+
+static inline double tl_patch_height(const tl_patch_heights *h, tl_point2 p)
+{
+    return h->at_origin + h->along_x * p.x + h->along_y * p.y;
 }
 
 static inline tl_point2 tl_patch_project(const tl_patch *patch, tl_vec3d p)

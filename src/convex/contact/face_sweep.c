@@ -151,14 +151,11 @@ static uint32_t chain_feature(const face_chain *c)
 
 static void add_point(face_sweep *s, double x, double y, uint32_t feature_a, uint32_t feature_b)
 {
-    const tl_patch_heights *a = &s->heights[0], *b = &s->heights[1];
-    tl_patch_point point = { x,
-                             y,
-                             a->at_origin + a->along_x * x + a->along_y * y,
-                             b->at_origin + b->along_x * x + b->along_y * y,
-                             { feature_a, feature_b },
-                             0 };
-    tl_patch_add(s->patch, point);
+    const tl_point2 p = { x, y };
+    tl_patch_point point = {
+        x, y, tl_patch_height(&s->heights[0], p), tl_patch_height(&s->heights[1], p), { feature_a, feature_b }, 0
+    };
+    tl_patch_add(s->patch, &point);
 }
 
 // A corner of chain k at this x is one of the patch when the other polygon holds it.

@@ -72,6 +72,9 @@ tl_facet tl_facet_around(const tl_hull *hull, uint32_t face)
     tl_vec3 size = tl_max(tl_abs(hull->bounds.min), tl_abs(hull->bounds.max));
     tl_facet facet = { hull, face, tl_hull_face_plane(hull, face), 0.0, tl_hull_faces(hull)[face].first };
     facet.gap = FLAT_GAP * (double)tl_maxf(size.x, tl_maxf(size.y, size.z));
+    if (!facet_holds(&facet, tl_hull_half_edges(hull)[tl_hull_half_edges(hull)[facet.first].twin].face)) {
+        return facet;
+    }
     // Go straight on in the plane until the outline: inside of it some neighbour is always farther.
     const double *n = facet.plane.normal;
     tl_vec3d direction = tl_vec3d_perpendicular(tl_vec3d_make(n[0], n[1], n[2]));
