@@ -250,6 +250,17 @@ TL_API uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, cons
                                    const tl_contact_limits *limits, tl_contact_cache *cache,
                                    tl_contact_manifold *manifold_out);
 
+/// The contacts of two shapes along a normal that the caller knows better, as the floor's at an inner edge of it:
+/// `normal` is unit, world, from A to B. Returns the number of contacts; 0 when along the normal all of B is farther
+/// from A than the limits' margin, or nothing of B lies over what A rests on.
+///
+/// The corners of the common patch of the faces that look along the normal, as in tl_convex_contacts, or B's farthest
+/// point where it has no face; `separation` is that of the deepest contact. `limits` may be NULL. Features, threads as
+/// in tl_convex_contacts; there is no cache.
+TL_API uint32_t tl_convex_contacts_along(const tl_convex *a, tl_transform pose_a, const tl_convex *b,
+                                         tl_transform pose_b, tl_vec3 normal, const tl_contact_limits *limits,
+                                         tl_contact_manifold *manifold_out);
+
 #ifdef __cplusplus
 }
 #endif

@@ -310,6 +310,37 @@ typedef struct tl_shape_hit {
 TL_API tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape, tl_transform pose, tl_vec3 motion,
                                     const tl_ray_filter *filter, tl_shape_hit *hit_out);
 
+/// What is asked of tl_soup_find_contacts. Set shape and pose; the rest may be zero.
+typedef struct tl_soup_contact_query {
+    const tl_convex *shape;      ///< borrowed
+    tl_transform pose;           ///< of the shape, rigid
+    tl_contact_limits limits;    ///< as in tl_convex_contacts
+    const tl_ray_filter *filter; ///< may be NULL; for culling, triangles are seen from the middle of the shape's box
+} tl_soup_contact_query;
+
+/// Where a shape rests on one triangle.
+typedef struct tl_soup_contact {
+    uint32_t triangle;            ///< index in the input
+    uint16_t material;            ///< of the triangle
+    bool is_face;                 ///< the normal is that of the triangle; else of an edge or corner that stands out
+    tl_contact_manifold manifold; ///< A is the triangle, B the shape; the normal leads from the triangle to the shape
+} tl_soup_contact;
+
+/// Where a shape rests on the soup: the contacts with each triangle, in an order of the soup's own.
+///
+/// No ghost contacts: where a shape slides over a floor of many triangles, the nearest way out of the next one may lead
+/// sideways, and its edge would stop the shape. A contact at an edge or corner counts as it is only when no triangle
+/// that meets it there rises above the plane across the contact's normal; so the edge stands out. Else the triangle is
+/// met along its own normal, or, where nothing of the shape lies over it, not at all. Triangles meet where they share
+/// the point, by a millionth of the coordinates; so T-junctions and meshes that are not welded serve too.
+///
+/// Writes at most `capacity` and to `*count_out` how many there are: TL_INCOMPLETE when that is more. `contacts_out`
+/// may be NULL when `capacity` is 0. No allocation. Features name the triangle's corners 0 to 2; match contacts from
+/// step to step by triangle and features. TL_ERR_NOT_FINITE: the pose, the limits, or a shape without a finite box;
+/// TL_ERR_ARGUMENT: a radius is negative or NaN.
+TL_API tl_result tl_soup_find_contacts(const tl_soup *soup, const tl_soup_contact_query *query,
+                                       tl_soup_contact *contacts_out, uint32_t capacity, uint32_t *count_out);
+
 typedef enum tl_soup_side { TL_SOUP_OUTSIDE, TL_SOUP_INSIDE, TL_SOUP_ON_SURFACE } tl_soup_side;
 
 /// Where a point lies with respect to a closed surface.

@@ -93,6 +93,18 @@ static tl_result contacts(contract_run *run)
     return TL_OK;
 }
 
+static tl_result contacts_along(contract_run *run)
+{
+    const convex_pair p = make_pair(run, 1.99f);
+    const tl_contact_limits limits = { 0.0f, 0.0f };
+    tl_contact_manifold manifold;
+    const uint32_t count = tl_convex_contacts_along(&p.a, p.pose_a, &p.b, p.pose_b, tl_vec3_make(0.0f, 1.0f, 0.0f),
+                                                    run->what == CONTRACT_NULL_DEF ? NULL : &limits, &manifold);
+    TEST_CHECK(count > 0);
+    run->answer = contract_hash(manifold.contacts, count * sizeof *manifold.contacts, count);
+    return TL_OK;
+}
+
 enum { POSE_CASES = CONTRACT_BIT(GOOD) | CONTRACT_BIT(ZERO_ROTATION) };
 
 const contract_entry CONTRACT_TABLE_convex[] = {
@@ -112,5 +124,6 @@ const contract_entry CONTRACT_TABLE_convex[] = {
     { "tl_convex_cast", POSE_CASES, 0, 0, NULL, cast, NULL },
     { "tl_convex_cast_ray", POSE_CASES, 0, 0, NULL, cast_ray, NULL },
     { "tl_convex_contacts", POSE_CASES | CONTRACT_BIT(NULL_DEF), 0, 0, NULL, contacts, NULL },
+    { "tl_convex_contacts_along", POSE_CASES | CONTRACT_BIT(NULL_DEF), 0, 0, NULL, contacts_along, NULL },
     { 0 },
 };

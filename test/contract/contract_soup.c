@@ -216,6 +216,28 @@ static tl_result find_overlaps(contract_run *run)
     return result;
 }
 
+static tl_result find_contacts(contract_run *run)
+{
+    const tl_soup *soup = contract_level_get()->soup;
+    const tl_convex shape = tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(1, 1.001f, 1), 0);
+    tl_ray_filter filter;
+    const tl_soup_contact_query query = {
+        &shape, pose_of(run, tl_vec3_make(8, 1, 10)), { 0.01f, 0.01f }, filter_of(run, &filter)
+    };
+    tl_soup_contact found[32];
+    memset(found, 0, sizeof found);
+    uint32_t all, count = 99;
+    TEST_RESULT(tl_soup_find_contacts(soup, &query, NULL, 0, &all), TL_INCOMPLETE);
+    TEST_CHECK(all > 0 && all <= 32);
+    const bool no_buffer = run->what == CONTRACT_NO_BUFFER || (run->what == CONTRACT_NULL_OUTPUT && run->variant == 1);
+    const tl_result result = tl_soup_find_contacts(INPUT(run, 0, soup), INPUT(run, 1, &query), no_buffer ? NULL : found,
+                                                   capacity_of(run, all), OUTPUT(run, 0, &count));
+    run->is_clear = count == 0 || (run->what == CONTRACT_NULL_OUTPUT && run->variant == 0);
+    run->count = count;
+    run->answer = found[0].triangle + 100 * found[0].manifold.count;
+    return result;
+}
+
 static tl_result cast_shape(contract_run *run)
 {
     tl_ray_filter filter;
@@ -284,6 +306,8 @@ const contract_entry CONTRACT_TABLE_soup[] = {
     { "tl_soup_nearest", FILTERED | REFUSING | CONTRACT_BIT(NOT_FOUND), 1, 1, NULL, nearest, NULL },
     { "tl_soup_overlaps", FILTERED | REFUSING | CONTRACT_BIT(ZERO_ROTATION), 2, 1, NULL, overlaps, NULL },
     { "tl_soup_find_overlaps", FILTERED | REFUSING | BUFFERED | CONTRACT_BIT(ZERO_ROTATION), 2, 2, NULL, find_overlaps,
+      NULL },
+    { "tl_soup_find_contacts", FILTERED | REFUSING | BUFFERED | CONTRACT_BIT(ZERO_ROTATION), 2, 2, NULL, find_contacts,
       NULL },
     { "tl_soup_cast_shape", FILTERED | REFUSING | CONTRACT_BIT(NOT_FOUND) | CONTRACT_BIT(ZERO_ROTATION), 2, 1, NULL,
       cast_shape, NULL },

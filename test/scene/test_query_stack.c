@@ -40,6 +40,8 @@ static bool run_query(const stack_run *run, test_random *random, uint32_t i)
     tl_penetration penetration;
     tl_contact_manifold manifold;
     tl_convex_hit hit;
+    const tl_soup_contact_query contacts_of = { &shape, here, { 0.1f, 0.1f }, NULL };
+    uint32_t count;
     switch (run->query) {
     case 0:
         return false; // what the thread itself takes
@@ -51,6 +53,8 @@ static bool run_query(const stack_run *run, test_random *random, uint32_t i)
         return tl_convex_penetration(&shape, here, &other, near, NULL, &penetration);
     case 4:
         return tl_convex_contacts(&shape, here, &other, near, NULL, NULL, &manifold) > 0;
+    case 6:
+        return tl_soup_find_contacts(run->soup, &contacts_of, NULL, 0, &count) == TL_INCOMPLETE;
     default:
         return tl_convex_cast(&shape, here, &other, near, motion, &hit);
     }
@@ -73,7 +77,8 @@ static void test_queries_fit_small_stacks(void **state)
     skip();
 #endif
     static const char *const names[] = {
-        "none", "scene_cast_shape", "soup_cast_shape", "convex_penetration", "convex_contacts", "convex_cast"
+        "none",        "scene_cast_shape",  "soup_cast_shape", "convex_penetration", "convex_contacts",
+        "convex_cast", "soup_find_contacts"
     };
     scene_parts parts;
     scene_parts_make(&parts, 3.0f);
@@ -87,7 +92,7 @@ static void test_queries_fit_small_stacks(void **state)
         run.soup = instances[i].soup;
     }
     size_t base = painted_stack_used(run_calls, &run);
-    for (run.query = 1; run.query < 6; run.query++) {
+    for (run.query = 1; run.query < 7; run.query++) {
         run.found = 0;
         size_t used = painted_stack_used(run_calls, &run) - base;
         print_message("%-20s %6zu bytes, %u of %d found something\n", names[run.query], used, run.found, CALLS);

@@ -169,21 +169,18 @@ static inline void solver_move(solver *s)
     }
 }
 
-// One step.
-static inline void solver_run_step(solver *s)
+static inline void solver_fall(solver *s)
 {
     for (uint32_t i = 0; i < s->body_count; i++) {
         if (s->bodies[i].inverse_mass > 0.0) {
             s->bodies[i].velocity = tl_vec3d_mul_add(s->bodies[i].velocity, s->gravity, s->step);
         }
     }
-    for (uint32_t i = 0; i < s->pair_count; i++) {
-        solver_pair *pair = &s->pairs[i];
-        const solver_body *a = &s->bodies[pair->a], *b = &s->bodies[pair->b];
-        tl_contact_manifold next;
-        tl_convex_contacts(a->shape, a->pose, b->shape, b->pose, &s->limits, &pair->cache, &next);
-        solver_refresh(s, pair, &next);
-    }
+}
+
+// With the manifolds of all pairs given by solver_refresh.
+static inline void solver_solve(solver *s)
+{
     for (int k = 0; k < SOLVER_ITERATIONS; k++) {
         if (k == SOLVER_ITERATIONS - SOLVER_RELAX) {
             solver_move(s);
@@ -192,6 +189,20 @@ static inline void solver_run_step(solver *s)
             solver_iterate(s, &s->pairs[i], k >= SOLVER_ITERATIONS - SOLVER_RELAX);
         }
     }
+}
+
+// One step.
+static inline void solver_run_step(solver *s)
+{
+    solver_fall(s);
+    for (uint32_t i = 0; i < s->pair_count; i++) {
+        solver_pair *pair = &s->pairs[i];
+        const solver_body *a = &s->bodies[pair->a], *b = &s->bodies[pair->b];
+        tl_contact_manifold next;
+        tl_convex_contacts(a->shape, a->pose, b->shape, b->pose, &s->limits, &pair->cache, &next);
+        solver_refresh(s, pair, &next);
+    }
+    solver_solve(s);
 }
 
 // A body of density 1000 kg/m3 whose inertia is that of a box of these half extents.

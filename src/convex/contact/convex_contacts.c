@@ -21,6 +21,7 @@
 #include "convex/contact/face_patch.h"
 #include "math/tolerance.h"
 
+#include <float.h>
 #include <string.h>
 
 // A corner of the patch within so many float roundings of the coordinates is the deepest point: sides are plane to
@@ -110,11 +111,8 @@ static bool find_common_patch(contact_search *s, const tl_deepest *deepest)
     return true;
 }
 
-static bool finish_manifold(contact_search *s, const tl_deepest *deepest)
+static void write_manifold(contact_search *s, const tl_deepest *deepest)
 {
-    if (!find_common_patch(s, deepest)) {
-        return false;
-    }
     const tl_vec3d normal = deepest->normal;
     s->out->count = 0;
     s->out->normal = tl_vec3d_to_float(tl_frame_rotate(&s->pair.a_to_world, normal));
@@ -134,6 +132,14 @@ static bool finish_manifold(contact_search *s, const tl_deepest *deepest)
         add_contact(s, points, normal, p->features, p->previous);
         keep_in_cache(s, i, points[0]);
     }
+}
+
+static bool finish_manifold(contact_search *s, const tl_deepest *deepest)
+{
+    if (!find_common_patch(s, deepest)) {
+        return false;
+    }
+    write_manifold(s, deepest);
     return true;
 }
 
@@ -206,28 +212,106 @@ static void find_manifold(contact_search *s)
     }
 }
 
+// False when a pose, shape or limit is not finite.
+static bool start_search(contact_search *s, const tl_convex *a, tl_transform pose_a, const tl_convex *b,
+                         tl_transform pose_b, const tl_contact_limits *limits)
+{
+    s->margin = limits != NULL ? (double)limits->margin : 0.0;
+    s->tolerance = limits != NULL ? (double)limits->tolerance : 0.0;
+    s->slack = 0.0;
+    s->cache = NULL;
+    memset(s->out, 0, sizeof *s->out);
+    if (!tl_minkowski_init(&s->pair, a, pose_a, b, pose_b) || isnan(s->margin) || isnan(s->tolerance)) {
+        s->out->status = TL_CONVEX_NOT_FINITE;
+        return false;
+    }
+    s->radii = (double)a->radius + (double)b->radius;
+    return true;
+}
+
 uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                             const tl_contact_limits *limits, tl_contact_cache *cache, tl_contact_manifold *manifold_out)
 {
     TL_ASSERT(a != NULL && b != NULL && manifold_out != NULL);
     contact_search s;
-    s.margin = limits != NULL ? (double)limits->margin : 0.0;
-    s.tolerance = limits != NULL ? (double)limits->tolerance : 0.0;
-    s.cache = cache;
     s.out = manifold_out;
-    memset(manifold_out, 0, sizeof *manifold_out);
-    if (!tl_minkowski_init(&s.pair, a, pose_a, b, pose_b) || isnan(s.margin) || isnan(s.tolerance)) {
-        manifold_out->status = TL_CONVEX_NOT_FINITE;
+    if (!start_search(&s, a, pose_a, b, pose_b, limits)) {
         return 0;
     }
-    s.radii = (double)a->radius + (double)b->radius;
-    s.slack = cache != NULL && cache->count > 0 ? (double)TL_CONTACT_SLACK * s.tolerance : 0.0;
     if (cache != NULL && cache->count > TL_MAX_CONTACTS) {
         cache->count = 0; // not what a call left there
     }
+    s.cache = cache;
+    s.slack = cache != NULL && cache->count > 0 ? (double)TL_CONTACT_SLACK * s.tolerance : 0.0;
     find_manifold(&s);
     if (cache != NULL) {
         cache->count = manifold_out->count;
+    }
+    return manifold_out->count;
+}
+
+// B's farthest point on A's face, when it lies over that.
+static void meet_by_point(contact_search *s, const tl_face *face_a, const tl_minkowski_point *point)
+{
+    tl_face spot = *face_a;
+    spot.count = 2;
+    spot.first = 0;
+    spot.normal = tl_vec3d_neg(s->patch.normal);
+    spot.corners[0] = spot.corners[1] = tl_vec3d_sub(point->a, point->w);
+    spot.vertices[0] = spot.vertices[1] = point->vertex_b != TL_NO_VERTEX ? TL_FEATURE_VERTEX | point->vertex_b : 0;
+    spot.feature = spot.edges[0] = spot.edges[1] = spot.vertices[0];
+    spot.offset = tl_vec3d_dot(spot.normal, spot.corners[0]);
+    if (face_a->count != 2) {
+        tl_patch_find(face_a, &spot, s->patch.normal, s->margin + s->radii, NULL, &s->patch);
+    }
+}
+
+static void drop_shallow(tl_patch *patch, double limit)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < patch->count; i++) {
+        if (tl_patch_separation(&patch->points[i]) <= limit) {
+            patch->points[kept++] = patch->points[i];
+        }
+    }
+    patch->count = kept;
+}
+
+uint32_t tl_convex_contacts_along(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
+                                  tl_vec3 normal, const tl_contact_limits *limits, tl_contact_manifold *manifold_out)
+{
+    TL_ASSERT(a != NULL && b != NULL && manifold_out != NULL);
+    contact_search s;
+    s.out = manifold_out;
+    if (!start_search(&s, a, pose_a, b, pose_b, limits)) {
+        return 0;
+    }
+    tl_vec3d along = tl_frame_rotate_back(&s.pair.a_to_world, tl_vec3d_from(normal));
+    double length = tl_vec3d_length(along);
+    if (!(length > 0.0 && length <= DBL_MAX)) {
+        manifold_out->status = TL_CONVEX_NOT_FINITE;
+        return 0;
+    }
+    tl_deepest deepest;
+    deepest.normal = tl_vec3d_scale(along, 1.0 / length);
+    tl_minkowski_point point;
+    tl_minkowski_support(&s.pair, deepest.normal, &point);
+    tl_face face_a, face_b;
+    s.patch.count = 0;
+    s.patch.normal = deepest.normal;
+    if (-tl_vec3d_dot(deepest.normal, point.w) - s.radii <= s.margin &&
+        tl_face_along(a, NULL, deepest.normal, &face_a)) {
+        if (tl_face_along(b, &s.pair.b_to_a, tl_vec3d_neg(deepest.normal), &face_b)) {
+            tl_patch_find(&face_a, &face_b, deepest.normal, s.margin + s.radii, NULL, &s.patch);
+        } else {
+            meet_by_point(&s, &face_a, &point);
+        }
+    }
+    if (s.patch.count > 0) {
+        deepest.separation = lowest_of(&s.patch);
+        drop_shallow(&s.patch, deepest.separation + fmax(s.tolerance, DEEPEST_GAP * s.pair.scale));
+        tl_patch_choose(&s.patch, DEEPEST_GAP * s.pair.scale);
+        write_manifold(&s, &deepest);
     }
     return manifold_out->count;
 }

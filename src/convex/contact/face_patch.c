@@ -158,7 +158,7 @@ static void patch_of_edges(tl_patch *patch, const tl_face faces[2])
                 continue;
             }
             tl_vec3d on_a = side == 0 ? p : q, on_b = side == 0 ? q : p;
-            tl_point2 at = tl_patch_project(patch, p);
+            tl_point2 at = tl_patch_project(patch, on_a); // the point of B may lie a little beside
             tl_patch_point point = { at.x,  at.y, tl_vec3d_dot(patch->normal, on_a), tl_vec3d_dot(patch->normal, on_b),
                                      { 0 }, 0 };
             point.features[side] = edge->vertices[i];
