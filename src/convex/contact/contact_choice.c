@@ -188,7 +188,9 @@ static uint32_t keep_last(tl_patch *patch, tl_patch_point kept[4])
     if (last.count < 4) {
         return 0;
     }
-    sort_around(&last);
+    if (!patch->in_order) {
+        sort_around(&last);
+    }
     double area = whole_area(&last);
     if (!(area >= 2.0 * KEPT_AREA * (high_x - low_x) * (high_y - low_y))) {
         add_extremes(patch, &all);
@@ -261,9 +263,15 @@ void tl_patch_choose(tl_patch *patch, double slack)
     tl_patch_point kept[4], lowest = patch->points[find_lowest(patch)];
     uint32_t count = patch->last != NULL && patch->last->count >= 4 ? keep_last(patch, kept) : 0;
     if (count == 0) {
-        add_extremes(patch, &c);
-        add_known(patch, &c);
-        sort_around(&c);
+        if (patch->in_order && patch->count <= DIRECTIONS) {
+            for (; c.count < patch->count; c.count++) {
+                c.points[c.count] = &patch->points[c.count];
+            }
+        } else {
+            add_extremes(patch, &c);
+            add_known(patch, &c);
+            sort_around(&c);
+        }
         count = keep_largest(&c, patch->gap * extent, kept);
     }
     keep_points(patch, kept, count);
@@ -283,4 +291,5 @@ void tl_patch_thin(tl_patch *patch)
         kept[i] = *c.points[i];
     }
     keep_points(patch, kept, c.count);
+    patch->in_order = false;
 }

@@ -77,6 +77,7 @@ static void add_deepest(tl_patch *patch, const tl_deepest *deepest)
                              { deepest->features[0], deepest->features[1] }, TL_NO_CONTACT };
     tl_patch_match(patch, &point);
     patch->points[patch->count++] = point;
+    patch->in_order = false;
 }
 
 // The corners of the patch, with the deepest point. False when that is neither among them nor known.

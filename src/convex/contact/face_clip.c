@@ -105,8 +105,15 @@ void tl_face_clip(const tl_face *a, const tl_face *b, const tl_patch_heights hei
     for (uint32_t by = 0; by < b->count && c.count > 0; by++) {
         cut_by(&c, by);
     }
+    patch->in_order = true;
+    // Those that coincide are neighbours; the first of them stays.
+    const clip_corner *corners = c.corners[c.now], *first = corners, *last = NULL;
     for (uint32_t i = 0; i < c.count; i++) {
-        const clip_corner *at = &c.corners[c.now][i];
+        const clip_corner *at = &corners[i];
+        if (last != NULL && (tl_same_place(patch, at->x, at->y, last->x, last->y) ||
+                             tl_same_place(patch, at->x, at->y, first->x, first->y))) {
+            continue;
+        }
         tl_point2 p = { at->x, at->y };
         tl_patch_point point = { p.x,
                                  p.y,
@@ -114,6 +121,7 @@ void tl_face_clip(const tl_face *a, const tl_face *b, const tl_patch_heights hei
                                  tl_patch_height(&heights[1], p),
                                  { at->features[0], at->features[1] },
                                  0 };
-        tl_patch_add(patch, &point);
+        tl_patch_add_new(patch, &point);
+        last = at;
     }
 }

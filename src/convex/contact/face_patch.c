@@ -44,24 +44,9 @@ void tl_patch_match(const tl_patch *patch, tl_patch_point *point)
     }
 }
 
-static bool same_place(const tl_patch *patch, const tl_patch_point *p, const tl_patch_point *q)
+void tl_patch_add_new(tl_patch *patch, tl_patch_point *point)
 {
-    return fabs(p->x - q->x) + fabs(p->y - q->y) <= 2.0 * patch->gap;
-}
-
-void tl_patch_add(tl_patch *patch, tl_patch_point *point)
-{
-    uint32_t count = patch->count;
     if (tl_patch_separation(point) > patch->limit) {
-        return;
-    }
-    // Whoever sweeps or cuts finds points that coincide soon after one another, or around.
-    for (uint32_t i = count, looks = 4; i > 0 && looks > 0; i--, looks--) {
-        if (same_place(patch, &patch->points[i - 1], point)) {
-            return;
-        }
-    }
-    if (count > 4 && same_place(patch, &patch->points[0], point)) {
         return;
     }
     tl_patch_match(patch, point);
@@ -69,6 +54,18 @@ void tl_patch_add(tl_patch *patch, tl_patch_point *point)
     if (patch->count == TL_PATCH_POINTS) {
         tl_patch_thin(patch);
     }
+}
+
+void tl_patch_add(tl_patch *patch, tl_patch_point *point)
+{
+    // Whoever sweeps or cuts an edge finds points that coincide soon after one another.
+    for (uint32_t i = patch->count, looks = 4; i > 0 && looks > 0; i--, looks--) {
+        const tl_patch_point *other = &patch->points[i - 1];
+        if (tl_same_place(patch, other->x, other->y, point->x, point->y)) {
+            return;
+        }
+    }
+    tl_patch_add_new(patch, point);
 }
 
 // The part of an edge that is within a face, and the features that its ends lie on; nothing when low > high.
@@ -179,6 +176,7 @@ void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double l
     patch->last = last;
     patch->limit = limit;
     patch->count = 0;
+    patch->in_order = false;
     patch->gap = EDGE_GAP * fmax(extent(a), extent(b));
     const tl_patch_heights heights[2] = { face_heights(a, patch), face_heights(b, patch) };
     if (a->count == 2 && b->count == 2) {

@@ -61,8 +61,9 @@ typedef struct tl_patch {
     const tl_contact_cache *last; // may be NULL
     tl_patch_point points[TL_PATCH_POINTS];
     uint32_t count;
-    double gap;   // metres; corners closer than this are one
-    double limit; // metres; points farther apart than this are left out
+    bool in_order; // they go around, counter-clockwise
+    double gap;    // metres; corners closer than this are one
+    double limit;  // metres; points farther apart than this are left out
 } tl_patch;
 
 // A face's plane over the patch's.
@@ -77,6 +78,8 @@ void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double l
                    tl_patch *patch_out);
 // Adds a point unless it is too far apart or there already.
 void tl_patch_add(tl_patch *patch, tl_patch_point *point);
+// The same of a point that is known to be new.
+void tl_patch_add_new(tl_patch *patch, tl_patch_point *point);
 
 // face_sweep.c
 // Two faces of any number of corners seen in the patch's plane: calls tl_patch_add for each corner of their
@@ -97,6 +100,11 @@ void tl_patch_match(const tl_patch *patch, tl_patch_point *point);
 void tl_patch_choose(tl_patch *patch, double slack);
 // Cuts it down so far that there is space for more points.
 void tl_patch_thin(tl_patch *patch);
+
+static inline bool tl_same_place(const tl_patch *patch, double x, double y, double other_x, double other_y)
+{
+    return fabs(x - other_x) + fabs(y - other_y) <= 2.0 * patch->gap;
+}
 
 static inline double tl_patch_separation(const tl_patch_point *point)
 {

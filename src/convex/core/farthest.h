@@ -67,6 +67,23 @@ static inline uint32_t tl_farthest_of_block(const tl_vec3 *points, uint32_t coun
     return mask != 0 ? tl_lowest_bit(mask) : 0; // 0: the direction is not finite
 }
 
+// Of eight: all products stay in registers.
+static inline uint32_t tl_farthest_of_eight(const tl_vec3 *points, const tl_vec3d *direction)
+{
+    const tl_f64x2 d[3] = { tl_f64x2_all(direction->x), tl_f64x2_all(direction->y), tl_f64x2_all(direction->z) };
+    tl_f64x2 x[4], y[4], z[4], dots[4];
+    tl_f64x2_load_points(&points[0].x, x, y, z);
+    tl_f64x2_load_points(&points[4].x, x + 2, y + 2, z + 2);
+    for (int i = 0; i < 4; i++) {
+        dots[i] = tl_farthest_two(d, x[i], y[i], z[i]);
+    }
+    tl_f64x2 best = tl_f64x2_max(tl_f64x2_max(dots[0], dots[1]), tl_f64x2_max(dots[2], dots[3]));
+    best = tl_f64x2_max(best, tl_f64x2_swap(best));
+    uint32_t mask = tl_f64x2_two_masks(tl_f64x2_where_equal(dots[0], best), tl_f64x2_where_equal(dots[1], best)) |
+                    tl_f64x2_two_masks(tl_f64x2_where_equal(dots[2], best), tl_f64x2_where_equal(dots[3], best)) << 4;
+    return mask != 0 ? tl_lowest_bit(mask) : 0; // 0: the direction is not finite
+}
+
 #endif
 
 static inline uint32_t tl_farthest_plain(const tl_vec3 *points, uint32_t count, const tl_vec3d *direction)
@@ -105,6 +122,9 @@ static inline uint32_t tl_farthest_of_many(const tl_vec3 *points, uint32_t count
 static inline uint32_t tl_farthest(const tl_vec3 *points, uint32_t count, const tl_vec3d *direction)
 {
 #if TL_HAS_F64X2
+    if (count == 8) {
+        return tl_farthest_of_eight(points, direction);
+    }
     if (count >= 4) {
         double dot;
         return count <= TL_FARTHEST_BLOCK ? tl_farthest_of_block(points, count, direction, &dot)

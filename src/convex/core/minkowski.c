@@ -8,6 +8,7 @@
 
 #include "convex/core/minkowski.h"
 
+#include "base/compiler.h"
 #include "convex/core/farthest.h"
 #include "math/tolerance.h"
 
@@ -121,6 +122,19 @@ static void find_support(const tl_minkowski *pair, const tl_convex *shape, const
     *point = tl_vec3d_from(points[*vertex]);
 }
 
+// The same; small hulls, which are asked most often, without a call.
+static TL_ALWAYS_INLINE void support_of(const tl_minkowski *pair, const tl_convex *shape, const tl_vec3d *direction,
+                                        uint32_t *vertex, tl_vec3d *point)
+{
+    if (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count == 8 && pair->scan_limit >= 8) {
+        const tl_vec3 *points = tl_hull_vertices(shape->hull);
+        *vertex = tl_farthest(points, 8, direction);
+        *point = tl_vec3d_from(points[*vertex]);
+        return;
+    }
+    find_support(pair, shape, direction, vertex, point);
+}
+
 static double custom_size(const tl_convex *shape)
 {
     tl_vec3d size;
@@ -197,6 +211,7 @@ bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, tl_transform pose
     tl_frame_set(&pair->a_to_world, rotation_a, position_a);
     tl_frame_set(&pair->b_to_a, tl_quatd_between(rotation_a, rotation_b),
                  tl_frame_rotate_back(&pair->a_to_world, tl_vec3d_sub(position_b, position_a)));
+    pair->origin_size = tl_vec3d_size(pair->b_to_a.origin);
     pair->scale = 0.0;
     tl_minkowski_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
     return true;
@@ -212,15 +227,15 @@ tl_vec3d tl_minkowski_offset(const tl_minkowski *pair)
 static void finish_point(tl_minkowski *pair, tl_vec3d on_b, tl_minkowski_point *point)
 {
     point->w = tl_vec3d_sub(point->a, tl_frame_point(&pair->b_to_a, on_b));
-    double scale = tl_vec3d_size(point->a) + tl_vec3d_size(on_b) + tl_vec3d_size(pair->b_to_a.origin);
+    double scale = tl_vec3d_size(point->a) + tl_vec3d_size(on_b) + pair->origin_size;
     pair->scale = scale > pair->scale ? scale : pair->scale;
 }
 
 void tl_minkowski_support(tl_minkowski *pair, tl_vec3d direction, tl_minkowski_point *point)
 {
     tl_vec3d direction_b = tl_frame_rotate_back(&pair->b_to_a, tl_vec3d_neg(direction)), on_b;
-    find_support(pair, pair->a, &direction, &pair->last_a, &point->a);
-    find_support(pair, pair->b, &direction_b, &pair->last_b, &on_b);
+    support_of(pair, pair->a, &direction, &pair->last_a, &point->a);
+    support_of(pair, pair->b, &direction_b, &pair->last_b, &on_b);
     point->vertex_a = pair->last_a;
     point->vertex_b = pair->last_b;
     finish_point(pair, on_b, point);

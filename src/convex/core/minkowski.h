@@ -25,6 +25,7 @@ typedef struct tl_minkowski {
     // A support direction is rounded to float, so a support value is short of the true one by at most
     // |direction| times this: the size of both shapes times one rounding of the direction.
     double direction_error;
+    double origin_size;      // of b_to_a's origin
     double scale;            // what rounding is relative to: the largest coordinates that went into a point so far
     uint32_t last_a, last_b; // hints
     uint32_t scan_limit;     // hulls of so many vertices are scanned, whatever the hint

@@ -48,9 +48,10 @@ static double touch_gap(const linear_cast *c)
 // The simplex seen from the origin at time t.
 static void update_nearest(linear_cast *c)
 {
-    tl_simplex shifted = c->simplex;
+    tl_simplex shifted; // of its points only w is read
+    shifted.count = c->simplex.count;
     for (uint32_t i = 0; i < shifted.count; i++) {
-        shifted.points[i].w = tl_vec3d_mul_add(shifted.points[i].w, c->motion, -c->t);
+        shifted.points[i].w = tl_vec3d_mul_add(c->simplex.points[i].w, c->motion, -c->t);
     }
     tl_simplex_point nearest;
     tl_simplex_solve(&shifted, &nearest);
