@@ -31,7 +31,9 @@ static void test_depth(void **state)
         tl_minkowski pair;
         TEST_CHECK(tl_minkowski_init(&pair, &a, pose_a, &b, pose_b));
         tl_deepest found;
-        tl_box_depth(&pair, &found);
+        tl_box box_a, box_b;
+        TEST_CHECK(tl_box_of(&a, &box_a) && tl_box_of(&b, &box_b));
+        tl_box_depth(&pair, &box_a, &box_b, &found);
         tl_separation s;
         tl_penetration p;
         if (tl_convex_penetration(&a, pose_a, &b, pose_b, NULL, &p) && p.depth > 1e-6f) {
@@ -57,10 +59,32 @@ static void test_depth(void **state)
     TEST_CHECK(deep > 20000 && edges > 2000 && apart > 5000);
 }
 
+// The hull of a box's corners is that box; one corner off, it is not.
+static void test_hulls_of_boxes(void **state)
+{
+    (void)state;
+    for (int off = 0; off < 2; off++) {
+        tl_vec3 corners[8];
+        for (int k = 0; k < 8; k++) {
+            corners[k] = tl_vec3_make(k & 1 ? 3.0f : 1.0f, k & 2 ? 2.5f : -1.5f, k & 4 ? 0.5f : 0.25f);
+        }
+        corners[7].x += off != 0 ? 1e-3f : 0.0f;
+        tl_hull *hull;
+        TEST_RESULT(tl_hull_bake(corners, 8, NULL, &hull, NULL), TL_OK);
+        tl_convex shape = tl_convex_from_hull(hull, 0.0f);
+        tl_box box;
+        TEST_CHECK(tl_box_of(&shape, &box) == (off == 0));
+        TEST_CHECK(off != 0 ||
+                   (box.middle.x == 2.0 && box.middle.y == 0.5 && box.half.y == 2.0 && box.half.z == 0.125));
+        tl_blob_free(hull);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_depth),
+        cmocka_unit_test(test_hulls_of_boxes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

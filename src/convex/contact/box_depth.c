@@ -20,6 +20,7 @@
 #define BOX_ERROR TL_DOUBLE_GAMMA(64)
 
 typedef struct box_pair {
+    const tl_box *a, *b;
     double half_a[3], half_b[3];
     double turn[3][3], size[3][3]; // axis of A . axis of B, and its absolute value
     double apart[3];               // from A's middle to B's, along A's axes
@@ -29,19 +30,45 @@ typedef struct box_pair {
     tl_vec3d normal;
 } box_pair;
 
-static void load_box(tl_vec3 half, double out[3])
+bool tl_box_of(const tl_convex *shape, tl_box *box)
 {
-    out[0] = (double)half.x;
-    out[1] = (double)half.y;
-    out[2] = (double)half.z;
+    if (shape->kind == TL_CONVEX_BOX) {
+        box->middle = tl_vec3d_from(shape->corners[0]);
+        box->half = tl_vec3d_from(shape->corners[1]);
+        return true;
+    }
+    const tl_hull *hull = shape->hull;
+    if (shape->kind != TL_CONVEX_HULL || hull->vertex_count != 8 || hull->face_count != 6) {
+        return false;
+    }
+    const tl_vec3 low = hull->bounds.min, high = hull->bounds.max, *v = tl_hull_vertices(hull);
+    for (uint32_t i = 0; i < 8; i++) {
+        if ((v[i].x != low.x && v[i].x != high.x) || (v[i].y != low.y && v[i].y != high.y) ||
+            (v[i].z != low.z && v[i].z != high.z)) {
+            return false;
+        }
+    }
+    tl_vec3d from = tl_vec3d_from(low), to = tl_vec3d_from(high);
+    box->middle = tl_vec3d_scale(tl_vec3d_add(from, to), 0.5);
+    box->half = tl_vec3d_scale(tl_vec3d_sub(to, from), 0.5);
+    return true;
 }
 
-static void load_boxes(const tl_minkowski *pair, box_pair *p)
+static void load_half(tl_vec3d half, double out[3])
 {
-    tl_vec3d middle_b = tl_frame_point(&pair->b_to_a, tl_vec3d_from(pair->b->corners[0]));
-    tl_vec3d apart = tl_vec3d_sub(middle_b, tl_vec3d_from(pair->a->corners[0]));
-    load_box(pair->a->corners[1], p->half_a);
-    load_box(pair->b->corners[1], p->half_b);
+    out[0] = half.x;
+    out[1] = half.y;
+    out[2] = half.z;
+}
+
+static void load_boxes(const tl_minkowski *pair, const tl_box *a, const tl_box *b, box_pair *p)
+{
+    p->a = a;
+    p->b = b;
+    tl_vec3d middle_b = tl_frame_point(&pair->b_to_a, b->middle);
+    tl_vec3d apart = tl_vec3d_sub(middle_b, a->middle);
+    load_half(a->half, p->half_a);
+    load_half(b->half, p->half_b);
     p->apart[0] = apart.x;
     p->apart[1] = apart.y;
     p->apart[2] = apart.z;
@@ -54,8 +81,7 @@ static void load_boxes(const tl_minkowski *pair, box_pair *p)
         }
     }
     double reach = p->half_a[0] + p->half_a[1] + p->half_a[2] + p->half_b[0] + p->half_b[1] + p->half_b[2];
-    p->scale = reach + tl_vec3d_size(tl_vec3d_from(pair->a->corners[0])) +
-               tl_vec3d_size(tl_vec3d_from(pair->b->corners[0])) + tl_vec3d_size(pair->b_to_a.origin);
+    p->scale = reach + tl_vec3d_size(a->middle) + tl_vec3d_size(b->middle) + tl_vec3d_size(pair->b_to_a.origin);
     p->noise = BOX_ERROR * p->scale;
     p->best = p->least = (double)INFINITY;
     p->axis = 0;
@@ -124,9 +150,9 @@ static uint32_t edge_along(const double d[3], int i)
     return bits;
 }
 
-static tl_vec3d edge_middle(tl_vec3 center, const double half[3], uint32_t bits, int i)
+static tl_vec3d edge_middle(tl_vec3d center, const double half[3], uint32_t bits, int i)
 {
-    double p[3] = { (double)center.x, (double)center.y, (double)center.z };
+    double p[3] = { center.x, center.y, center.z };
     for (int k = 0; k < 3; k++) {
         p[k] += k == i ? 0.0 : bits & 1u << k ? half[k] : -half[k];
     }
@@ -140,8 +166,8 @@ static void edge_points(const tl_minkowski *pair, const box_pair *p, tl_deepest 
     tl_vec3d n = p->normal, nb = tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, n));
     const double da[3] = { n.x, n.y, n.z }, db[3] = { nb.x, nb.y, nb.z };
     uint32_t bits_a = edge_along(da, i), bits_b = edge_along(db, j);
-    tl_vec3d a = edge_middle(pair->a->corners[0], p->half_a, bits_a, i);
-    tl_vec3d b = tl_frame_point(&pair->b_to_a, edge_middle(pair->b->corners[0], p->half_b, bits_b, j));
+    tl_vec3d a = edge_middle(p->a->middle, p->half_a, bits_a, i);
+    tl_vec3d b = tl_frame_point(&pair->b_to_a, edge_middle(p->b->middle, p->half_b, bits_b, j));
     tl_vec3d u = { i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0 }, v = column(p, j);
     tl_vec3d apart = tl_vec3d_sub(b, a), cross = tl_vec3d_cross(u, v);
     double length_sq = tl_vec3d_dot(cross, cross);
@@ -149,15 +175,17 @@ static void edge_points(const tl_minkowski *pair, const box_pair *p, tl_deepest 
            t = tl_vec3d_dot(tl_vec3d_cross(apart, u), cross) / length_sq;
     out->on_a = tl_vec3d_mul_add(a, u, fmin(fmax(s, -p->half_a[i]), p->half_a[i]));
     out->on_b = tl_vec3d_mul_add(b, v, fmin(fmax(t, -p->half_b[j]), p->half_b[j]));
-    out->features[0] = TL_FEATURE_EDGE | (bits_a * 8 + (bits_a | 1u << i));
-    out->features[1] = TL_FEATURE_EDGE | (bits_b * 8 + (bits_b | 1u << j));
+    // Edges of hulls have other numbers.
+    bool boxes = pair->a->kind == TL_CONVEX_BOX && pair->b->kind == TL_CONVEX_BOX;
+    out->features[0] = boxes ? TL_FEATURE_EDGE | (bits_a * 8 + (bits_a | 1u << i)) : 0;
+    out->features[1] = boxes ? TL_FEATURE_EDGE | (bits_b * 8 + (bits_b | 1u << j)) : 0;
     out->has_points = true;
 }
 
-void tl_box_depth(tl_minkowski *pair, tl_deepest *out)
+void tl_box_depth(tl_minkowski *pair, const tl_box *a, const tl_box *b, tl_deepest *out)
 {
     box_pair p;
-    load_boxes(pair, &p);
+    load_boxes(pair, a, b, &p);
     pair->scale = fmax(pair->scale, p.scale);
     double gap = AXIS_GAP * (p.half_a[0] + p.half_a[1] + p.half_a[2] + p.half_b[0] + p.half_b[1] + p.half_b[2]);
     p.normal = tl_vec3d_make(1.0, 0.0, 0.0);

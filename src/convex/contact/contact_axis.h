@@ -18,9 +18,16 @@ typedef struct tl_deepest {
 } tl_deepest;
 
 // box_depth.c
+typedef struct tl_box {
+    tl_vec3d middle, half;
+} tl_box;
+
+// Whether the shape is a box along its own axes: as such, or as a hull of just these corners.
+bool tl_box_of(const tl_convex *shape, tl_box *box_out);
+
 // Depth of two boxes by their 15 axes, exact to double rounding. When the boxes are apart, `separation` is positive,
 // less than or equal to the distance, and nothing else is set.
-void tl_box_depth(tl_minkowski *pair, tl_deepest *deepest_out);
+void tl_box_depth(tl_minkowski *pair, const tl_box *a, const tl_box *b, tl_deepest *deepest_out);
 
 // contact_axis.c
 // Whether the last normal is, to `slack` metres, still the one of least depth.

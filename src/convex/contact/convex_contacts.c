@@ -194,8 +194,9 @@ static void find_manifold(contact_search *s)
         return;
     }
     bool done = false, near_enough = true;
-    if (s->pair.a->kind == TL_CONVEX_BOX && s->pair.b->kind == TL_CONVEX_BOX) {
-        tl_box_depth(&s->pair, &deepest);
+    tl_box box_a, box_b;
+    if (tl_box_of(s->pair.a, &box_a) && tl_box_of(s->pair.b, &box_b)) {
+        tl_box_depth(&s->pair, &box_a, &box_b, &deepest);
         near_enough = deepest.separation - s->radii <= s->margin;
         done = deepest.separation <= 0.0 && finish_manifold(s, &deepest);
     }
