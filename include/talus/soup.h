@@ -201,14 +201,34 @@ TL_API bool tl_soup_cast_segment(const tl_soup *soup, tl_vec3 a, tl_vec3 b, cons
 /// `filter` may be NULL.
 TL_API bool tl_soup_line_of_sight(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter);
 
+/// A segment: the points from a to b, both included.
+typedef struct tl_segment {
+    tl_vec3 a; ///< metres
+    tl_vec3 b;
+} tl_segment;
+
 /// The closest hits of many rays: for each what tl_soup_cast_ray gives, bit for bit; triangle TL_NO_TRIANGLE and t
 /// INFINITY for a ray that hits nothing. `filter` and `host` may be NULL.
 ///
-/// Runs on the host's tasks, 16,384 rays each. In soups over 2 MB, larger than a core's own cache, a thread traces
-/// several rays at once, so that one continues while another waits for memory: incoherent rays then take 1 / 1.2 to
-/// 1 / 1.6 of the time of single calls. Smaller soups, and those of the compact layout, gain nothing.
+/// Runs on the host's tasks, 4,096 rays each. Rays that follow each other in the array and run nearly alike, as those
+/// of a camera's row or tile, a lidar's fan, or shadow rays of neighbouring points do, are found and traced sixteen at
+/// once, for 1 / 3 to 1 / 5 of the time of single calls. Of others a thread traces several at once in soups over 2 MB,
+/// larger than a core's own cache, so that one continues while another waits for memory: 1 / 1.2 to 1 / 1.6. With a
+/// filter, and in the compact layout, rays are traced one by one.
 TL_API void tl_soup_cast_rays(const tl_soup *soup, const tl_ray *rays, uint32_t count, const tl_ray_filter *filter,
                               const tl_host *host, tl_ray_hit *hits_out);
+
+/// The closest hits of many segments: for each what tl_soup_cast_segment gives, as in tl_soup_cast_rays.
+TL_API void tl_soup_cast_segments(const tl_soup *soup, const tl_segment *segments, uint32_t count,
+                                  const tl_ray_filter *filter, const tl_host *host, tl_ray_hit *hits_out);
+
+/// Whether each of many rays hits anything: what tl_soup_occluded gives, as in tl_soup_cast_rays.
+TL_API void tl_soup_occluded_rays(const tl_soup *soup, const tl_ray *rays, uint32_t count, const tl_ray_filter *filter,
+                                  const tl_host *host, bool *occluded_out);
+
+/// Whether nothing meets each of many segments: what tl_soup_line_of_sight gives, as in tl_soup_cast_rays.
+TL_API void tl_soup_lines_of_sight(const tl_soup *soup, const tl_segment *segments, uint32_t count,
+                                   const tl_ray_filter *filter, const tl_host *host, bool *clear_out);
 
 /// What counts as a hit where a ray passes through an edge or a corner.
 typedef enum tl_hit_rule {

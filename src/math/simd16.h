@@ -32,6 +32,76 @@ static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
     return _mm512_fmadd_ps(a, b, c);
 }
 
+static inline tl_f32x16 tl_f32x16_join(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f32x4 d)
+{
+    return _mm512_insertf32x8(_mm512_castps256_ps512(tl_f32x8_join(a, b)), tl_f32x8_join(c, d), 1);
+}
+
+static inline float tl_f32x16_first(tl_f32x16 a)
+{
+    return _mm512_cvtss_f32(a);
+}
+
+static inline tl_f32x16 tl_f32x16_add(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_add_ps(a, b);
+}
+
+static inline tl_f32x16 tl_f32x16_sub(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_sub_ps(a, b);
+}
+
+static inline tl_f32x16 tl_f32x16_mul(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_mul_ps(a, b);
+}
+
+static inline tl_f32x16 tl_f32x16_div(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_div_ps(a, b);
+}
+
+static inline tl_f32x16 tl_f32x16_mul_sub_from(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
+{
+    return _mm512_fnmadd_ps(a, b, c);
+}
+
+static inline tl_f32x16 tl_f32x16_abs(tl_f32x16 a)
+{
+    return _mm512_abs_ps(a);
+}
+
+static inline tl_f32x16 tl_f32x16_min(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_min_ps(a, b);
+}
+
+static inline tl_f32x16 tl_f32x16_max(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_max_ps(a, b);
+}
+
+static inline uint32_t tl_f32x16_less(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
+}
+
+static inline tl_f32x8 tl_f32x16_larger_half(tl_f32x16 a)
+{
+    return _mm256_max_ps(_mm512_castps512_ps256(a), _mm512_extractf32x8_ps(a, 1));
+}
+
+static inline tl_f32x16 tl_f32x16_choose(uint32_t mask, tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_mask_blend_ps((__mmask16)mask, b, a);
+}
+
+static inline void tl_f32x16_store(float *sixteen, tl_f32x16 a)
+{
+    _mm512_storeu_ps(sixteen, a);
+}
+
 static inline tl_f32x16 tl_f32x16_min_bits(tl_f32x16 a, tl_f32x16 b)
 {
     return _mm512_castsi512_ps(_mm512_min_epi32(_mm512_castps_si512(a), _mm512_castps_si512(b)));
@@ -85,6 +155,92 @@ static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
     return r;
 }
 
+/// The lanes of a, b, c and d one after another.
+static inline tl_f32x16 tl_f32x16_join(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f32x4 d)
+{
+    tl_f32x16 r = { tl_f32x8_join(a, b), tl_f32x8_join(c, d) };
+    return r;
+}
+
+/// The first lane.
+static inline float tl_f32x16_first(tl_f32x16 a)
+{
+    return tl_f32x8_first(a.low);
+}
+
+static inline tl_f32x16 tl_f32x16_add(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_add(a.low, b.low), tl_f32x8_add(a.high, b.high) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_sub(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_sub(a.low, b.low), tl_f32x8_sub(a.high, b.high) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_mul(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_mul(a.low, b.low), tl_f32x8_mul(a.high, b.high) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_div(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_div(a.low, b.low), tl_f32x8_div(a.high, b.high) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_mul_sub_from(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
+{
+    tl_f32x16 r = { tl_f32x8_mul_sub_from(a.low, b.low, c.low), tl_f32x8_mul_sub_from(a.high, b.high, c.high) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_abs(tl_f32x16 a)
+{
+    tl_f32x16 r = { tl_f32x8_abs(a.low), tl_f32x8_abs(a.high) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_min(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_min(a.low, b.low), tl_f32x8_min(a.high, b.high) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_max(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_max(a.low, b.low), tl_f32x8_max(a.high, b.high) };
+    return r;
+}
+
+/// Bit i: a[i] < b[i].
+static inline uint32_t tl_f32x16_less(tl_f32x16 a, tl_f32x16 b)
+{
+    return tl_f32x8_less(a.low, b.low) | tl_f32x8_less(a.high, b.high) << 8;
+}
+
+/// Lane i: the larger one of a[i] and a[i + 8].
+static inline tl_f32x8 tl_f32x16_larger_half(tl_f32x16 a)
+{
+    return tl_f32x8_max(a.low, a.high);
+}
+
+/// Lane i is a[i] where bit i of the mask is set, else b[i].
+static inline tl_f32x16 tl_f32x16_choose(uint32_t mask, tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_choose(mask, a.low, b.low), tl_f32x8_choose(mask >> 8, a.high, b.high) };
+    return r;
+}
+
+static inline void tl_f32x16_store(float *sixteen, tl_f32x16 a)
+{
+    tl_f32x8_store(sixteen, a.low);
+    tl_f32x8_store(sixteen + 8, a.high);
+}
+
 static inline tl_f32x16 tl_f32x16_min_bits(tl_f32x16 a, tl_f32x16 b)
 {
     tl_f32x16 r = { tl_f32x8_min_bits(a.low, b.low), tl_f32x8_min_bits(a.high, b.high) };
@@ -117,6 +273,54 @@ static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
 }
 
 #endif
+
+/// Writes a value to each lane of the mask.
+static inline void tl_u32x16_store_where(uint32_t *sixteen, uint32_t mask, uint32_t value)
+{
+#if TL_SIMD_LEVEL == 3
+    _mm512_mask_storeu_epi32(sixteen, (__mmask16)mask, _mm512_set1_epi32((int)value));
+#else
+    for (uint32_t i = 0; i < 16; i++) {
+        sixteen[i] = (mask >> i & 1u) != 0 ? value : sixteen[i];
+    }
+#endif
+}
+
+/// The largest lane. They are numbers; which zero is the larger is open.
+static inline float tl_f32x16_largest(tl_f32x16 a)
+{
+    return tl_f32x8_first(tl_f32x8_largest(tl_f32x16_larger_half(a)));
+}
+
+/// Lane 0: the largest lane of a, lane 1: of b, lane 2: of c. They are numbers; which zero is the larger is open.
+static inline tl_f32x4 tl_f32x16_largest_of_each(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
+{
+    tl_f32x8 rows[4] = { tl_f32x16_larger_half(a), tl_f32x16_larger_half(b), tl_f32x16_larger_half(c) };
+    rows[3] = rows[2];
+    tl_f32x8_transpose(rows);
+    tl_f32x8 four = tl_f32x8_max(tl_f32x8_max(rows[0], rows[1]), tl_f32x8_max(rows[2], rows[3]));
+    return tl_f32x8_low(tl_f32x8_max(four, tl_f32x8_swap_halves(four)));
+}
+
+/// Bit i: that lane has the value.
+static inline uint32_t tl_u32x16_equal(const uint32_t *sixteen, uint32_t value)
+{
+#if TL_SIMD_LEVEL == 3
+    return _mm512_cmpeq_epi32_mask(_mm512_loadu_si512(sixteen), _mm512_set1_epi32((int)value));
+#elif TL_SIMD_LEVEL == 2
+    __m256i all = _mm256_set1_epi32((int)value);
+    __m256i low = _mm256_cmpeq_epi32(_mm256_loadu_si256((const __m256i *)(const void *)sixteen), all);
+    __m256i high = _mm256_cmpeq_epi32(_mm256_loadu_si256((const __m256i *)(const void *)(sixteen + 8)), all);
+    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(low)) |
+           (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(high)) << 8;
+#else
+    uint32_t mask = 0;
+    for (uint32_t i = 0; i < 16; i++) {
+        mask |= (uint32_t)(sixteen[i] == value) << i;
+    }
+    return mask;
+#endif
+}
 
 /// Writes high[i] << 32 | low[i] for each lane i of the mask, in their order. The array holds sixteen.
 static inline void tl_u32x16_compress_pairs(uint64_t *to, uint32_t mask, const uint32_t *high, const uint32_t *low)

@@ -221,4 +221,16 @@ static inline float tl_f32x4_least_of_three(tl_f32x4 a)
     return xy < a.v[2] ? xy : a.v[2];
 }
 
+static inline void tl_f32x4_transpose(tl_f32x4 *a, tl_f32x4 *b, tl_f32x4 *c, tl_f32x4 *d)
+{
+    tl_f32x4 *rows[4] = { a, b, c, d };
+    for (int i = 1; i < 4; i++) {
+        for (int j = 0; j < i; j++) {
+            float kept = rows[i]->v[j];
+            rows[i]->v[j] = rows[j]->v[i];
+            rows[j]->v[i] = kept;
+        }
+    }
+}
+
 #endif

@@ -24,6 +24,16 @@ static inline tl_f32x8 tl_f32x8_from_bytes(const uint8_t *eight)
     return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)eight)));
 }
 
+static inline tl_f32x8 tl_f32x8_join(tl_f32x4 low, tl_f32x4 high)
+{
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(low), high, 1);
+}
+
+static inline tl_f32x4 tl_f32x8_low(tl_f32x8 a)
+{
+    return _mm256_castps256_ps128(a);
+}
+
 static inline float tl_f32x8_first(tl_f32x8 a)
 {
     return _mm256_cvtss_f32(a);
@@ -140,6 +150,13 @@ static inline uint32_t tl_f32x8_not_less(tl_f32x8 a, tl_f32x8 b)
 static inline tl_f32x8 tl_f32x8_if_less(tl_f32x8 a, tl_f32x8 b, tl_f32x8 c, tl_f32x8 d)
 {
     return _mm256_blendv_ps(d, c, _mm256_cmp_ps(a, b, _CMP_LT_OQ));
+}
+
+static inline tl_f32x8 tl_f32x8_choose(uint32_t mask, tl_f32x8 a, tl_f32x8 b)
+{
+    __m256i bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    __m256i set = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32((int)mask), bits), bits);
+    return _mm256_blendv_ps(b, a, _mm256_castsi256_ps(set));
 }
 
 static inline tl_f32x8 tl_f32x8_abs(tl_f32x8 a)

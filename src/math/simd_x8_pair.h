@@ -11,7 +11,7 @@ typedef struct tl_f32x8 {
     tl_f32x4 low, high;
 } tl_f32x8;
 
-static inline tl_f32x8 tl_f32x8_make(tl_f32x4 low, tl_f32x4 high)
+static inline tl_f32x8 tl_f32x8_join(tl_f32x4 low, tl_f32x4 high)
 {
     tl_f32x8 r = { low, high };
     return r;
@@ -19,12 +19,12 @@ static inline tl_f32x8 tl_f32x8_make(tl_f32x4 low, tl_f32x4 high)
 
 static inline tl_f32x8 tl_f32x8_all(float value)
 {
-    return tl_f32x8_make(tl_f32x4_all(value), tl_f32x4_all(value));
+    return tl_f32x8_join(tl_f32x4_all(value), tl_f32x4_all(value));
 }
 
 static inline tl_f32x8 tl_f32x8_load(const float *eight)
 {
-    return tl_f32x8_make(tl_f32x4_load(eight), tl_f32x4_load(eight + 4));
+    return tl_f32x8_join(tl_f32x4_load(eight), tl_f32x4_load(eight + 4));
 }
 
 static inline tl_f32x8 tl_f32x8_from_bytes(const uint8_t *eight)
@@ -32,6 +32,11 @@ static inline tl_f32x8 tl_f32x8_from_bytes(const uint8_t *eight)
     tl_f32x8 r;
     tl_f32x4_two_from_bytes(eight, &r.low, &r.high);
     return r;
+}
+
+static inline tl_f32x4 tl_f32x8_low(tl_f32x8 a)
+{
+    return a.low;
 }
 
 static inline float tl_f32x8_first(tl_f32x8 a)
@@ -42,23 +47,23 @@ static inline float tl_f32x8_first(tl_f32x8 a)
 static inline tl_f32x8 tl_f32x8_largest(tl_f32x8 a)
 {
     tl_f32x4 m = tl_f32x4_largest(tl_f32x4_max(a.low, a.high));
-    return tl_f32x8_make(m, m);
+    return tl_f32x8_join(m, m);
 }
 
 static inline tl_f32x8 tl_f32x8_load_twice(const float *four)
 {
     tl_f32x4 v = tl_f32x4_load(four);
-    return tl_f32x8_make(v, v);
+    return tl_f32x8_join(v, v);
 }
 
 static inline tl_f32x8 tl_f32x8_load_halves(const float *low, const float *high)
 {
-    return tl_f32x8_make(tl_f32x4_load(low), tl_f32x4_load(high));
+    return tl_f32x8_join(tl_f32x4_load(low), tl_f32x4_load(high));
 }
 
 static inline tl_f32x8 tl_f32x8_swap_halves(tl_f32x8 a)
 {
-    return tl_f32x8_make(a.high, a.low);
+    return tl_f32x8_join(a.high, a.low);
 }
 
 static inline void tl_f32x8_transpose(tl_f32x8 rows[4])
@@ -69,73 +74,85 @@ static inline void tl_f32x8_transpose(tl_f32x8 rows[4])
 
 static inline tl_f32x8 tl_f32x8_add(tl_f32x8 a, tl_f32x8 b)
 {
-    return tl_f32x8_make(tl_f32x4_add(a.low, b.low), tl_f32x4_add(a.high, b.high));
+    return tl_f32x8_join(tl_f32x4_add(a.low, b.low), tl_f32x4_add(a.high, b.high));
 }
 
 static inline tl_f32x8 tl_f32x8_sub(tl_f32x8 a, tl_f32x8 b)
 {
-    return tl_f32x8_make(tl_f32x4_sub(a.low, b.low), tl_f32x4_sub(a.high, b.high));
+    return tl_f32x8_join(tl_f32x4_sub(a.low, b.low), tl_f32x4_sub(a.high, b.high));
 }
 
 static inline tl_f32x8 tl_f32x8_mul(tl_f32x8 a, tl_f32x8 b)
 {
-    return tl_f32x8_make(tl_f32x4_mul(a.low, b.low), tl_f32x4_mul(a.high, b.high));
+    return tl_f32x8_join(tl_f32x4_mul(a.low, b.low), tl_f32x4_mul(a.high, b.high));
 }
 
 static inline tl_f32x8 tl_f32x8_div(tl_f32x8 a, tl_f32x8 b)
 {
-    return tl_f32x8_make(tl_f32x4_div(a.low, b.low), tl_f32x4_div(a.high, b.high));
+    return tl_f32x8_join(tl_f32x4_div(a.low, b.low), tl_f32x4_div(a.high, b.high));
 }
 
 static inline tl_f32x8 tl_f32x8_min(tl_f32x8 a, tl_f32x8 b)
 {
-    return tl_f32x8_make(tl_f32x4_min(a.low, b.low), tl_f32x4_min(a.high, b.high));
+    return tl_f32x8_join(tl_f32x4_min(a.low, b.low), tl_f32x4_min(a.high, b.high));
 }
 
 static inline tl_f32x8 tl_f32x8_max(tl_f32x8 a, tl_f32x8 b)
 {
-    return tl_f32x8_make(tl_f32x4_max(a.low, b.low), tl_f32x4_max(a.high, b.high));
+    return tl_f32x8_join(tl_f32x4_max(a.low, b.low), tl_f32x4_max(a.high, b.high));
 }
 
 static inline tl_f32x8 tl_f32x8_min_bits(tl_f32x8 a, tl_f32x8 b)
 {
-    return tl_f32x8_make(tl_f32x4_min_bits(a.low, b.low), tl_f32x4_min_bits(a.high, b.high));
+    return tl_f32x8_join(tl_f32x4_min_bits(a.low, b.low), tl_f32x4_min_bits(a.high, b.high));
 }
 
 static inline tl_f32x8 tl_f32x8_max_bits(tl_f32x8 a, tl_f32x8 b)
 {
-    return tl_f32x8_make(tl_f32x4_max_bits(a.low, b.low), tl_f32x4_max_bits(a.high, b.high));
+    return tl_f32x8_join(tl_f32x4_max_bits(a.low, b.low), tl_f32x4_max_bits(a.high, b.high));
 }
 
 static inline tl_f32x8 tl_f32x8_and(tl_f32x8 a, tl_f32x8 b)
 {
-    return tl_f32x8_make(tl_f32x4_and(a.low, b.low), tl_f32x4_and(a.high, b.high));
+    return tl_f32x8_join(tl_f32x4_and(a.low, b.low), tl_f32x4_and(a.high, b.high));
 }
 
 static inline tl_f32x8 tl_f32x8_or(tl_f32x8 a, tl_f32x8 b)
 {
-    return tl_f32x8_make(tl_f32x4_or(a.low, b.low), tl_f32x4_or(a.high, b.high));
+    return tl_f32x8_join(tl_f32x4_or(a.low, b.low), tl_f32x4_or(a.high, b.high));
 }
 
 static inline tl_f32x8 tl_f32x8_mul_add(tl_f32x8 a, tl_f32x8 b, tl_f32x8 c)
 {
-    return tl_f32x8_make(tl_f32x4_mul_add(a.low, b.low, c.low), tl_f32x4_mul_add(a.high, b.high, c.high));
+    return tl_f32x8_join(tl_f32x4_mul_add(a.low, b.low, c.low), tl_f32x4_mul_add(a.high, b.high, c.high));
 }
 
 static inline tl_f32x8 tl_f32x8_mul_sub_from(tl_f32x8 a, tl_f32x8 b, tl_f32x8 c)
 {
-    return tl_f32x8_make(tl_f32x4_mul_sub_from(a.low, b.low, c.low), tl_f32x4_mul_sub_from(a.high, b.high, c.high));
+    return tl_f32x8_join(tl_f32x4_mul_sub_from(a.low, b.low, c.low), tl_f32x4_mul_sub_from(a.high, b.high, c.high));
 }
 
 static inline tl_f32x8 tl_f32x8_if_less(tl_f32x8 a, tl_f32x8 b, tl_f32x8 c, tl_f32x8 d)
 {
-    return tl_f32x8_make(tl_f32x4_if_less(a.low, b.low, c.low, d.low),
+    return tl_f32x8_join(tl_f32x4_if_less(a.low, b.low, c.low, d.low),
                          tl_f32x4_if_less(a.high, b.high, c.high, d.high));
+}
+
+static inline tl_f32x8 tl_f32x8_choose(uint32_t mask, tl_f32x8 a, tl_f32x8 b)
+{
+    static const float signs[16][4] = {
+        { 1, 1, 1, 1 },   { -1, 1, 1, 1 },   { 1, -1, 1, 1 },   { -1, -1, 1, 1 },   { 1, 1, -1, 1 },  { -1, 1, -1, 1 },
+        { 1, -1, -1, 1 }, { -1, -1, -1, 1 }, { 1, 1, 1, -1 },   { -1, 1, 1, -1 },   { 1, -1, 1, -1 }, { -1, -1, 1, -1 },
+        { 1, 1, -1, -1 }, { -1, 1, -1, -1 }, { 1, -1, -1, -1 }, { -1, -1, -1, -1 },
+    };
+    tl_f32x4 zero = tl_f32x4_all(0.0f);
+    return tl_f32x8_join(tl_f32x4_if_less(tl_f32x4_load(signs[mask & 15u]), zero, a.low, b.low),
+                         tl_f32x4_if_less(tl_f32x4_load(signs[mask >> 4 & 15u]), zero, a.high, b.high));
 }
 
 static inline tl_f32x8 tl_f32x8_abs(tl_f32x8 a)
 {
-    return tl_f32x8_make(tl_f32x4_abs(a.low), tl_f32x4_abs(a.high));
+    return tl_f32x8_join(tl_f32x4_abs(a.low), tl_f32x4_abs(a.high));
 }
 
 static inline uint32_t tl_f32x8_signs(tl_f32x8 a)

@@ -39,6 +39,21 @@ static inline tl_f32x8 tl_f32x8_from_bytes(const uint8_t *eight)
     return r;
 }
 
+static inline tl_f32x8 tl_f32x8_join(tl_f32x4 low, tl_f32x4 high)
+{
+    tl_f32x8 r;
+    memcpy(r.v, low.v, sizeof low.v);
+    memcpy(r.v + 4, high.v, sizeof high.v);
+    return r;
+}
+
+static inline tl_f32x4 tl_f32x8_low(tl_f32x8 a)
+{
+    tl_f32x4 r;
+    memcpy(r.v, a.v, sizeof r.v);
+    return r;
+}
+
 /// The first lane.
 static inline float tl_f32x8_first(tl_f32x8 a)
 {
@@ -236,6 +251,15 @@ static inline tl_f32x8 tl_f32x8_if_less(tl_f32x8 a, tl_f32x8 b, tl_f32x8 c, tl_f
         r.v[i] = a.v[i] < b.v[i] ? c.v[i] : d.v[i];
     }
     return r;
+}
+
+/// Lane i is a[i] where bit i of the mask is set, else b[i]. Higher bits do not count.
+static inline tl_f32x8 tl_f32x8_choose(uint32_t mask, tl_f32x8 a, tl_f32x8 b)
+{
+    for (int i = 0; i < 8; i++) {
+        a.v[i] = (mask >> i & 1u) != 0 ? a.v[i] : b.v[i];
+    }
+    return a;
 }
 
 static inline tl_f32x8 tl_f32x8_abs(tl_f32x8 a)

@@ -153,6 +153,45 @@ static tl_result cast_rays(contract_run *run)
     return TL_OK;
 }
 
+static tl_segment segment_across(void)
+{
+    tl_segment segment = { { 4, 1, 10 }, { 16, 1, 10.5f } };
+    return segment;
+}
+
+static tl_result cast_segments(contract_run *run)
+{
+    tl_ray_filter filter;
+    const tl_segment segment = segment_across();
+    tl_ray_hit hit;
+    tl_soup_cast_segments(contract_level_get()->soup, &segment, 1, filter_of(run, &filter),
+                          run->what == CONTRACT_NULL_DEF ? NULL : run->host, &hit);
+    run->answer = hit.triangle;
+    return TL_OK;
+}
+
+static tl_result occluded_rays(contract_run *run)
+{
+    tl_ray_filter filter;
+    const tl_ray ray = ray_down();
+    bool occluded = false;
+    tl_soup_occluded_rays(contract_level_get()->soup, &ray, 1, filter_of(run, &filter),
+                          run->what == CONTRACT_NULL_DEF ? NULL : run->host, &occluded);
+    run->answer = occluded;
+    return TL_OK;
+}
+
+static tl_result lines_of_sight(contract_run *run)
+{
+    tl_ray_filter filter;
+    const tl_segment segment = segment_across();
+    bool clear = false;
+    tl_soup_lines_of_sight(contract_level_get()->soup, &segment, 1, filter_of(run, &filter),
+                           run->what == CONTRACT_NULL_DEF ? NULL : run->host, &clear);
+    run->answer = clear;
+    return TL_OK;
+}
+
 static tl_result cast_ray_all(contract_run *run)
 {
     enum { HITS = 2 };
@@ -302,6 +341,9 @@ const contract_entry CONTRACT_TABLE_soup[] = {
     { "tl_soup_cast_segment", FILTERED, 0, 0, NULL, cast_segment, NULL },
     { "tl_soup_line_of_sight", FILTERED, 0, 0, NULL, line_of_sight, NULL },
     { "tl_soup_cast_rays", FILTERED, 0, 0, NULL, cast_rays, NULL },
+    { "tl_soup_cast_segments", FILTERED, 0, 0, NULL, cast_segments, NULL },
+    { "tl_soup_occluded_rays", FILTERED, 0, 0, NULL, occluded_rays, NULL },
+    { "tl_soup_lines_of_sight", FILTERED, 0, 0, NULL, lines_of_sight, NULL },
     { "tl_soup_cast_ray_all", FILTERED | REFUSING | BUFFERED, 2, 2, NULL, cast_ray_all, NULL },
     { "tl_soup_nearest", FILTERED | REFUSING | CONTRACT_BIT(NOT_FOUND), 1, 1, NULL, nearest, NULL },
     { "tl_soup_overlaps", FILTERED | REFUSING | CONTRACT_BIT(ZERO_ROTATION), 2, 1, NULL, overlaps, NULL },

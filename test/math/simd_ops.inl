@@ -129,6 +129,15 @@ static void run_x8(const simd_input *in, simd_output **out)
     put_x8(out, "f32x8_abs", SIMD_EXACT, tl_f32x8_abs(a));
 }
 
+static tl_f32x16 numbers_of(const float *sixteen)
+{
+    float numbers[16];
+    for (int i = 0; i < 16; i++) {
+        numbers[i] = isnan(sixteen[i]) ? (float)i : sixteen[i];
+    }
+    return tl_f32x16_load(numbers);
+}
+
 static void run_x16(const simd_input *in, simd_output **out)
 {
     tl_f32x16 a = tl_f32x16_load(in->a), b = tl_f32x16_load(in->b), c = tl_f32x16_load(in->c);
@@ -139,6 +148,27 @@ static void run_x16(const simd_input *in, simd_output **out)
     put_x16(out, "f32x16_min_bits", SIMD_EXACT, tl_f32x16_min_bits(a, b));
     put_x16(out, "f32x16_max_bits", SIMD_EXACT, tl_f32x16_max_bits(a, b));
     put_bits(out, "f32x16_less_equal_bits", tl_f32x16_less_equal_bits(a, b));
+    put_x16(out, "f32x16_add", SIMD_NUMBER_32, tl_f32x16_add(a, b));
+    put_x16(out, "f32x16_sub", SIMD_NUMBER_32, tl_f32x16_sub(a, b));
+    put_x16(out, "f32x16_mul", SIMD_NUMBER_32, tl_f32x16_mul(a, b));
+    put_x16(out, "f32x16_div", SIMD_NUMBER_32, tl_f32x16_div(a, b));
+    put_x16(out, "f32x16_mul_sub_from", SIMD_UNFUSED, tl_f32x16_mul_sub_from(a, b, c));
+    put_x16(out, "f32x16_abs", SIMD_EXACT, tl_f32x16_abs(a));
+    put_x16(out, "f32x16_min", SIMD_EXACT, tl_f32x16_min(a, b));
+    put_x16(out, "f32x16_max", SIMD_EXACT, tl_f32x16_max(a, b));
+    put_bits(out, "f32x16_less", tl_f32x16_less(a, b));
+    put_f32(out, "f32x16_first", SIMD_EXACT, tl_f32x16_first(a));
+    tl_f32x16 numbers[3] = { numbers_of(in->a), numbers_of(in->b), numbers_of(in->c) };
+    put_f32(out, "f32x16_largest", SIMD_EQUAL, tl_f32x16_largest(numbers[0]));
+    put_x16(out, "f32x16_choose", SIMD_EXACT, tl_f32x16_choose(in->bytes[0] | (uint32_t)in->bytes[1] << 8, a, b));
+    put_x4(out, "f32x16_largest_of_each", SIMD_EQUAL, tl_f32x16_largest_of_each(numbers[0], numbers[1], numbers[2]));
+    tl_f32x4 quarters[3] = { tl_f32x4_load(in->a), tl_f32x4_load(in->b + 4), tl_f32x4_load(in->c + 8) };
+    put_x16(out, "f32x16_join", SIMD_EXACT, tl_f32x16_join(quarters[0], quarters[1], quarters[2], quarters[0]));
+    uint32_t words[16];
+    memcpy(words, in->a, sizeof words);
+    put_bits(out, "u32x16_equal", tl_u32x16_equal(words, words[3]));
+    tl_u32x16_store_where(words, in->bytes[2] | (uint32_t)in->bytes[3] << 8, 0xff812345u);
+    memcpy(next_output(out, "u32x16_store_where", SIMD_EXACT, 64)->value.u32, words, sizeof words);
     uint32_t high[16], low[16];
     memcpy(high, in->a, sizeof high);
     memcpy(low, in->b, sizeof low);

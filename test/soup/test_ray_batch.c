@@ -161,7 +161,7 @@ static void check_walks(const model *m, uint32_t count, uint64_t seed)
             continue;
         }
         memset(hits, 0xff, count * sizeof *hits);
-        tl_ray_batch batch = { soup, rays, count, NULL, hits };
+        tl_ray_batch batch = { soup, rays, NULL, count, NULL, hits, NULL, true };
         walks[i](&batch);
         for (uint32_t k = 0; k < count; k++) {
             TEST_CHECK(same_hit(&single[k], &hits[k]));

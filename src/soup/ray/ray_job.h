@@ -113,16 +113,20 @@ tl_ray_walk_fn tl_ray_walk_vec128;
 tl_ray_walk_fn tl_ray_walk_avx2, tl_ray_walk_avx512;
 #endif
 
-/// Rays of one call for closest hits.
+/// Rays or segments of one call, for closest hits or any.
 typedef struct tl_ray_batch {
-    const tl_soup *soup; ///< of the plain layout
-    const tl_ray *rays;
+    const tl_soup *soup;
+    const tl_ray *rays; ///< NULL: segments
+    const tl_segment *segments;
     uint32_t count;
     const tl_ray_filter *filter;
-    tl_ray_hit *hits;
+    tl_ray_hit *hits; ///< closest hits; NULL: any will do
+    bool *answers;    ///< then: `when_met` where there is one
+    bool when_met;
 } tl_ray_batch;
 
-/// Several rays in flight at once, compiled once per instruction set (ray_walk_interleaved.inl).
+/// Several rays in flight at once, each on its own way, compiled once per instruction set (ray_walk_interleaved.inl).
+/// The soup has the plain layout.
 typedef void tl_ray_walk_many_fn(const tl_ray_batch *batch);
 
 tl_ray_walk_many_fn tl_ray_walk_many_scalar;
@@ -133,12 +137,50 @@ tl_ray_walk_many_fn tl_ray_walk_many_vec128;
 tl_ray_walk_many_fn tl_ray_walk_many_avx2, tl_ray_walk_many_avx512;
 #endif
 
+/// Coherent rays in packets, others by tl_ray_batch_apart, compiled once per instruction set (ray_walk_packet.inl). The
+/// soup has the plain layout, the filter is NULL, and there are 2^16 rays at most.
+typedef void tl_ray_packets_fn(const tl_ray_batch *batch);
+
+tl_ray_packets_fn tl_ray_packets_scalar;
+#if TL_CPU_LEVELS >= 1
+tl_ray_packets_fn tl_ray_packets_vec128;
+#endif
+#if TL_CPU_LEVELS >= 2
+tl_ray_packets_fn tl_ray_packets_avx2, tl_ray_packets_avx512;
+#endif
+
+/// Traces one ray of a batch alone, as single calls do.
+void tl_ray_batch_one(const tl_ray_batch *batch, uint32_t index);
+
+/// Traces the rays from `first` to `end` that have nothing in common.
+void tl_ray_batch_apart(const tl_ray_batch *batch, uint32_t first, uint32_t end);
+
 /// What a batch reports for a ray that hits nothing.
 static inline void tl_ray_miss(tl_ray_hit *hit)
 {
     memset(hit, 0, sizeof *hit);
     hit->t = INFINITY;
     hit->triangle = TL_NO_TRIANGLE;
+}
+
+/// Writes the answer of a batch's ray; a closest hit is written already.
+static inline void tl_ray_report(const tl_ray_batch *batch, uint32_t index, bool met)
+{
+    if (batch->hits == NULL) {
+        batch->answers[index] = met == batch->when_met;
+    } else if (!met) {
+        tl_ray_miss(&batch->hits[index]);
+    }
+}
+
+/// Where a ray of a batch begins, its direction or end, and how far it reaches.
+static inline void tl_ray_of_batch(const tl_ray_batch *batch, uint32_t index, const tl_vec3 **origin_out,
+                                   const tl_vec3 **target_out, float *tmax_out)
+{
+    bool is_ray = batch->rays != NULL;
+    *origin_out = is_ray ? &batch->rays[index].origin : &batch->segments[index].a;
+    *target_out = is_ray ? &batch->rays[index].direction : &batch->segments[index].b;
+    *tmax_out = is_ray ? batch->rays[index].tmax : 1.0f;
 }
 
 /// Instruction sets, ascending: the levels of base/cpu.h.
@@ -148,9 +190,13 @@ typedef enum tl_ray_isa { TL_RAY_SCALAR, TL_RAY_VEC128, TL_RAY_AVX2, TL_RAY_AVX5
 tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa);
 
 tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa);
+tl_ray_packets_fn *tl_ray_packets_for(tl_ray_isa isa);
 
 /// The instruction set that the public queries use on this machine.
 tl_ray_isa tl_ray_best_isa(void);
+
+/// The instruction set of their packets: the widest, for packets fill all lanes.
+tl_ray_isa tl_ray_best_packet_isa(void);
 
 /// The public queries with a walk of the caller's choice.
 bool tl_soup_cast_ray_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,

@@ -69,10 +69,17 @@ static TL_ALWAYS_INLINE tl_vec3 tl_ray_unit_normal(tl_f64x4 normal)
     return tl_vec3_make(unit[0], unit[1], unit[2]);
 }
 
-/// Whether t is as exact as promised, for a triangle with sides up to `wide` along an axis, `reach` away.
+/// The least |n.c| with which t is as exact as promised, for a triangle with sides up to `wide` along an axis, `reach`
+/// away.
+static inline double tl_ray_least_across(double wide, double reach)
+{
+    return TL_RAY_ACROSS_BOUND * (wide * wide) * (2.0 * reach + wide);
+}
+
+/// Whether t is as exact as promised.
 static inline bool tl_ray_t_is_safe(double across, double wide, double reach)
 {
-    return TL_RAY_ACROSS_BOUND * (wide * wide) * (2.0 * reach + wide) <= fabs(across);
+    return tl_ray_least_across(wide, reach) <= fabs(across);
 }
 
 /// Clamps u and v to the triangle: their rounding error may lead out of it.

@@ -42,6 +42,21 @@ tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa)
     return tl_cpu_has_level((int)isa) ? walks[isa] : NULL;
 }
 
+tl_ray_packets_fn *tl_ray_packets_for(tl_ray_isa isa)
+{
+    static tl_ray_packets_fn *const packets[] = {
+        tl_ray_packets_scalar,
+#if TL_CPU_LEVELS >= 1
+        tl_ray_packets_vec128,
+#endif
+#if TL_CPU_LEVELS >= 2
+        tl_ray_packets_avx2,
+        tl_ray_packets_avx512,
+#endif
+    };
+    return tl_cpu_has_level((int)isa) ? packets[isa] : NULL;
+}
+
 // AVX-512 on AMD's processors only: Zen 4 and later trace a ray 5 to 15 per cent faster with it. On Intel's Sapphire
 // Rapids it saves instructions and no time (2 to 8 per cent slower), so AVX2 is used there, and on unmeasured
 // processors (bench_rays has a row for each). A machine with AVX-512 always has AVX2.
@@ -64,6 +79,15 @@ tl_ray_isa tl_ray_best_isa(void)
     tl_ray_isa isa = TL_RAY_SCALAR;
     while (tl_ray_walk_for(isa) != best_ray_walk()) {
         isa = (tl_ray_isa)(isa + 1);
+    }
+    return isa;
+}
+
+tl_ray_isa tl_ray_best_packet_isa(void)
+{
+    tl_ray_isa isa = (tl_ray_isa)TL_CPU_LEVELS;
+    while (tl_ray_packets_for(isa) == NULL) {
+        isa--;
     }
     return isa;
 }

@@ -43,6 +43,7 @@
 
 #include "base/compiler.h"
 #include "base/lowest_bit.h"
+#include "base/min_max.h"
 #include "math/simd16.h"
 #include "soup/layout/compact_layout.h"
 #include "soup/ray/ray_filter.h"
@@ -50,6 +51,7 @@
 #include "soup/ray/ray_prepare.h"
 
 #include <float.h>
+#include <stddef.h>
 #include <string.h>
 
 #define LEAF_EXTENT_TERM 13.0f

@@ -10,8 +10,10 @@
 
 #define TL_RAY_WALK      tl_ray_walk_avx2
 #define TL_RAY_WALK_MANY tl_ray_walk_many_avx2
+#define TL_RAY_PACKETS   tl_ray_packets_avx2
 #include "soup/ray/ray_walk.inl"
 #include "soup/ray/ray_walk_interleaved.inl"
+#include "soup/ray/ray_walk_packet.inl"
 
 #include "math/simd_target_end.h"
 #endif

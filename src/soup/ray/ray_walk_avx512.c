@@ -10,8 +10,10 @@
 
 #define TL_RAY_WALK      tl_ray_walk_avx512
 #define TL_RAY_WALK_MANY tl_ray_walk_many_avx512
+#define TL_RAY_PACKETS   tl_ray_packets_avx512
 #include "soup/ray/ray_walk.inl"
 #include "soup/ray/ray_walk_interleaved.inl"
+#include "soup/ray/ray_walk_packet.inl"
 
 #include "math/simd_target_end.h"
 #endif

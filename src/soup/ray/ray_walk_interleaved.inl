@@ -53,48 +53,57 @@ static TL_ALWAYS_INLINE bool begin_lane(lane_walk *w, walk_lane *lane)
     const tl_ray_batch *batch = w->batch;
     while (w->next < batch->count) {
         lane->index = w->next++;
-        const tl_ray *ray = &batch->rays[lane->index];
+        const tl_vec3 *origin, *target;
         tl_ray_job *job = &lane->job;
+        tl_ray_of_batch(batch, lane->index, &origin, &target, &job->t);
         job->soup = batch->soup;
         job->filter = batch->filter;
-        job->is_segment = false;
-        job->t = ray->tmax;
+        job->is_segment = batch->rays == NULL;
         job->buffers = NULL;
-        if (tl_ray_prepare_inline(job, &ray->origin, &ray->direction) &&
-            (job->outside == 0 || tl_ray_meets_bounds(job))) {
+        if (tl_ray_prepare_inline(job, origin, target) && (job->outside == 0 || tl_ray_meets_bounds(job))) {
             begin_walk(job, sizeof(tl_soup_node), &lane->ray, &lane->best);
             lane->child = 0;
             lane->stack_count = 0;
             return true;
         }
-        tl_ray_miss(&batch->hits[lane->index]);
+        tl_ray_report(batch, lane->index, false);
     }
     return false;
 }
 
-// Ends a ray, tracing it alone when its stack is too short, and begins the next one; false when there is none. Not
-// inline: that would repeat the code that begins and ends a ray four times.
-static TL_NOINLINE bool change_ray(lane_walk *w, walk_lane *lane, bool alone)
+typedef enum lane_end {
+    LANE_DONE,     // nothing is left on its stack
+    LANE_MET,      // any hit will do, and there is one
+    LANE_OVERFLOWS // its stack is too short: it is traced alone
+} lane_end;
+
+// Ends a ray and begins the next one; false when there is none. Not inline: that would repeat the code that begins and
+// ends a ray.
+static TL_NOINLINE bool change_ray(lane_walk *w, walk_lane *lane, lane_end end)
 {
-    const tl_ray *ray = &w->batch->rays[lane->index];
-    tl_ray_hit *hit = &w->batch->hits[lane->index];
-    bool found =
-        alone ? TL_RAY_WALK(w->batch->soup, &ray->origin, &ray->direction, ray->tmax, false, w->batch->filter, hit)
-              : report_hit(&lane->job, lane->best, hit);
-    if (!found) {
-        tl_ray_miss(hit);
+    const tl_ray_batch *batch = w->batch;
+    tl_ray_hit *hit = batch->hits != NULL ? &batch->hits[lane->index] : NULL;
+    bool met = end == LANE_MET;
+    if (end == LANE_DONE) {
+        met = report_hit(&lane->job, lane->best, hit);
+    } else if (end == LANE_OVERFLOWS) {
+        const tl_vec3 *origin, *target;
+        float tmax;
+        tl_ray_of_batch(batch, lane->index, &origin, &target, &tmax);
+        met = TL_RAY_WALK(batch->soup, origin, target, tmax, batch->rays == NULL, batch->filter, hit);
     }
+    tl_ray_report(batch, lane->index, met);
     return begin_lane(w, lane);
 }
 
 // Advances a lane to its nearest waiting child, or to its next ray.
-static TL_ALWAYS_INLINE void advance_lane(lane_walk *w, uint32_t index)
+static TL_ALWAYS_INLINE void advance_lane(lane_walk *w, uint32_t index, bool met)
 {
     walk_lane *lane = &w->lanes[index];
     bool overflows = lane->stack_count > TL_LANE_STACK_SIZE - TL_SOUP_WIDTH - 3;
-    if (!overflows && pop_child(lane->stack, &lane->stack_count, lane->best.limit, &lane->child)) {
+    if (!met && !overflows && pop_child(lane->stack, &lane->stack_count, lane->best.limit, &lane->child)) {
         prefetch_child(&lane->ray, lane->child);
-    } else if (!change_ray(w, lane, overflows)) {
+    } else if (!change_ray(w, lane, met ? LANE_MET : overflows ? LANE_OVERFLOWS : LANE_DONE)) {
         return;
     }
     uint32_t leaf = (uint32_t)((lane->child & TL_CHILD_LEAF) != 0);
@@ -148,11 +157,11 @@ static TL_ALWAYS_INLINE void visit_nodes(lane_walk *w, uint32_t count)
     }
     for (uint32_t i = 0; i < count; i++) {
         push_all(&w->lanes[at[i]], lane_node(&w->lanes[at[i]])->child, t_bits[i], masks[i]);
-        advance_lane(w, at[i]);
+        advance_lane(w, at[i], false);
     }
 }
 
-static TL_ALWAYS_INLINE void visit_leaves(lane_walk *w, uint32_t count)
+static TL_ALWAYS_INLINE void visit_leaves(lane_walk *w, uint32_t count, bool any)
 {
     leaf_lanes tested[LANE_GROUP];
     uint32_t at[LANE_GROUP];
@@ -164,10 +173,26 @@ static TL_ALWAYS_INLINE void visit_leaves(lane_walk *w, uint32_t count)
     }
     for (uint32_t i = 0; i < count; i++) {
         walk_lane *lane = &w->lanes[at[i]];
-        if (tested[i].maybe != 0) {
-            (void)settle_lanes(&lane->job, &tested[i], lane->child, false, &lane->best);
+        bool met = tested[i].maybe != 0 && settle_lanes(&lane->job, &tested[i], lane->child, any, &lane->best);
+        advance_lane(w, at[i], met);
+    }
+}
+
+static TL_ALWAYS_INLINE void walk_lanes_to_end(lane_walk *w, bool any)
+{
+    for (;;) {
+        uint32_t at_nodes = w->nodes.end - w->nodes.first, at_leaves = w->leaves.end - w->leaves.first;
+        if (at_nodes >= LANE_GROUP) {
+            visit_nodes(w, LANE_GROUP);
+        } else if (at_leaves >= LANE_GROUP) {
+            visit_leaves(w, LANE_GROUP, any);
+        } else if (at_nodes > 0) {
+            visit_nodes(w, at_nodes);
+        } else if (at_leaves > 0) {
+            visit_leaves(w, at_leaves, any);
+        } else {
+            return;
         }
-        advance_lane(w, at[i]);
     }
 }
 
@@ -181,19 +206,10 @@ void TL_RAY_WALK_MANY(const tl_ray_batch *batch)
     for (uint32_t i = 0; i < RAY_LANES && begin_lane(&w, &w.lanes[i]); i++) {
         w.nodes.lanes[w.nodes.end++] = i;
     }
-    for (;;) {
-        uint32_t at_nodes = w.nodes.end - w.nodes.first, at_leaves = w.leaves.end - w.leaves.first;
-        if (at_nodes >= LANE_GROUP) {
-            visit_nodes(&w, LANE_GROUP);
-        } else if (at_leaves >= LANE_GROUP) {
-            visit_leaves(&w, LANE_GROUP);
-        } else if (at_nodes > 0) {
-            visit_nodes(&w, at_nodes);
-        } else if (at_leaves > 0) {
-            visit_leaves(&w, at_leaves);
-        } else {
-            return;
-        }
+    if (batch->hits == NULL) {
+        walk_lanes_to_end(&w, true);
+    } else {
+        walk_lanes_to_end(&w, false);
     }
 }
 
