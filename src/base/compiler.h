@@ -11,7 +11,7 @@
 /// TL_KEEP_BRANCH behind an assignment to `value`: the branch that leads there stays one. Compilers like to make a
 /// conditional move of it, which waits for the condition where a branch is predicted.
 /// TL_KEEP_VECTOR: `value`, of an SSE type, is in a register here, as it was loaded.
-#if defined(__GNUC__)
+#if defined(__GNUC__) || defined(__clang__)
 #define TL_ALWAYS_INLINE      inline __attribute__((always_inline))
 #define TL_NOINLINE           __attribute__((noinline))
 #define TL_KEEP_BRANCH(value) __asm__ volatile("" : "+r"(value))
@@ -26,7 +26,7 @@
 /// A line of memory is needed soon.
 static inline void tl_prefetch(const void *at)
 {
-#if defined(__GNUC__)
+#if defined(__GNUC__) || defined(__clang__)
     __builtin_prefetch(at);
 #else
     (void)at;

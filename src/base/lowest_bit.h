@@ -10,7 +10,7 @@
 // Index of the lowest set bit; the mask is not zero.
 static inline uint32_t tl_lowest_bit(uint64_t mask)
 {
-#if defined(__GNUC__)
+#if defined(__GNUC__) || defined(__clang__)
     return (uint32_t)__builtin_ctzll(mask);
 #else
     uint32_t index = 0;
@@ -25,7 +25,7 @@ static inline uint32_t tl_lowest_bit(uint64_t mask)
 // Index of the highest set bit; the mask is not zero.
 static inline uint32_t tl_highest_bit(uint64_t mask)
 {
-#if defined(__GNUC__)
+#if defined(__GNUC__) || defined(__clang__)
     return 63u - (uint32_t)__builtin_clzll(mask);
 #else
     uint32_t index = 0;
@@ -39,7 +39,7 @@ static inline uint32_t tl_highest_bit(uint64_t mask)
 // How many bits are set.
 static inline uint32_t tl_bit_count(uint32_t mask)
 {
-#if defined(__GNUC__)
+#if defined(__GNUC__) || defined(__clang__)
     return (uint32_t)__builtin_popcount(mask);
 #else
     uint32_t count = 0;

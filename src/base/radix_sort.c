@@ -41,8 +41,8 @@ static tl_result count_digits(const tl_sort_item *items, uint32_t count, uint32_
     return TL_OK;
 }
 
-static tl_result scatter(const tl_sort_item *from, tl_sort_item *to, uint32_t count, uint32_t shift, uint32_t *offsets,
-                         tl_stage *stage)
+static tl_result scatter_by_digit(const tl_sort_item *from, tl_sort_item *to, uint32_t count, uint32_t shift,
+                                  uint32_t *offsets, tl_stage *stage)
 {
     for (uint32_t begin = 0, end; begin < count; begin = end) {
         end = tl_stage_step_end(begin, count);
@@ -77,7 +77,7 @@ tl_result tl_radix_sort_in_stage(tl_sort_item *items, tl_sort_item *scratch, uin
             offsets[value] = sum;
             sum += n;
         }
-        TL_TRY(scatter(from, to, count, shift, offsets, stage));
+        TL_TRY(scatter_by_digit(from, to, count, shift, offsets, stage));
         tl_sort_item *swap = from;
         from = to;
         to = swap;

@@ -13,8 +13,8 @@
 
 #include "base/assert.h"
 #include "base/radix_sort.h"
-#include "polygon/outline/box_tree.h"
 #include "polygon/outline/key_table.h"
+#include "polygon/outline/packed_boxes.h"
 #include "polygon/outline/sweep.h"
 
 #include <string.h>
@@ -191,12 +191,12 @@ static tl_lattice_box segment_box(const edge_splitter *s, uint32_t segment)
 #include "base/heap.inl"
 
 // Places in an order that came from a tree, which has one of its own.
-typedef struct place_list {
+typedef struct found_places {
     uint32_t *places;
     uint32_t count, capacity;
-} place_list;
+} found_places;
 
-static tl_result add_place(place_list *list, tl_arena *arena, uint32_t place)
+static tl_result note_found(found_places *list, tl_arena *arena, uint32_t place)
 {
     if (list->count == list->capacity) {
         uint32_t *grown = tl_arena_grow(arena, list->places, &list->capacity, 64, sizeof *grown);
@@ -209,7 +209,7 @@ static tl_result add_place(place_list *list, tl_arena *arena, uint32_t place)
     return TL_OK;
 }
 
-static void sort_places(place_list *list)
+static void sort_found(found_places *list)
 {
     for (uint32_t i = list->count / 2; i-- > 0;) {
         largest_place_sift_down(list->places, list->count, i, list->places[i], NULL);
@@ -221,20 +221,20 @@ static void sort_places(place_list *list)
 }
 
 // The pairs of segment order[i] with those behind it in the order, which meet its box or its line.
-static tl_result test_pairs_of(edge_splitter *s, const tl_sort_item *order, uint32_t i, const tl_box_tree *tree,
-                               place_list *found)
+static tl_result test_pairs_of(edge_splitter *s, const tl_sort_item *order, uint32_t i, const tl_packed_boxes *tree,
+                               found_places *found)
 {
     const tl_lattice_segment e = s->segments[order[i].value];
-    tl_box_tree_walk walk;
+    tl_packed_boxes_walk walk;
     uint32_t place;
     found->count = 0;
-    tl_box_tree_begin(&walk, tree, s->nodes->points[e.a], s->nodes->points[e.b], 0);
-    while (tl_box_tree_next(&walk, &place)) {
+    tl_packed_boxes_begin(&walk, tree, s->nodes->points[e.a], s->nodes->points[e.b], 0);
+    while (tl_packed_boxes_next(&walk, &place)) {
         if (place > i) {
-            TL_TRY(add_place(found, s->arena, place));
+            TL_TRY(note_found(found, s->arena, place));
         }
     }
-    sort_places(found);
+    sort_found(found);
     for (uint32_t k = 0; k < found->count; k++) {
         TL_TRY(test_pair(s, order[i].value, order[found->places[k]].value));
     }
@@ -251,9 +251,9 @@ static tl_result test_pairs_by_tree(edge_splitter *s, const tl_sort_item *order)
     for (uint32_t i = 0; i < count; i++) {
         boxes[i] = segment_box(s, order[i].value);
     }
-    tl_box_tree tree;
-    place_list found = { NULL, 0, 0 };
-    if (!tl_box_tree_build(&tree, s->arena, boxes, count)) {
+    tl_packed_boxes tree;
+    found_places found = { NULL, 0, 0 };
+    if (!tl_packed_boxes_build(&tree, s->arena, boxes, count)) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < count && s->crossings <= MAX_CROSSINGS; i++) {
@@ -329,26 +329,26 @@ static tl_result snap_segments(edge_splitter *s)
     for (uint32_t i = 0; i < nodes->count; i++) {
         boxes[i].low = boxes[i].high = nodes->points[order[i].value];
     }
-    tl_box_tree tree;
-    place_list found = { NULL, 0, 0 };
-    if (!tl_box_tree_build(&tree, s->arena, boxes, nodes->count)) {
+    tl_packed_boxes tree;
+    found_places found = { NULL, 0, 0 };
+    if (!tl_packed_boxes_build(&tree, s->arena, boxes, nodes->count)) {
         return TL_ERR_MEMORY;
     }
     s->split_count = 0;
     for (uint32_t i = 0; i < s->segment_count; i++) {
         const tl_lattice_segment e = s->segments[i];
         const tl_lattice_point a = nodes->points[e.a], b = nodes->points[e.b];
-        tl_box_tree_walk walk;
+        tl_packed_boxes_walk walk;
         uint32_t place;
         found.count = 0;
-        tl_box_tree_begin(&walk, &tree, a, b, 1);
-        while (tl_box_tree_next(&walk, &place)) {
+        tl_packed_boxes_begin(&walk, &tree, a, b, 1);
+        while (tl_packed_boxes_next(&walk, &place)) {
             const uint32_t node = order[place].value;
             if (node != e.a && node != e.b && meets_square(a, b, nodes->points[node])) {
-                TL_TRY(add_place(&found, s->arena, place));
+                TL_TRY(note_found(&found, s->arena, place));
             }
         }
-        sort_places(&found);
+        sort_found(&found);
         for (uint32_t k = 0; k < found.count; k++) {
             TL_TRY(add_split(s, i, order[found.places[k]].value));
         }

@@ -64,7 +64,7 @@ static inline tl_ray_walk_fn *best_ray_walk(void)
 {
 #if TL_CPU_LEVELS == 3
     if (tl_cpu_has_avx2()) {
-        return __builtin_cpu_is("amd") && tl_cpu_has_avx512() ? tl_ray_walk_avx512 : tl_ray_walk_avx2;
+        return tl_cpu_is_amd() && tl_cpu_has_avx512() ? tl_ray_walk_avx512 : tl_ray_walk_avx2;
     }
     return tl_cpu_has_vec128() ? tl_ray_walk_vec128 : tl_ray_walk_scalar;
 #elif TL_CPU_LEVELS == 1

@@ -3,7 +3,7 @@
 // The packed tree of boxes against a look at every box, with points, thin and large boxes, many at one place, and
 // coordinates at the ends of their range; and that a walk looks at few of many.
 
-#include "polygon/outline/box_tree.h"
+#include "polygon/outline/packed_boxes.h"
 #include "talus_test.h"
 
 #include <talus/polygon.h>
@@ -50,7 +50,7 @@ static void it_finds_what_a_scan_finds(void **state)
     for (uint32_t run = 0; run < 24; run++) {
         const uint32_t count = counts[run % 8], size = sizes[run / 8];
         tl_arena arena;
-        tl_box_tree tree;
+        tl_packed_boxes tree;
         tl_arena_init(&arena, NULL);
         for (uint32_t i = 0; i < count; i++) {
             const tl_lattice_point p = random_lattice_point(&random, size);
@@ -62,14 +62,14 @@ static void it_finds_what_a_scan_finds(void **state)
             boxes[i].high.x = p.x < q.x ? q.x : p.x;
             boxes[i].high.z = p.z < q.z ? q.z : p.z;
         }
-        TEST_CHECK(tl_box_tree_build(&tree, &arena, boxes, count));
+        TEST_CHECK(tl_packed_boxes_build(&tree, &arena, boxes, count));
         for (uint32_t k = 0; k < 50; k++) {
             const tl_lattice_point a = random_lattice_point(&random, size), b = random_lattice_point(&random, size);
-            tl_box_tree_walk walk;
+            tl_packed_boxes_walk walk;
             uint32_t item;
             memset(found, 0, sizeof found);
-            tl_box_tree_begin(&walk, &tree, a, b, 0);
-            while (tl_box_tree_next(&walk, &item)) {
+            tl_packed_boxes_begin(&walk, &tree, a, b, 0);
+            while (tl_packed_boxes_next(&walk, &item)) {
                 TEST_CHECK(item < count && found[item] == 0);
                 found[item] = 1;
                 listed += size > 4;
@@ -93,17 +93,17 @@ static void a_margin_makes_boxes_larger(void **state)
     const tl_lattice_box point = { { 10, 10 }, { 10, 10 } };
     const tl_lattice_point a = { 0, 11 }, b = { 20, 11 };
     tl_arena arena;
-    tl_box_tree tree;
-    tl_box_tree_walk walk;
+    tl_packed_boxes tree;
+    tl_packed_boxes_walk walk;
     uint32_t item = 7;
     (void)state;
     tl_arena_init(&arena, NULL);
-    TEST_CHECK(tl_box_tree_build(&tree, &arena, &point, 1));
-    tl_box_tree_begin(&walk, &tree, a, b, 0);
-    TEST_CHECK(!tl_box_tree_next(&walk, &item));
-    tl_box_tree_begin(&walk, &tree, a, b, 1);
-    TEST_CHECK(tl_box_tree_next(&walk, &item) && item == 0);
-    TEST_CHECK(!tl_box_tree_next(&walk, &item));
+    TEST_CHECK(tl_packed_boxes_build(&tree, &arena, &point, 1));
+    tl_packed_boxes_begin(&walk, &tree, a, b, 0);
+    TEST_CHECK(!tl_packed_boxes_next(&walk, &item));
+    tl_packed_boxes_begin(&walk, &tree, a, b, 1);
+    TEST_CHECK(tl_packed_boxes_next(&walk, &item) && item == 0);
+    TEST_CHECK(!tl_packed_boxes_next(&walk, &item));
     tl_arena_free(&arena);
 }
 

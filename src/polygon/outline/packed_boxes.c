@@ -6,7 +6,7 @@
 // all boxes between its ends' x: at 460,000 crossings of 2,000 edges that was nine tenths of the time.
 // Source: Roussopoulos and Leifker, Direct Spatial Search on Pictorial Databases Using Packed R-Trees, 1985.
 
-#include "polygon/outline/box_tree.h"
+#include "polygon/outline/packed_boxes.h"
 
 #include "base/assert.h"
 #include "base/min_max.h"
@@ -44,10 +44,10 @@ static void unite_boxes(tl_lattice_box *box, const tl_lattice_box *other)
 
 static uint32_t parents_of(uint32_t count)
 {
-    return (count + TL_BOX_TREE_CHILDREN - 1) / TL_BOX_TREE_CHILDREN;
+    return (count + TL_PACKED_BOXES_CHILDREN - 1) / TL_PACKED_BOXES_CHILDREN;
 }
 
-bool tl_box_tree_build(tl_box_tree *tree, tl_arena *arena, const tl_lattice_box *boxes, uint32_t count)
+bool tl_packed_boxes_build(tl_packed_boxes *tree, tl_arena *arena, const tl_lattice_box *boxes, uint32_t count)
 {
     TL_ASSERT(count > 0);
     tree->levels = 0;
@@ -77,8 +77,8 @@ bool tl_box_tree_build(tl_box_tree *tree, tl_arena *arena, const tl_lattice_box 
     for (uint32_t level = 1; level < tree->levels; level++) {
         for (uint32_t i = tree->level_first[level]; i < tree->level_first[level + 1]; i++) {
             const uint32_t below = i - tree->level_first[level];
-            const uint32_t first = tree->level_first[level - 1] + TL_BOX_TREE_CHILDREN * below;
-            const uint32_t end = tl_min_u32(first + TL_BOX_TREE_CHILDREN, tree->level_first[level]);
+            const uint32_t first = tree->level_first[level - 1] + TL_PACKED_BOXES_CHILDREN * below;
+            const uint32_t end = tl_min_u32(first + TL_PACKED_BOXES_CHILDREN, tree->level_first[level]);
             tree->boxes[i] = tree->boxes[first];
             for (uint32_t k = first + 1; k < end; k++) {
                 unite_boxes(&tree->boxes[i], &tree->boxes[k]);
@@ -90,7 +90,7 @@ bool tl_box_tree_build(tl_box_tree *tree, tl_arena *arena, const tl_lattice_box 
 
 // Proof of range: coordinates within +-2^29 and a margin of some units, so sums of two are below 2^31, and differences
 // of such sums below 2^32; a product with a difference of coordinates is below 2^62, and what is compared below 2^63.
-static bool meets_box(const tl_box_tree_walk *walk, const tl_lattice_box *box)
+static bool meets_box(const tl_packed_boxes_walk *walk, const tl_lattice_box *box)
 {
     const tl_lattice_point a = walk->a, b = walk->b;
     const int32_t margin = walk->margin;
@@ -110,8 +110,8 @@ static bool meets_box(const tl_box_tree_walk *walk, const tl_lattice_box *box)
     return turn <= reach && -turn <= reach;
 }
 
-void tl_box_tree_begin(tl_box_tree_walk *walk, const tl_box_tree *tree, tl_lattice_point a, tl_lattice_point b,
-                       int32_t margin)
+void tl_packed_boxes_begin(tl_packed_boxes_walk *walk, const tl_packed_boxes *tree, tl_lattice_point a,
+                           tl_lattice_point b, int32_t margin)
 {
     walk->tree = tree;
     walk->a = a;
@@ -121,9 +121,9 @@ void tl_box_tree_begin(tl_box_tree_walk *walk, const tl_box_tree *tree, tl_latti
     walk->depth = 1;
 }
 
-bool tl_box_tree_next(tl_box_tree_walk *walk, uint32_t *item_out)
+bool tl_packed_boxes_next(tl_packed_boxes_walk *walk, uint32_t *item_out)
 {
-    const tl_box_tree *tree = walk->tree;
+    const tl_packed_boxes *tree = walk->tree;
     while (walk->depth > 0) {
         const uint32_t place = walk->stack[--walk->depth];
         if (!meets_box(walk, &tree->boxes[place])) {
@@ -137,8 +137,9 @@ bool tl_box_tree_next(tl_box_tree_walk *walk, uint32_t *item_out)
         while (place >= tree->level_first[level + 1]) {
             level++;
         }
-        const uint32_t first = tree->level_first[level - 1] + TL_BOX_TREE_CHILDREN * (place - tree->level_first[level]);
-        for (uint32_t k = tl_min_u32(first + TL_BOX_TREE_CHILDREN, tree->level_first[level]); k-- > first;) {
+        const uint32_t first =
+            tree->level_first[level - 1] + TL_PACKED_BOXES_CHILDREN * (place - tree->level_first[level]);
+        for (uint32_t k = tl_min_u32(first + TL_PACKED_BOXES_CHILDREN, tree->level_first[level]); k-- > first;) {
             walk->stack[walk->depth++] = k;
         }
     }
