@@ -90,10 +90,11 @@ static bool gjk_step(tl_minkowski *pair, double decide_at, tl_gjk *gjk)
     tl_simplex_point nearest;
     tl_simplex_solve_last(&gjk->simplex, &nearest);
     double upper = sqrt(nearest.distance_sq);
-    if (!(upper < gjk->upper)) {
+    if (!(upper < gjk->upper) || upper < gjk->lower) {
         gjk->simplex.count--; // the old points and weights are still there
-        // No progress: what is left is too small to show in the length of a vector. Bounds closer than a float rounding
-        // of the coordinates are the end, else it is a bad simplex.
+        // No progress; or less than is proven, as by a tetrahedron so thin that rounding finds the origin inside, of
+        // shapes that a support has shown to be apart: the bounds hold, the simplex does not. Bounds closer than a
+        // float rounding of the coordinates are the end, else it is a bad simplex.
         double gap = BOUND_GAP * (gjk->upper + pair->scale) + 4.0 * pair->direction_error;
         gjk->status = gjk->upper - gjk->lower <= gap ? TL_CONVEX_CONVERGED : TL_CONVEX_DEGENERATE;
         return false;
