@@ -244,7 +244,7 @@ static tl_exit audit_source(draw_source *source, audit_settings *settings)
         return code;
     }
     const tl_nav_input input = tl_level_areas_input(&source->areas, &source->mesh);
-    settings->def.areas = input.areas;
+    settings->def.areas = source->soup_areas != NULL ? source->soup_areas : input.areas;
     settings->def.volumes = input.volumes;
     settings->def.volume_count = input.volume_count;
     settings->def.pruned = source->pruned;

@@ -193,6 +193,9 @@ static void print_bake_summary(const tl_pack_frame *frame, const bake_result *r)
         printf("links    %u drops, %u jumps, %u climbs\n", bake->links.links->kind_counts[TL_NAV_LINK_DROP],
                bake->links.links->kind_counts[TL_NAV_LINK_JUMP], bake->links.links->kind_counts[TL_NAV_LINK_CLIMB]);
     }
+    if (bake->offmesh != NULL) {
+        printf("off-mesh %u links set by hand\n", bake->offmesh->count);
+    }
     printf("wrote    %s\n", r->output);
 }
 
@@ -276,6 +279,9 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
         if (r->empty.cause != NULL) {
             json_object_set_new(json_object_get(object, "navmesh"), "cause", json_string(r->empty.cause));
         }
+    }
+    if (bake->offmesh != NULL) {
+        json_object_set_new(object, "off_mesh", json_integer((json_int_t)bake->offmesh->count));
     }
     if (bake->links.links != NULL) {
         json_object_set_new(object, "links", tl_level_links_json(&bake->links.report));
@@ -389,6 +395,9 @@ const tl_command tl_bake_command = {
     "(echo 'usemtl grass'; cat courtyard.obj) > park.obj\n"
     "echo 'box 0 18 -1 18 22 3 22' > areas.txt\n"
     "talus bake park.obj -o park.talus --area 'gr*=5' --areas areas.txt\n"
+    "talus bake courtyard.obj -o ladder.talus --link 2,0,20,20,5,20\n"
+    "echo '{\"links\": [{\"start\": [2,0,20], \"end\": [20,5,20], \"both_ways\": true}]}' > links.json\n"
+    "talus bake courtyard.obj -o ladder.talus --link-file links.json\n"
     "talus bake courtyard.obj -o rays.talus --up z --scale 0.01 --no-nav --json",
     run_bake,
 };

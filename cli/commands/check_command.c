@@ -189,6 +189,12 @@ static tl_result check_chunk(findings *f, tl_pack_chunk chunk)
     case TL_PACK_MARK:
         add_failed(f, part, tl_pack_volumes_check(chunk.bytes, chunk.size, &report), &report);
         break;
+    case TL_PACK_OFFM:
+        add_failed(f, part, tl_pack_offmesh_check(chunk.bytes, chunk.size, &report), &report);
+        break;
+    case TL_PACK_AREA:
+        add_failed(f, part, tl_pack_areas_check(chunk.bytes, chunk.size, &report), &report);
+        break;
     case TL_PACK_FRAM:
         add_failed(f, part, tl_pack_frame_check(chunk.bytes, chunk.size, &report), &report);
         break;

@@ -40,6 +40,21 @@ static bool triangles_of_soup(draw_source *source, tl_exit *exit_out)
     return true;
 }
 
+// What materials gave the triangles, where the file says so.
+static bool take_triangle_areas(draw_source *source, const char *path, tl_exit *exit_out)
+{
+    tl_result result;
+    const tl_pack_areas *kept = tl_input_checked_chunk(&source->input, TL_PACK_AREA, tl_pack_areas_check, &result);
+    if (kept != NULL) {
+        source->soup_areas = tl_pack_areas_array(kept);
+        result = tl_level_areas_of_triangles(kept, source->numbers, source->mesh.triangle_count, &source->areas);
+    }
+    if (result != TL_OK && result != TL_NOT_FOUND) {
+        *exit_out = tl_cli_fail_result(source->cli, path, result, NULL);
+    }
+    return result == TL_OK || result == TL_NOT_FOUND;
+}
+
 static bool open_baked_source(draw_source *source, const char *path, tl_exit *exit_out)
 {
     if (!tl_input_open_baked(source->cli, path, &source->input, exit_out)) {
@@ -66,7 +81,7 @@ static bool open_baked_source(draw_source *source, const char *path, tl_exit *ex
         *exit_out = tl_cli_fail_result(source->cli, path, result, NULL);
         return false;
     }
-    return source->is_bare || triangles_of_soup(source, exit_out);
+    return source->is_bare || (triangles_of_soup(source, exit_out) && take_triangle_areas(source, path, exit_out));
 }
 
 // Whether the file's first word says that it holds contours. One that cannot be opened does not: reading it as a level
@@ -185,7 +200,7 @@ bool draw_need_soup(draw_source *source, tl_exit *exit_out)
     return result == TL_OK;
 }
 
-// A baked file keeps volumes, and of materials only what came of them, in its tiles.
+// Files that were baked before they kept the areas of triangles have of materials only what came of them, in the tiles.
 static void warn_of_areas(const draw_source *source)
 {
     tl_area_sums sums;
@@ -197,7 +212,7 @@ static void warn_of_areas(const draw_source *source)
             tl_area_sums_add(&sums, chunk.bytes);
         }
     }
-    if (source->areas.marks.volume_count == 0 && tl_area_sums_has_others(&sums)) {
+    if (source->areas.marks.volume_count == 0 && source->areas.of_triangle == NULL && tl_area_sums_has_others(&sums)) {
         tl_cli_warn(source->cli,
                     "%s was baked with areas; the stages before navmesh are baked again without them; draw "
                     "the level with the same --area and --areas to see them",

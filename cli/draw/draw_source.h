@@ -18,8 +18,9 @@ typedef struct draw_source {
     tl_nav_def nav_def; ///< of the options, or of the baked file
     tl_mesh_view mesh;  ///< the level's triangles
     tl_level_areas areas;
-    tl_aabb bounds;   ///< of the triangles
-    tl_vec3 *corners; ///< what `mesh` points into for a baked file
+    const uint8_t *soup_areas; ///< of a baked file: the same by the soup's numbers; NULL: materials gave none
+    tl_aabb bounds;            ///< of the triangles
+    tl_vec3 *corners;          ///< what `mesh` points into for a baked file
     uint32_t *indices;
     uint32_t *numbers;   ///< the same: each triangle's number in the source
     tl_soup *baked_soup; ///< made here

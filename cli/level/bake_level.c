@@ -9,6 +9,7 @@
 #include "cli/level/polygonize_compare.h"
 #include "cli/options/parse_value.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 tl_bake_settings tl_default_bake_settings(void)
@@ -90,6 +91,13 @@ void tl_nav_options(tl_bake_settings *settings, tl_option table[TL_NAV_OPTIONS])
           "leave out islands inside closed parts of the level", NULL, 0, 0, 0, 0 },
         { "island-min-area", 0, TL_OPTION_FLOAT, &settings->min_island_area, "M2",
           "square metres: leave out smaller islands, measured over all tiles", NULL, 0, huge, 0, 0 },
+        { "link", 0, TL_OPTION_TEXTS, &settings->hand_links.words, "X,Y,Z,X,Y,Z",
+          "an off-mesh link from a point to a point, one way (a ladder, a lift, a teleporter); may be given again",
+          NULL, 0, 0, 0, 0 },
+        { "link-file", 0, TL_OPTION_INPUT, &settings->hand_links.path, "FILE",
+          "the same from JSON: {\"links\": [{\"start\": [x,y,z], \"end\": [x,y,z], \"both_ways\": true, "
+          "\"radius\": 0.5, \"cost_factor\": 1, \"fixed_cost\": 0, \"area\": 63, \"flags\": 1, \"user\": 0}]}",
+          NULL, 0, 0, 0, 0 },
         { "no-filter-low-hanging-obstacles", 0, TL_OPTION_UNFLAG, &d->filter_low_hanging_obstacles, NULL,
           "low obstacles, kerbs and steps, stay obstacles", NULL, 0, 0, 0, 0 },
         { "no-filter-ledge-spans", 0, TL_OPTION_UNFLAG, &d->filter_ledge_spans, NULL, "ledges stay walkable", NULL, 0,
@@ -200,10 +208,39 @@ static bool fail_prune(tl_cli *cli, const tl_level *level, const tl_bake_setting
     return false;
 }
 
-static bool prune_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
-                      tl_exit *exit_out)
+// The same point as a place for seeds, where a link set by hand leads on from an island with a seed: the islands that
+// hang together by links count as one, so that a tower that only a ladder leads to is kept. False: reported.
+static bool seed_linked_islands(tl_cli *cli, const tl_level *level, const tl_bake *bake, tl_nav_prune_def *def,
+                                tl_vec3 *seeds, tl_exit *exit_out)
 {
-    tl_vec3 seeds[TL_MAX_OPTION_TEXTS];
+    tl_navmesh *navmesh = NULL;
+    const bool ok = tl_bake_assemble_navmesh(cli, level->path, bake, &navmesh, exit_out);
+    const uint32_t given = def->seed_count;
+    uint32_t cursor = 0;
+    tl_nav_ref link;
+    while (ok && tl_navmesh_next_offmesh(navmesh, &cursor, &link)) {
+        tl_nav_offmesh_state state;
+        uint32_t island = 0, own = 0;
+        if (tl_navmesh_offmesh_state(navmesh, link, &state) != TL_OK || !state.anchored) {
+            continue;
+        }
+        tl_navmesh_island(navmesh, state.ends[0].polygon, &own);
+        for (uint32_t i = 0; i < given; i++) {
+            tl_nav_location near;
+            if (tl_navmesh_find_nearest(navmesh, NULL, def->seeds[i], def->seed_extents, &near) == TL_OK &&
+                tl_navmesh_island(navmesh, near.polygon, &island) == TL_OK && island == own) {
+                seeds[def->seed_count++] = state.ends[0].point;
+                seeds[def->seed_count++] = state.ends[1].point;
+                break;
+            }
+        }
+    }
+    tl_navmesh_destroy(navmesh);
+    return ok;
+}
+
+static bool take_seeds(tl_cli *cli, const tl_bake_settings *settings, tl_vec3 *seeds, tl_exit *exit_out)
+{
     for (uint32_t i = 0; i < settings->seeds.count; i++) {
         const char *word = settings->seeds.words[i], *reason = tl_parse_point_value(word, &seeds[i]);
         if (reason != NULL) {
@@ -215,10 +252,12 @@ static bool prune_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings
             seeds[i] = tl_pack_place_in(cli->frame, exact);
         }
     }
-    const bool asked = settings->seeds.count > 0 || settings->drop_inside || settings->min_island_area > 0.0f;
-    if (!asked || bake->tiles.tile_count == 0) {
-        return true;
-    }
+    return true;
+}
+
+static bool prune_with(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
+                       tl_vec3 *seeds, tl_exit *exit_out)
+{
     const tl_mesh_view mesh = tl_mesh_as_view(&level->mesh);
     tl_nav_prune_def def = tl_default_nav_prune_def();
     def.seeds = seeds;
@@ -226,11 +265,51 @@ static bool prune_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings
     def.solids = settings->drop_inside ? &mesh : NULL;
     def.min_area = (double)settings->min_island_area;
     def.host = cli->host;
+    if (def.seed_count > 0 && bake->offmesh != NULL && !seed_linked_islands(cli, level, bake, &def, seeds, exit_out)) {
+        return false;
+    }
     tl_result result = tl_pack_pruning_encode(&def, NULL, &bake->pruning, &bake->pruned.base);
     if (result == TL_OK) {
         result = tl_nav_prune(&def, &bake->tiles, &bake->removed, &bake->pruned);
     }
     return result == TL_OK || fail_prune(cli, level, settings, &def, result, &bake->pruned.base, exit_out);
+}
+
+static bool prune_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
+                      tl_exit *exit_out)
+{
+    const bool asked = settings->seeds.count > 0 || settings->drop_inside || settings->min_island_area > 0.0f;
+    const size_t room = settings->seeds.count + (bake->offmesh != NULL ? 2 * (size_t)bake->offmesh->count : 0);
+    tl_vec3 *seeds = malloc((room + 1) * sizeof *seeds);
+    bool ok = seeds != NULL;
+    if (!ok) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_MEMORY, "%s: out of memory", level->path);
+    }
+    ok = ok && take_seeds(cli, settings, seeds, exit_out) &&
+         (!asked || bake->tiles.tile_count == 0 || prune_with(cli, level, settings, bake, seeds, exit_out));
+    free(seeds);
+    return ok;
+}
+
+// The areas of triangles as the file keeps them: by the source's numbers, those that were dropped as the default.
+static tl_result keep_triangle_areas(const tl_level *level, const tl_level_areas *areas, tl_bake *bake)
+{
+    if (areas->of_triangle == NULL) {
+        return TL_OK;
+    }
+    const uint32_t count = level->imported.triangle_count;
+    uint8_t *of_source = malloc((size_t)count + 1);
+    if (of_source == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(of_source, TL_NAV_WALKABLE_AREA, count);
+    for (uint32_t i = 0; i < level->mesh.triangle_count; i++) {
+        of_source[level->mesh.source_triangles[i]] = areas->of_triangle[i];
+    }
+    const tl_result result =
+        tl_pack_areas_encode(of_source, count, NULL, &bake->triangle_areas, &bake->nav_report.base);
+    free(of_source);
+    return result;
 }
 
 static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
@@ -256,12 +335,16 @@ static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings 
     if (result == TL_OK && input.volume_count > 0) {
         result = tl_pack_volumes_encode(input.volumes, input.volume_count, NULL, &bake->marks, &bake->nav_report.base);
     }
+    if (result == TL_OK) {
+        result = keep_triangle_areas(level, &areas, bake);
+    }
     tl_level_areas_free(&areas);
     if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(cli, level->path, result, &bake->nav_report.base);
         return false;
     }
-    if (!prune_nav(cli, level, settings, bake, exit_out)) {
+    if (!tl_hand_links_make(cli, &settings->hand_links, &bake->offmesh, exit_out) ||
+        !prune_nav(cli, level, settings, bake, exit_out)) {
         return false;
     }
     bake->walkable = bake->tiles.tile_count > 0;
@@ -283,10 +366,25 @@ bool tl_bake_assemble_navmesh(tl_cli *cli, const char *path, const tl_bake *bake
         result = tl_navmesh_add_tiles(*navmesh_out, bake->tiles.tiles, bake->tiles.tile_count, TL_NAV_TILE_BORROWED,
                                       &report);
     }
+    if (result == TL_OK) {
+        result = tl_hand_links_add(bake->offmesh, *navmesh_out, &report);
+    }
     if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(cli, path, result, &report);
     }
     return result == TL_OK;
+}
+
+// Says which links set by hand are of no use.
+static bool look_at_hand_links(tl_cli *cli, const tl_level *level, const tl_bake *bake, tl_exit *exit_out)
+{
+    tl_navmesh *navmesh = NULL;
+    const bool ok = tl_bake_assemble_navmesh(cli, level->path, bake, &navmesh, exit_out);
+    if (ok) {
+        tl_hand_links_warn(cli, level->path, navmesh);
+    }
+    tl_navmesh_destroy(navmesh);
+    return ok;
 }
 
 static bool bake_links(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
@@ -306,6 +404,7 @@ bool tl_bake_level(tl_cli *cli, const tl_level *level, const tl_bake_settings *s
     return (!settings->soup || bake_soup(cli, level, settings, bake_out, exit_out)) &&
            (!settings->hull || bake_hull(cli, level, bake_out, exit_out)) &&
            (!settings->nav || bake_nav(cli, level, settings, bake_out, exit_out)) &&
+           (bake_out->offmesh == NULL || !bake_out->walkable || look_at_hand_links(cli, level, bake_out, exit_out)) &&
            (!settings->links || !settings->soup || !bake_out->walkable ||
             bake_links(cli, level, settings, bake_out, exit_out));
 }
@@ -316,6 +415,8 @@ void tl_bake_free(tl_bake *bake)
     tl_blob_free(bake->hull);
     tl_blob_free(bake->links.links);
     tl_blob_free(bake->marks);
+    tl_blob_free(bake->triangle_areas);
+    tl_blob_free(bake->offmesh);
     tl_blob_free(bake->pruning);
     tl_nav_tiles_free(&bake->removed);
     tl_nav_tiles_free(&bake->tiles);

@@ -6,6 +6,7 @@
 #define TALUS_CLI_BAKE_LEVEL_H
 
 #include "cli/level/area_sums.h"
+#include "cli/level/hand_links.h"
 #include "cli/level/level_areas.h"
 #include "cli/level/level_links.h"
 
@@ -31,9 +32,10 @@ typedef struct tl_bake_settings {
     tl_option_texts seeds; ///< "x,y,z" each: islands without one are left out
     bool drop_inside;      ///< islands inside solids are left out
     float min_island_area; ///< square metres: smaller islands are left out
+    tl_hand_link_settings hand_links;
 } tl_bake_settings;
 
-enum { TL_NAV_OPTIONS = 27, TL_PART_OPTIONS = 6 };
+enum { TL_NAV_OPTIONS = 29, TL_PART_OPTIONS = 6 };
 
 /// Soup and navmesh, no hull; Recast's defaults.
 tl_bake_settings tl_default_bake_settings(void);
@@ -64,7 +66,9 @@ typedef struct tl_bake {
     double nav_area;            ///< square metres in the plane
     tl_area_sums areas;         ///< the same by area
     uint64_t nav_polygons;
-    tl_pack_volumes *marks; ///< NULL: no volumes were given
+    tl_pack_volumes *marks;        ///< NULL: no volumes were given
+    tl_pack_areas *triangle_areas; ///< NULL: materials gave none
+    tl_pack_offmesh *offmesh;      ///< links set by hand; NULL: none
     tl_level_links links;
 } tl_bake;
 

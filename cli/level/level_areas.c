@@ -142,7 +142,8 @@ bool tl_level_areas_make(tl_cli *cli, const tl_level *level, const tl_area_setti
     memset(areas_out, 0, sizeof(*areas_out));
     tl_io_error error;
     memset(&error, 0, sizeof(error));
-    if (settings->path != NULL && tl_area_marks_read(&areas_out->marks, settings->path, &error) != TL_OK) {
+    if (settings->path != NULL &&
+        tl_area_marks_read(&areas_out->marks, settings->path, &cli->frame_room, &error) != TL_OK) {
         *exit_out = tl_cli_fail_io(cli, &error);
         return false;
     }
@@ -169,6 +170,23 @@ tl_result tl_level_areas_of_marks(const tl_pack_volumes *marks, tl_level_areas *
     areas_out->marks.volume_count = marks->count;
     for (uint32_t i = 0; i < marks->count; i++) {
         areas_out->marks.volumes[i] = tl_pack_volumes_at(marks, i);
+    }
+    return TL_OK;
+}
+
+tl_result tl_level_areas_of_triangles(const tl_pack_areas *kept, const uint32_t *numbers, uint32_t count,
+                                      tl_level_areas *areas)
+{
+    areas->of_triangle = malloc((size_t)count + 1);
+    if (areas->of_triangle == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    const uint8_t *of_source = tl_pack_areas_array(kept);
+    for (uint32_t i = 0; i < count; i++) {
+        if (numbers[i] >= kept->count) {
+            return TL_ERR_CORRUPT;
+        }
+        areas->of_triangle[i] = of_source[numbers[i]];
     }
     return TL_OK;
 }

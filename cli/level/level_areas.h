@@ -28,6 +28,10 @@ bool tl_level_areas_make(tl_cli *cli, const tl_level *level, const tl_area_setti
                          tl_level_areas *areas_out, tl_exit *exit_out);
 /// The volumes of a baked file; `marks`, which are checked, must outlive the areas. TL_ERR_MEMORY.
 tl_result tl_level_areas_of_marks(const tl_pack_volumes *marks, tl_level_areas *areas_out);
+/// The areas of triangles of a baked file; `numbers` are the source's numbers of the `count` triangles. Once volumes
+/// are there. TL_ERR_CORRUPT (a number is beyond), TL_ERR_MEMORY.
+tl_result tl_level_areas_of_triangles(const tl_pack_areas *kept, const uint32_t *numbers, uint32_t count,
+                                      tl_level_areas *areas);
 void tl_level_areas_free(tl_level_areas *areas);
 
 /// What the navmesh is built from: the cleaned mesh with its marks. Valid while they live.

@@ -110,10 +110,10 @@ void tl_level_take_frame(tl_cli *cli, const char *path, tl_pack_axes axes, const
     static const char *const turned[] = { "x,y,z", "x,z,-y", "x,y,-z", "x,z,y" };
     const bool moved = origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0;
     cli->frame = NULL;
+    memset(&cli->frame_room, 0, sizeof(cli->frame_room));
     if (axes == TL_PACK_AXES_Y_UP && !moved) {
         return;
     }
-    memset(&cli->frame_room, 0, sizeof(cli->frame_room));
     cli->frame_room.axes = (uint32_t)axes;
     memcpy(cli->frame_room.origin, origin, sizeof(cli->frame_room.origin));
     if (cli->speaks_frame) {

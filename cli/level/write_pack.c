@@ -39,7 +39,7 @@ const char *tl_pack_source_name(const char *path)
 
 tl_result tl_pack_content_of_bake(const tl_level *level, const tl_bake *bake, bool nav, tl_pack_content *content)
 {
-    tl_result result = tl_pack_content_make(bake->tiles.tile_count + bake->removed.tile_count + 8, content);
+    tl_result result = tl_pack_content_make(bake->tiles.tile_count + bake->removed.tile_count + 10, content);
     if (result != TL_OK) {
         return result;
     }
@@ -70,6 +70,8 @@ tl_result tl_pack_content_of_bake(const tl_level *level, const tl_bake *bake, bo
         tl_pack_content_add(content, TL_PACK_NAVT, i, bake->tiles.tiles[i]);
     }
     tl_pack_content_add(content, TL_PACK_LINK, 0, bake->links.links);
+    tl_pack_content_add(content, TL_PACK_OFFM, 0, bake->offmesh);
+    tl_pack_content_add(content, TL_PACK_AREA, 0, bake->triangle_areas);
     tl_pack_content_add(content, TL_PACK_MARK, 0, bake->marks);
     tl_pack_content_add(content, TL_PACK_PRUN, 0, bake->pruning);
     for (uint32_t i = 0; i < bake->removed.tile_count; ++i) {

@@ -29,6 +29,8 @@ extern "C" {
 #define TL_PACK_NAVM             TL_PACK_TYPE('N', 'A', 'V', 'M') ///< tl_pack_navmesh: what the tiles were baked with
 #define TL_PACK_NAVT             TL_PACK_TYPE('N', 'A', 'V', 'T') ///< tl_nav_tile; the id numbers the tiles
 #define TL_PACK_LINK             TL_PACK_TYPE('L', 'I', 'N', 'K') ///< tl_nav_links: drops, jumps and climbs
+#define TL_PACK_OFFM             TL_PACK_TYPE('O', 'F', 'F', 'M') ///< tl_pack_offmesh: off-mesh links set by hand
+#define TL_PACK_AREA             TL_PACK_TYPE('A', 'R', 'E', 'A') ///< tl_pack_areas: areas of the source's triangles
 #define TL_PACK_FRAM             TL_PACK_TYPE('F', 'R', 'A', 'M') ///< tl_pack_frame: the level's own coordinates
 #define TL_PACK_MARK             TL_PACK_TYPE('M', 'A', 'R', 'K') ///< tl_pack_volumes: volumes the tiles were baked with
 #define TL_PACK_PRUN             TL_PACK_TYPE('P', 'R', 'U', 'N') ///< tl_pack_pruning: rules that islands were left out by
@@ -118,6 +120,10 @@ TL_API uint32_t tl_pack_count(const tl_pack *pack, uint32_t type);
 #define TL_PACK_VOLUMES_VERSION 1u
 #define TL_PACK_PRUNING_MAGIC   TL_PACK_PRUN
 #define TL_PACK_PRUNING_VERSION 1u
+#define TL_PACK_OFFMESH_MAGIC   TL_PACK_OFFM
+#define TL_PACK_OFFMESH_VERSION 1u
+#define TL_PACK_AREAS_MAGIC     TL_PACK_AREA
+#define TL_PACK_AREAS_VERSION   1u
 
 /// Where the geometry came from. A blob; the name follows it.
 typedef struct tl_pack_meta {
@@ -259,11 +265,56 @@ TL_API tl_result tl_pack_pruning_check(const void *bytes, uint64_t size, tl_repo
 /// The seeds of checked rules, in the blob.
 TL_API const tl_vec3 *tl_pack_pruning_seeds(const tl_pack_pruning *pruning);
 
+/// An off-mesh link (tl_nav_offmesh).
+typedef struct tl_pack_offmesh_link {
+    tl_vec3 start, end;                    ///< metres
+    float radius, cost_factor, fixed_cost; ///< >= 0
+    uint32_t area;                         ///< [0, TL_NAV_MAX_AREA]
+    uint32_t both_ways;                    ///< 0 or 1
+    uint32_t reserved;
+    uint64_t flags; ///< not 0
+    uint64_t user;
+} tl_pack_offmesh_link;
+
+/// Off-mesh links that were set by hand. A blob; `count` tl_pack_offmesh_link follow it.
+typedef struct tl_pack_offmesh {
+    tl_blob blob;
+    uint32_t count;
+    uint32_t reserved[11];
+} tl_pack_offmesh;
+
+/// Encodes an OFFM blob, freed with tl_blob_free. `links` may be NULL when count is 0. `allocator` NULL: malloc. The
+/// report, which may be NULL, names the "link". TL_ERR_ARGUMENT (what tl_navmesh_add_offmesh refuses), TL_ERR_LIMIT
+/// (more than TL_NAV_MAX_OFFMESH), TL_ERR_MEMORY; `*offmesh_out` is NULL then.
+TL_API tl_result tl_pack_offmesh_encode(const tl_nav_offmesh *links, uint32_t count, const tl_allocator *allocator,
+                                        tl_pack_offmesh **offmesh_out, tl_report *report_out);
+/// As tl_pack_meta_check; the report names the link. O(size).
+TL_API tl_result tl_pack_offmesh_check(const void *bytes, uint64_t size, tl_report *report_out);
+/// Link number `index` < offmesh->count (the caller's duty) of checked links.
+TL_API tl_nav_offmesh tl_pack_offmesh_at(const tl_pack_offmesh *offmesh, uint32_t index);
+
+/// The areas that materials gave the triangles, by a triangle's index in the source, as the soup numbers them. A blob;
+/// `count` bytes follow it. Files have none where all triangles have TL_NAV_WALKABLE_AREA.
+typedef struct tl_pack_areas {
+    tl_blob blob;
+    uint32_t count; ///< triangles of the source
+    uint32_t reserved[11];
+} tl_pack_areas;
+
+/// Encodes an AREA blob, freed with tl_blob_free. `areas` may be NULL when count is 0. `allocator` NULL: malloc.
+/// TL_ERR_ARGUMENT, TL_ERR_MEMORY; `*areas_out` is NULL then. `report_out` may be NULL.
+TL_API tl_result tl_pack_areas_encode(const uint8_t *areas, uint32_t count, const tl_allocator *allocator,
+                                      tl_pack_areas **areas_out, tl_report *report_out);
+/// As tl_pack_meta_check. O(padding).
+TL_API tl_result tl_pack_areas_check(const void *bytes, uint64_t size, tl_report *report_out);
+/// The areas of checked ones, [areas->count], in the blob.
+TL_API const uint8_t *tl_pack_areas_array(const tl_pack_areas *areas);
+
 /// Checks every NAVT chunk and adds the tiles, borrowed, to a new navmesh: the pack's bytes must outlive it. The links
-/// of LINK chunks are added to it (tl_nav_links_add). Ended with tl_navmesh_destroy. TL_NOT_FOUND: the file holds no
-/// navmesh. TL_ERR_ARGUMENT, and what tl_nav_tile_check, tl_navmesh_add_tile, tl_nav_links_check and tl_nav_links_add
-/// return, with the chunk's index in the report, which may be NULL.
-/// `*navmesh_out` is NULL then.
+/// of LINK chunks (tl_nav_links_add) and of OFFM chunks (tl_navmesh_add_offmesh) are added to it. Ended with
+/// tl_navmesh_destroy. TL_NOT_FOUND: the file holds no navmesh. TL_ERR_ARGUMENT, and what the checks of these chunks
+/// and tl_navmesh_add_tile, tl_nav_links_add and tl_navmesh_add_offmesh return, with the chunk's index in the report,
+/// which may be NULL. `*navmesh_out` is NULL then.
 TL_API tl_result tl_pack_load_navmesh(const tl_pack *pack, const tl_allocator *allocator, tl_navmesh **navmesh_out,
                                       tl_report *report_out);
 

@@ -536,7 +536,7 @@ tl_result tl_gltf_parse(const tl_mesh_source *source, const tl_allocator *alloca
 {
     memset(data_out, 0, sizeof *data_out);
     data_out->allocator = tl_io_allocator_or_default(allocator);
-    gltf_parser parser = { { TL_OK, source->name, error_out }, data_out, { NULL, NULL, 0, NULL } };
+    gltf_parser parser = { { TL_OK, source->name, error_out, NULL }, data_out, { NULL, NULL, 0, NULL } };
     const unsigned char *text = NULL;
     size_t length = 0;
     tl_result result = open_container(&parser, source, &text, &length);

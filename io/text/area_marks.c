@@ -6,12 +6,14 @@
 #include "io/files/growable.h"
 #include "io/text/line_words.h"
 
+#include <math.h>
 #include <string.h>
 
 typedef struct marks_parser {
     tl_area_marks *marks;
     tl_allocator allocator;
     tl_contour_reader reader;
+    const tl_pack_frame *frame;
     tl_io_error *error;
 } marks_parser;
 
@@ -101,9 +103,22 @@ void tl_area_marks_free(tl_area_marks *marks)
 
 // ---- Lines ---------------------------------------------------------------------------------------------------
 
-static bool take_point(tl_line *line, tl_vec3 *point)
+// A point as the level has it, in double, since a frame's origin may be far out.
+static bool take_place(tl_line *line, double place[3])
 {
-    return tl_take_float(line, &point->x) && tl_take_float(line, &point->y) && tl_take_float(line, &point->z);
+    return tl_take_double(line, &place[0]) && tl_take_double(line, &place[1]) && tl_take_double(line, &place[2]);
+}
+
+// False: floats end before it.
+static bool enter_place(const marks_parser *p, const double place[3], tl_vec3 *point_out)
+{
+    *point_out = tl_pack_place_in(p->frame, place);
+    return isfinite(point_out->x) && isfinite(point_out->y) && isfinite(point_out->z);
+}
+
+static bool is_z_up(const tl_pack_frame *frame)
+{
+    return frame != NULL && (frame->axes == TL_PACK_AXES_Z_UP || frame->axes == TL_PACK_AXES_Z_UP_LEFT);
 }
 
 static tl_result read_material_mark(marks_parser *p, tl_line *line, uint8_t area)
@@ -123,18 +138,25 @@ static tl_result read_material_mark(marks_parser *p, tl_line *line, uint8_t area
 
 static tl_result read_box(marks_parser *p, tl_line *line, tl_nav_volume *volume)
 {
+    double low[3], high[3];
+    tl_vec3 a, b;
     volume->kind = TL_NAV_VOLUME_BOX;
-    if (!take_point(line, &volume->box.min) || !take_point(line, &volume->box.max) || !tl_line_is_done(line)) {
+    if (!take_place(line, low) || !take_place(line, high) || !tl_line_is_done(line) || !enter_place(p, low, &a) ||
+        !enter_place(p, high, &b)) {
         return fail_mark(p, TL_ERR_FORMAT, "expected box AREA x y z x y z");
     }
-    return tl_aabb_is_empty(volume->box) ? fail_mark(p, TL_ERR_RANGE, "the box is empty: give the lowest corner first")
-                                         : TL_OK;
+    volume->box.min = tl_min(a, b); // turned, the lowest corner is another one
+    volume->box.max = tl_max(a, b);
+    return !(low[0] <= high[0] && low[1] <= high[1] && low[2] <= high[2])
+               ? fail_mark(p, TL_ERR_RANGE, "the box is empty: give the lowest corner first")
+               : TL_OK;
 }
 
 static tl_result read_cylinder(marks_parser *p, tl_line *line, tl_nav_volume *volume)
 {
+    double base[3];
     volume->kind = TL_NAV_VOLUME_CYLINDER;
-    if (!take_point(line, &volume->base) || !tl_take_float(line, &volume->radius) ||
+    if (!take_place(line, base) || !enter_place(p, base, &volume->base) || !tl_take_float(line, &volume->radius) ||
         !tl_take_float(line, &volume->height) || !tl_line_is_done(line)) {
         return fail_mark(p, TL_ERR_FORMAT, "expected cylinder AREA x y z radius height");
     }
@@ -143,24 +165,45 @@ static tl_result read_cylinder(marks_parser *p, tl_line *line, tl_nav_volume *vo
                : TL_OK;
 }
 
+// The corners of an outline, in the plan; `place` has its height.
+static tl_result read_outline(marks_parser *p, tl_line *line, double place[3], tl_nav_volume *volume)
+{
+    const int across = is_z_up(p->frame) ? 1 : 2;
+    while (!tl_line_is_done(line)) {
+        tl_vec3 point;
+        if (!tl_take_double(line, &place[0]) || !tl_take_double(line, &place[across]) ||
+            !enter_place(p, place, &point) || volume->point_count == UINT32_MAX) {
+            return TL_ERR_FORMAT;
+        }
+        point.y = 0.0f;
+        if (!push_point(&p->allocator, p->marks, point)) {
+            return TL_ERR_MEMORY;
+        }
+        volume->point_count++;
+    }
+    return volume->point_count >= 3 ? TL_OK : TL_ERR_FORMAT;
+}
+
 static tl_result read_prism(marks_parser *p, tl_line *line, tl_nav_volume *volume)
 {
+    double low[3] = { 0.0, 0.0, 0.0 }, high[3] = { 0.0, 0.0, 0.0 };
+    const int up = is_z_up(p->frame) ? 2 : 1;
+    tl_vec3 a, b;
     volume->kind = TL_NAV_VOLUME_POLYGON;
-    bool good = tl_take_float(line, &volume->box.min.y) && tl_take_float(line, &volume->box.max.y);
-    while (good && !tl_line_is_done(line)) {
-        tl_vec3 point = { 0.0f, 0.0f, 0.0f };
-        good = tl_take_float(line, &point.x) && tl_take_float(line, &point.z) && volume->point_count < UINT32_MAX;
-        if (good && !push_point(&p->allocator, p->marks, point)) {
-            return fail_mark_memory(p);
-        }
-        volume->point_count += good;
+    const bool has_ends = tl_take_double(line, &low[up]) && tl_take_double(line, &high[up]);
+    a = tl_pack_place_in(p->frame, low);
+    b = tl_pack_place_in(p->frame, high);
+    volume->box.min.y = a.y;
+    volume->box.max.y = b.y;
+    const tl_result result =
+        has_ends && isfinite(a.y) && isfinite(b.y) ? read_outline(p, line, low, volume) : TL_ERR_FORMAT;
+    if (result != TL_OK) {
+        return result == TL_ERR_MEMORY
+                   ? fail_mark_memory(p)
+                   : fail_mark(p, TL_ERR_FORMAT,
+                               "expected prism AREA low high x z x z x z, and more corners if wanted");
     }
-    if (!good || volume->point_count < 3) {
-        return fail_mark(p, TL_ERR_FORMAT, "expected prism AREA low high x z x z x z, and more corners if wanted");
-    }
-    return volume->box.min.y > volume->box.max.y
-               ? fail_mark(p, TL_ERR_RANGE, "the prism is empty: give the low end first")
-               : TL_OK;
+    return low[up] > high[up] ? fail_mark(p, TL_ERR_RANGE, "the prism is empty: give the low end first") : TL_OK;
 }
 
 static tl_result read_volume(marks_parser *p, tl_line *line, const char *kind, uint8_t area)
@@ -192,7 +235,7 @@ static tl_result read_mark_line(marks_parser *p, tl_line line)
 }
 
 tl_result tl_area_marks_parse(tl_area_marks *marks, const char *text, size_t size, const char *path,
-                              tl_io_error *error_out)
+                              const tl_pack_frame *frame, tl_io_error *error_out)
 {
     marks_parser p;
     memset(&p, 0, sizeof p);
@@ -201,6 +244,7 @@ tl_result tl_area_marks_parse(tl_area_marks *marks, const char *text, size_t siz
     p.reader.bytes = text;
     p.reader.size = size;
     p.reader.path = path;
+    p.frame = frame;
     p.error = error_out;
     tl_result result = TL_OK;
     tl_line line;
@@ -211,12 +255,12 @@ tl_result tl_area_marks_parse(tl_area_marks *marks, const char *text, size_t siz
     return result;
 }
 
-tl_result tl_area_marks_read(tl_area_marks *marks, const char *path, tl_io_error *error_out)
+tl_result tl_area_marks_read(tl_area_marks *marks, const char *path, const tl_pack_frame *frame, tl_io_error *error_out)
 {
     tl_file_map map;
     tl_result result = tl_file_read(path, 0, &map, error_out);
     if (result == TL_OK) {
-        result = tl_area_marks_parse(marks, map.bytes, map.size, path, error_out);
+        result = tl_area_marks_parse(marks, map.bytes, map.size, path, frame, error_out);
         tl_file_map_close(&map);
     }
     return result;

@@ -7,9 +7,10 @@
 //   cylinder AREA x y z radius height
 //   prism AREA low high x z x z x z ...     an outline of three corners or more, and its heights
 //
-// AREA is 0 (not walkable) to 255, lengths are metres in the level's final axes. Empty lines and lines that begin with
-// # are skipped. Of several marks for one floor the last counts, but what is not walkable stays so; volumes come after
-// materials.
+// AREA is 0 (not walkable) to 255. Coordinates are metres in the level's own axes and from its own origin (a frame);
+// where z is up, low, high and a cylinder's height are along z, and a prism's corners are x y. Empty lines and lines
+// that begin with # are skipped. Of several marks for one floor the last counts, but what is not walkable stays so;
+// volumes come after materials.
 
 #ifndef TALUS_IO_AREA_MARKS_H
 #define TALUS_IO_AREA_MARKS_H
@@ -17,6 +18,7 @@
 #include "io/files/io_error.h"
 
 #include <talus/nav_bake.h>
+#include <talus/pack.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -42,13 +44,15 @@ typedef struct tl_area_marks {
     uint64_t volume_capacity, rule_capacity, text_capacity, point_capacity; ///< the reader's own
 } tl_area_marks;
 
-/// Reads a file's marks ("-": standard input) and adds them. Errors as tl_file_read, and with the line:
-/// TL_ERR_FORMAT, TL_ERR_RANGE (an empty box, a radius that is not above 0), TL_ERR_MEMORY, TL_ERR_LIMIT.
-tl_result tl_area_marks_read(tl_area_marks *marks, const char *path, tl_io_error *error_out);
+/// Reads a file's marks ("-": standard input) and adds them, turned from the level's frame (NULL: talus' own). Errors
+/// as tl_file_read, and with the line: TL_ERR_FORMAT, TL_ERR_RANGE (an empty box, a radius that is not above 0),
+/// TL_ERR_MEMORY, TL_ERR_LIMIT.
+tl_result tl_area_marks_read(tl_area_marks *marks, const char *path, const tl_pack_frame *frame,
+                             tl_io_error *error_out);
 
 /// The same of text in memory; `path` is for messages.
 tl_result tl_area_marks_parse(tl_area_marks *marks, const char *text, size_t size, const char *path,
-                              tl_io_error *error_out);
+                              const tl_pack_frame *frame, tl_io_error *error_out);
 
 /// Adds a material's rule. TL_ERR_MEMORY, TL_ERR_LIMIT.
 tl_result tl_area_marks_add_rule(tl_area_marks *marks, const char *name, size_t name_size, uint64_t line, uint8_t area);

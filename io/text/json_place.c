@@ -28,6 +28,11 @@ static size_t append_place(const tl_json_place *at, char *text, size_t length)
     return length < PLACE_BYTES ? length : PLACE_BYTES - 1;
 }
 
+static const char *advice_of(const tl_json_reader *json)
+{
+    return json->advice != NULL ? json->advice : export_advice;
+}
+
 tl_result tl_json_fail(tl_json_reader *json, tl_result result, const tl_json_place *at, const char *key,
                        const char *what)
 {
@@ -38,7 +43,7 @@ tl_result tl_json_fail(tl_json_reader *json, tl_result result, const tl_json_pla
     size_t length = append_place(at, place, 0);
     const char *point = length > 0 && key != NULL ? "." : "";
     json->result = result;
-    return tl_io_fail(json->error, result, json->name, 0, export_advice, "%s%s%s %s",
+    return tl_io_fail(json->error, result, json->name, 0, advice_of(json), "%s%s%s %s",
                       length == 0 && key == NULL ? "the JSON" : place, point, key != NULL ? key : "", what);
 }
 
@@ -57,14 +62,14 @@ tl_result tl_json_load(tl_json_reader *json, const void *text, size_t length, tl
         return tl_io_fail(json->error, TL_ERR_MEMORY, json->name, 0, NULL, "out of memory");
     case json_error_premature_end_of_input:
         json->result = TL_ERR_FORMAT;
-        return tl_io_fail(json->error, TL_ERR_FORMAT, json->name, line, export_advice, "the file is cut short");
+        return tl_io_fail(json->error, TL_ERR_FORMAT, json->name, line, advice_of(json), "the file is cut short");
     case json_error_stack_overflow:
         json->result = TL_ERR_LIMIT;
-        return tl_io_fail(json->error, TL_ERR_LIMIT, json->name, line, export_advice,
+        return tl_io_fail(json->error, TL_ERR_LIMIT, json->name, line, advice_of(json),
                           "the JSON nests deeper than 2048 levels");
     default:
         json->result = TL_ERR_FORMAT;
-        return tl_io_fail(json->error, TL_ERR_FORMAT, json->name, line, export_advice, "the JSON is damaged: %s",
+        return tl_io_fail(json->error, TL_ERR_FORMAT, json->name, line, advice_of(json), "the JSON is damaged: %s",
                           why.text);
     }
 }

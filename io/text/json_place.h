@@ -19,6 +19,7 @@ typedef struct tl_json_reader {
     tl_result result; ///< of all getters so far
     const char *name; ///< of the file
     tl_io_error *error;
+    const char *advice; ///< what to do about a damaged file; NULL: to export it again
 } tl_json_reader;
 
 /// An object or array of the file, in the one above it (NULL: the file's outermost).

@@ -92,6 +92,12 @@ bool tl_take_float(tl_line *line, float *value_out)
     return tl_next_word(line, &begin, &end) && tl_parse_float(begin, end, value_out) == end && isfinite(*value_out);
 }
 
+bool tl_take_double(tl_line *line, double *value_out)
+{
+    const char *begin, *end;
+    return tl_next_word(line, &begin, &end) && tl_parse_double(begin, end, value_out) == end && isfinite(*value_out);
+}
+
 bool tl_line_is_done(const tl_line *line)
 {
     tl_line rest = *line;

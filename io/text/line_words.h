@@ -26,6 +26,7 @@ bool tl_take_word(tl_line *line, const char *word);
 bool tl_take_integer(tl_line *line, int64_t low, int64_t high, int64_t *value_out);
 /// A finite number.
 bool tl_take_float(tl_line *line, float *value_out);
+bool tl_take_double(tl_line *line, double *value_out);
 /// Whether nothing is left.
 bool tl_line_is_done(const tl_line *line);
 /// The rest of the line without blanks at its ends, cut at `capacity` - 1 bytes.

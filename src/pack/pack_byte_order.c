@@ -50,6 +50,22 @@ static void swap_pruning(tl_byte_swap *swap)
     tl_swap_words(swap, sizeof head, 3 * (uint64_t)head.seed_count, 4);
 }
 
+static void swap_offmesh(tl_byte_swap *swap)
+{
+    static const tl_word_run HEAD[] = { { 4, 2 }, { 8, 1 }, { 4, 12 } };
+    static const tl_word_run LINK[] = { { 4, 12 }, { 8, 2 } };
+    tl_pack_offmesh head;
+    tl_swap_head(swap, HEAD, TL_COUNT_OF(HEAD), &head, sizeof head);
+    tl_swap_elements(swap, sizeof head, head.count, LINK, TL_COUNT_OF(LINK));
+}
+
+static void swap_areas(tl_byte_swap *swap)
+{
+    static const tl_word_run HEAD[] = { { 4, 2 }, { 8, 1 }, { 4, 12 } }; // bytes behind it
+    tl_pack_areas head;
+    tl_swap_head(swap, HEAD, TL_COUNT_OF(HEAD), &head, sizeof head);
+}
+
 typedef struct blob_kind {
     uint32_t magic;
     uint32_t chunk_type; // 0: none of the file's own
@@ -67,6 +83,8 @@ static const blob_kind KINDS[] = {
     { TL_PACK_FRAME_MAGIC, TL_PACK_FRAM, swap_frame },
     { TL_PACK_VOLUMES_MAGIC, TL_PACK_MARK, swap_settings },
     { TL_PACK_PRUNING_MAGIC, TL_PACK_PRUN, swap_pruning },
+    { TL_PACK_OFFMESH_MAGIC, TL_PACK_OFFM, swap_offmesh },
+    { TL_PACK_AREAS_MAGIC, TL_PACK_AREA, swap_areas },
 };
 
 static const blob_kind *find_kind(const void *bytes, uint64_t size, bool foreign)

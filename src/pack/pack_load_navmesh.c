@@ -15,6 +15,19 @@ static tl_result add_tile(const tl_pack_chunk *chunk, tl_navmesh *navmesh, tl_re
     return tl_navmesh_add_tile(navmesh, chunk->bytes, TL_NAV_TILE_BORROWED);
 }
 
+static tl_result add_offmesh(const tl_pack_chunk *chunk, tl_navmesh *navmesh, tl_report *report)
+{
+    TL_TRY(tl_pack_offmesh_check(chunk->bytes, chunk->size, report));
+    const tl_pack_offmesh *offmesh = chunk->bytes;
+    TL_TRY(tl_navmesh_reserve_offmesh(navmesh, offmesh->count));
+    for (uint32_t i = 0; i < offmesh->count; i++) {
+        const tl_nav_offmesh link = tl_pack_offmesh_at(offmesh, i);
+        tl_nav_ref ref;
+        TL_TRY(tl_navmesh_add_offmesh(navmesh, &link, &ref, report));
+    }
+    return TL_OK;
+}
+
 static tl_result add_navmesh_chunk(const tl_pack_chunk *chunk, tl_navmesh *navmesh, tl_report *report)
 {
     if (chunk->type == TL_PACK_NAVT) {
@@ -24,7 +37,7 @@ static tl_result add_navmesh_chunk(const tl_pack_chunk *chunk, tl_navmesh *navme
         TL_TRY(tl_nav_links_check(chunk->bytes, chunk->size, report));
         return tl_nav_links_add(chunk->bytes, NULL, navmesh);
     }
-    return TL_OK;
+    return chunk->type == TL_PACK_OFFM ? add_offmesh(chunk, navmesh, report) : TL_OK;
 }
 
 static tl_result add_pruned_chunk(const tl_pack_chunk *chunk, tl_navmesh *navmesh, tl_report *report)

@@ -271,6 +271,54 @@ static tl_result volumes_check(contract_run *run)
     return result;
 }
 
+static tl_result offmesh_encode(contract_run *run)
+{
+    tl_nav_offmesh link = tl_default_nav_offmesh();
+    if (run->what == CONTRACT_ZEROED_DEF) {
+        link.cookie = 0;
+    }
+    tl_pack_offmesh *offmesh = NULL;
+    const tl_result result =
+        tl_pack_offmesh_encode(run->what == CONTRACT_NULL_INPUT ? NULL : &link, 1, run->host->allocator,
+                               run->what == CONTRACT_NULL_OUTPUT ? NULL : &offmesh, run->report);
+    return blob_answer(run, result, offmesh);
+}
+
+static tl_result offmesh_check(contract_run *run)
+{
+    const tl_nav_offmesh link = tl_default_nav_offmesh();
+    tl_pack_offmesh *offmesh;
+    TEST_RESULT(tl_pack_offmesh_encode(&link, 1, NULL, &offmesh, NULL), TL_OK);
+    ((tl_pack_offmesh_link *)(offmesh + 1))->both_ways = run->what == CONTRACT_BAD_BYTES ? 2 : 1;
+    run->is_clear = true;
+    const tl_result result =
+        tl_pack_offmesh_check(run->what == CONTRACT_NULL_INPUT ? NULL : offmesh, offmesh->blob.size, run->report);
+    tl_blob_free(offmesh);
+    return result;
+}
+
+static tl_result areas_encode(contract_run *run)
+{
+    static const uint8_t given[3] = { 1, 2, 3 };
+    tl_pack_areas *areas = NULL;
+    const tl_result result =
+        tl_pack_areas_encode(run->what == CONTRACT_NULL_INPUT ? NULL : given, 3, run->host->allocator,
+                             run->what == CONTRACT_NULL_OUTPUT ? NULL : &areas, run->report);
+    return blob_answer(run, result, areas);
+}
+
+static tl_result areas_check(contract_run *run)
+{
+    tl_pack_areas *areas;
+    TEST_RESULT(tl_pack_areas_encode((const uint8_t[]){ 1 }, 1, NULL, &areas, NULL), TL_OK);
+    areas->count = run->what == CONTRACT_BAD_BYTES ? 1000 : 1;
+    run->is_clear = true;
+    const tl_result result =
+        tl_pack_areas_check(run->what == CONTRACT_NULL_INPUT ? NULL : areas, areas->blob.size, run->report);
+    tl_blob_free(areas);
+    return result;
+}
+
 static const char *const PRUNING_FIELDS[] = { "seeds", "min_area", NULL };
 
 static tl_result pruning_encode(contract_run *run)
@@ -364,6 +412,12 @@ const contract_entry CONTRACT_TABLE_pack[] = {
       1, NULL, pack_load_navmesh, NULL },
     { "tl_pack_load_pruned", CHECK | CONTRACT_BIT(NULL_OUTPUT) | CONTRACT_BIT(NOT_FOUND) | CONTRACT_BIT(NO_MEMORY), 1,
       1, NULL, pack_load_pruned, NULL },
+    { "tl_pack_offmesh_encode", ENCODE | CONTRACT_BIT(NULL_INPUT), 1, 1, NULL, offmesh_encode, NULL },
+    { "tl_pack_offmesh_check", CHECK, 1, 0, NULL, offmesh_check, NULL },
+    { "tl_pack_offmesh_at", 0, 0, 0, NULL, NULL, "returns a value; what it is given is the caller's duty" },
+    { "tl_pack_areas_encode", ENCODE | CONTRACT_BIT(NULL_INPUT), 1, 1, NULL, areas_encode, NULL },
+    { "tl_pack_areas_check", CHECK, 1, 0, NULL, areas_check, NULL },
+    { "tl_pack_areas_array", 0, 0, 0, NULL, NULL, "returns a place in the blob" },
     { "tl_pack_pruning_encode", ENCODE | CONTRACT_BIT(NULL_DEF) | CONTRACT_BIT(ZEROED_DEF) | CONTRACT_BIT(BAD_FIELD), 0,
       1, PRUNING_FIELDS, pruning_encode, NULL },
     { "tl_pack_pruning_check", CHECK, 1, 0, NULL, pruning_check, NULL },

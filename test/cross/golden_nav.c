@@ -147,9 +147,17 @@ void golden_pack(const tl_soup *soup, const tl_hull *hull, const tl_nav_tiles *t
     MUST(tl_pack_meta_encode("golden.obj", 8, 12, tl_soup_bounds(soup), NULL, &meta, NULL));
     MUST(tl_pack_navmesh_encode(&def, tiles->tiles_x, tiles->tiles_z, tiles->tile_count, NULL, &navmesh, NULL));
     MUST(tl_pack_volumes_encode(&volume, 1, NULL, &volumes, NULL));
-    const void *const blobs[] = { meta, soup, hull, navmesh, volumes, links };
-    const uint32_t types[] = { TL_PACK_META, TL_PACK_SOUP, TL_PACK_HULL, TL_PACK_NAVM, TL_PACK_MARK, TL_PACK_LINK };
-    for (uint32_t i = 0; i < 6; i++) {
+    tl_nav_offmesh ladder = tl_default_nav_offmesh();
+    ladder.end = tl_vec3_make(1, 2, 3);
+    ladder.user = 0x0102030405060708u;
+    tl_pack_offmesh *offmesh;
+    tl_pack_areas *areas;
+    MUST(tl_pack_offmesh_encode(&ladder, 1, NULL, &offmesh, NULL));
+    MUST(tl_pack_areas_encode((const uint8_t[]){ 1, 2, 3 }, 3, NULL, &areas, NULL));
+    const void *const blobs[] = { meta, soup, hull, navmesh, volumes, links, offmesh, areas };
+    const uint32_t types[] = { TL_PACK_META, TL_PACK_SOUP, TL_PACK_HULL, TL_PACK_NAVM,
+                               TL_PACK_MARK, TL_PACK_LINK, TL_PACK_OFFM, TL_PACK_AREA };
+    for (uint32_t i = 0; i < 8; i++) {
         const tl_pack_item item = { types[i], 0, blobs[i], ((const tl_blob *)blobs[i])->size };
         items[count++] = item;
     }
@@ -185,6 +193,8 @@ void golden_pack(const tl_soup *soup, const tl_hull *hull, const tl_nav_tiles *t
     tl_blob_free(meta);
     tl_blob_free(navmesh);
     tl_blob_free(volumes);
+    tl_blob_free(offmesh);
+    tl_blob_free(areas);
 }
 
 /// Links, what they add to the answers, and a file that holds all kinds.

@@ -11,7 +11,7 @@ static tl_result parse(tl_area_marks *marks, const char *text, tl_io_error *erro
 {
     memset(marks, 0, sizeof *marks);
     memset(error, 0, sizeof *error);
-    return tl_area_marks_parse(marks, text, strlen(text), "marks.txt", error);
+    return tl_area_marks_parse(marks, text, strlen(text), "marks.txt", NULL, error);
 }
 
 static void reads_every_kind_of_mark(void **state)
@@ -39,9 +39,35 @@ static void reads_every_kind_of_mark(void **state)
     TEST_CHECK(v[2].point_count == 3 && v[2].points == v[0].points + 4 && v[2].points[2].z == 2.0f);
     TEST_CHECK(v[3].kind == TL_NAV_VOLUME_CYLINDER && v[3].base.y == 2.0f && v[3].radius == 0.5f && v[3].height == 4);
     // More marks go behind those that are there.
-    TEST_RESULT(tl_area_marks_parse(&marks, "prism 3 0 1 5 5 5 6 6 6", 23, "more.txt", &error), TL_OK);
+    TEST_RESULT(tl_area_marks_parse(&marks, "prism 3 0 1 5 5 5 6 6 6", 23, "more.txt", NULL, &error), TL_OK);
     TEST_CHECK(marks.volume_count == 5 && marks.volumes[4].points == marks.volumes[0].points + 7);
     TEST_CHECK(marks.volumes[0].points[2].x == 4.0f && marks.volumes[4].points[0].x == 5.0f);
+    tl_area_marks_free(&marks);
+}
+
+// In the level's own coordinates: far out, and with z up.
+static void speaks_the_levels_axes(void **state)
+{
+    (void)state;
+    tl_pack_frame frame;
+    memset(&frame, 0, sizeof frame);
+    frame.axes = TL_PACK_AXES_Z_UP;
+    frame.origin[0] = 448262.0;
+    frame.origin[1] = 5411932.0;
+    frame.origin[2] = 100.0;
+    static const char text[] = "box 3 448263 5411934 100.5 448264 5411937 102.5\n"
+                               "cylinder 4 448263 5411933 99 0.5 2\n"
+                               "prism 5 101 103 448262 5411932 448264.25 5411932 448262 5411935\n";
+    tl_area_marks marks;
+    tl_io_error error;
+    memset(&marks, 0, sizeof marks);
+    TEST_RESULT(tl_area_marks_parse(&marks, text, sizeof text - 1, "utm.txt", &frame, &error), TL_OK);
+    const tl_nav_volume *v = marks.volumes; // (x, y, z) becomes (x, z, -y)
+    TEST_CHECK(v[0].box.min.x == 1.0f && v[0].box.min.y == 0.5f && v[0].box.min.z == -5.0f);
+    TEST_CHECK(v[0].box.max.x == 2.0f && v[0].box.max.y == 2.5f && v[0].box.max.z == -2.0f);
+    TEST_CHECK(v[1].base.x == 1.0f && v[1].base.y == -1.0f && v[1].base.z == -1.0f && v[1].height == 2.0f);
+    TEST_CHECK(v[2].box.min.y == 1.0f && v[2].box.max.y == 3.0f && v[2].point_count == 3);
+    TEST_CHECK(v[2].points[1].x == 2.25f && v[2].points[1].z == 0.0f && v[2].points[2].z == -3.0f);
     tl_area_marks_free(&marks);
 }
 
@@ -80,7 +106,7 @@ static void names_the_line_that_is_wrong(void **state)
     }
     tl_area_marks none = { 0 };
     tl_io_error error;
-    TEST_RESULT(tl_area_marks_read(&none, "no/such/file", &error), TL_ERR_IO);
+    TEST_RESULT(tl_area_marks_read(&none, "no/such/file", NULL, &error), TL_ERR_IO);
 }
 
 static void patterns_match_as_they_say(void **state)
@@ -124,6 +150,7 @@ static void patterns_match_as_they_say(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(reads_every_kind_of_mark),
+                                        cmocka_unit_test(speaks_the_levels_axes),
                                         cmocka_unit_test(names_the_line_that_is_wrong),
                                         cmocka_unit_test(patterns_match_as_they_say) };
     return cmocka_run_group_tests(tests, NULL, NULL);

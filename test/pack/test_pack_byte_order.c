@@ -216,6 +216,17 @@ static void test_chunks_of_the_file(void **state)
     tl_pack_pruning *pruning;
     TEST_RESULT(tl_pack_pruning_encode(&rules, NULL, &pruning, NULL), TL_OK);
     go(pruning, tl_pack_pruning_check);
+    tl_nav_offmesh links[2] = { tl_default_nav_offmesh(), tl_default_nav_offmesh() };
+    links[0].end = tl_vec3_make(1, 2, 3);
+    links[1].flags = (uint64_t)1 << 40 | 3;
+    links[1].user = 0x0102030405060708u;
+    links[1].both_ways = true;
+    tl_pack_offmesh *offmesh;
+    TEST_RESULT(tl_pack_offmesh_encode(links, 2, NULL, &offmesh, NULL), TL_OK);
+    go(offmesh, tl_pack_offmesh_check);
+    tl_pack_areas *areas;
+    TEST_RESULT(tl_pack_areas_encode((const uint8_t[]){ 1, 2, 3 }, 3, NULL, &areas, NULL), TL_OK);
+    go(areas, tl_pack_areas_check);
 }
 
 // Every chunk that holds a blob is turned round with the file, under each type that it may have.
