@@ -223,6 +223,9 @@ typedef struct tl_nav_compact {
     uint32_t *region;      ///< [span_count] 0: none; after tl_nav_bake_regions, else NULL
     uint32_t region_count; ///< largest region id + 1
     tl_nav_region_stats region_stats;
+    /// [span_count], the caller's, or NULL (the default): 1 for floors that were made not walkable after the erosion,
+    /// with a distance of their own. Simplified outlines near these do not come nearer than the traced ones.
+    const uint8_t *taken;
     tl_allocator allocator; ///< private: what gives the memory back
 } tl_nav_compact;
 

@@ -35,11 +35,11 @@ typedef enum tl_nav_obstacle_shape {
 /// An obstacle. Lengths in metres.
 typedef struct tl_nav_obstacle {
     tl_nav_obstacle_shape shape;
-    /// TL_NAV_NULL_AREA: a solid body. Floors where an agent would overlap it are removed: the columns of voxels whose
-    /// middles lie within the agent's radius of it, from agent_height below its base to its top. As beside walls, the
-    /// simplified outline may come nearer: what is left keeps agent_radius - (0.7072 + edge_max_error) * cell_size
-    /// metres from the body, at least; where that is too near, use smaller cells or a smaller error. Another area:
-    /// floors inside it, from base to top, get that area (a cost, a danger), and none is removed.
+    /// TL_NAV_NULL_AREA: a solid body. Floors where an agent would overlap it are removed: the columns of voxels of
+    /// which any point lies within the agent's radius of it, from agent_height below its base to its top. What is left
+    /// keeps the whole radius from the body, in the plan: outlines near it are simplified only away from it. Another
+    /// area: floors whose columns' middles lie inside it, from base to top, get that area (a cost, a danger), and none
+    /// is removed.
     uint8_t area;
     tl_vec3 base;         ///< the centre of its base
     float height;         ///< >= 0

@@ -3,8 +3,9 @@
 // Marking floors under an obstacle.
 //
 // A body's footprint is the Minkowski sum of its outline and a disc of the agent's radius: the places where the agent's
-// own disc would touch it. The distance from a column's centre to the outline decides, so corners are round as the
-// agent is, and nothing is grown twice. An area marks what lies inside its outline, as volumes of a bake do.
+// own disc would touch it. A column goes when any point of its square lies in it, so that what is left keeps the whole
+// radius; the distance between the square and the outline decides, so corners are round as the agent is, and nothing is
+// grown twice. An area marks the columns whose centres lie inside its outline, as volumes of a bake do.
 
 #include "nav_obstacles/footprint.h"
 
@@ -134,6 +135,101 @@ static bool footprint_reaches(const footprint *foot, double world_x, double worl
         return dx * dx + dz * dz < radius * radius;
     }
     return polygon_reaches(foot, dx * foot->cosine - dz * foot->sine, dx * foot->sine + dz * foot->cosine);
+}
+
+// ---- A body and the square of a column
+// -------------------------------------------------------------------------------
+
+// The square in the outline's frame: a middle, and its two half axes.
+typedef struct column_square {
+    double middle[2], along[2], across[2];
+    double half; // length of an axis
+    double corners[4][2];
+} column_square;
+
+static column_square place_square(const footprint *foot, double dx, double dz, double half)
+{
+    static const double SIGNS[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
+    column_square s = { { dx * foot->cosine - dz * foot->sine, dx * foot->sine + dz * foot->cosine },
+                        { half * foot->cosine, half * foot->sine },
+                        { -half * foot->sine, half * foot->cosine },
+                        half,
+                        { { 0 } } };
+    for (int k = 0; k < 4; k++) {
+        for (int c = 0; c < 2; c++) {
+            s.corners[k][c] = s.middle[c] + SIGNS[k][0] * s.along[c] + SIGNS[k][1] * s.across[c];
+        }
+    }
+    return s;
+}
+
+// Whether a line along an edge of the outline, or of the square, has one on each side (separating axis).
+static bool is_apart(const footprint *foot, const column_square *s)
+{
+    double low[2] = { (double)INFINITY, (double)INFINITY }, high[2] = { -(double)INFINITY, -(double)INFINITY };
+    for (uint32_t i = 0, before = foot->count - 1; i < foot->count; before = i++) {
+        const double ux = foot->x[i] - foot->x[before], uz = foot->z[i] - foot->z[before];
+        double innermost = -(double)INFINITY;
+        for (int k = 0; k < 4; k++) {
+            const double side = ux * (s->corners[k][1] - foot->z[before]) - uz * (s->corners[k][0] - foot->x[before]);
+            innermost = side > innermost ? side : innermost;
+        }
+        if (innermost < 0.0) {
+            return true;
+        }
+        const double px = foot->x[i] - s->middle[0], pz = foot->z[i] - s->middle[1];
+        const double at[2] = { px * s->along[0] + pz * s->along[1], px * s->across[0] + pz * s->across[1] };
+        for (int c = 0; c < 2; c++) {
+            low[c] = at[c] < low[c] ? at[c] : low[c];
+            high[c] = at[c] > high[c] ? at[c] : high[c];
+        }
+    }
+    const double reach = s->half * s->half;
+    return low[0] > reach || high[0] < -reach || low[1] > reach || high[1] < -reach;
+}
+
+static double point_segment_sq(const double p[2], const double a[2], const double b[2])
+{
+    const double ux = b[0] - a[0], uz = b[1] - a[1], length_sq = ux * ux + uz * uz;
+    const double t = length_sq > 0.0 ? clamp_unit(((p[0] - a[0]) * ux + (p[1] - a[1]) * uz) / length_sq) : 0.0;
+    const double dx = p[0] - a[0] - t * ux, dz = p[1] - a[1] - t * uz;
+    return dx * dx + dz * dz;
+}
+
+// Of convex sets that are apart a corner is nearest, of one or the other.
+static double square_distance_sq(const footprint *foot, const column_square *s)
+{
+    double nearest = (double)INFINITY;
+    for (uint32_t i = 0, before = foot->count - 1; i < foot->count; before = i++) {
+        const double a[2] = { foot->x[before], foot->z[before] }, b[2] = { foot->x[i], foot->z[i] };
+        for (int k = 0; k < 4; k++) {
+            const double to_edge = point_segment_sq(s->corners[k], a, b);
+            const double to_side = point_segment_sq(b, s->corners[k], s->corners[(k + 1) % 4]);
+            nearest = to_edge < nearest ? to_edge : nearest;
+            nearest = to_side < nearest ? to_side : nearest;
+        }
+    }
+    return nearest;
+}
+
+// Whether any point of a column's square lies in a body's footprint; that its centre does not is known.
+static bool body_reaches_square(const footprint *foot, double world_x, double world_z, double half)
+{
+    const double dx = world_x - foot->base_x, dz = world_z - foot->base_z;
+    if (foot->round) {
+        const double reach = foot->grow + foot->radius;
+        const double x = fabs(dx) > half ? fabs(dx) - half : 0.0, z = fabs(dz) > half ? fabs(dz) - half : 0.0;
+        return x * x + z * z < reach * reach;
+    }
+    const column_square s = place_square(foot, dx, dz, half);
+    // Most columns are farther off than half a square's diagonal.
+    double nearest = (double)INFINITY;
+    for (uint32_t i = 0, before = foot->count - 1; i < foot->count; before = i++) {
+        const double distance_sq = segment_distance_sq(foot, before, i, s.middle[0], s.middle[1]);
+        nearest = distance_sq < nearest ? distance_sq : nearest;
+    }
+    const double far = foot->grow + 1.4143 * half;
+    return nearest < far * far && (!is_apart(foot, &s) || square_distance_sq(foot, &s) < foot->grow * foot->grow);
 }
 
 // ---------------------------------------------------------------------------------------------------------
@@ -270,14 +366,16 @@ void tl_obstacle_mark(const tl_nav_obstacle *obstacle, float agent_radius, float
     uint32_t first_x, end_x, first_z, end_z;
     const tl_column_axis x_axis = { lattice->origin.x, compact->cell_size, lattice->first_x, compact->width };
     const tl_column_axis z_axis = { lattice->origin.z, compact->cell_size, lattice->first_z, compact->height };
-    columns_near(&x_axis, box.min.x, box.max.x, &first_x, &end_x);
-    columns_near(&z_axis, box.min.z, box.max.z, &first_z, &end_z);
+    columns_near(&x_axis, box.min.x - compact->cell_size, box.max.x + compact->cell_size, &first_x, &end_x);
+    columns_near(&z_axis, box.min.z - compact->cell_size, box.max.z + compact->cell_size, &first_z, &end_z);
     const double size = (double)compact->cell_size;
+    const bool body = obstacle->area == TL_NAV_NULL_AREA;
     for (uint32_t z = first_z; z < end_z; z++) {
         double center_z = (double)lattice->origin.z + ((double)lattice->first_z + (double)z + 0.5) * size;
         for (uint32_t x = first_x; x < end_x; x++) {
             double center_x = (double)lattice->origin.x + ((double)lattice->first_x + (double)x + 0.5) * size;
-            if (footprint_reaches(&foot, center_x, center_z)) {
+            if (footprint_reaches(&foot, center_x, center_z) ||
+                (body && body_reaches_square(&foot, center_x, center_z, 0.5 * size))) {
                 mark_footprint_column(&foot, obstacle->area, z * compact->width + x, compact);
             }
         }

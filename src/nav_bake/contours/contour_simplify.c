@@ -151,7 +151,11 @@ static uint32_t choose_split(const tl_contour_work *work, const tl_contour_loop 
     if (largest > error * error) {
         return farthest;
     }
-    return work->across[begin] == 0 ? middle_of_long(work, loop, begin, end) : begin;
+    if (work->across[begin] != 0) {
+        return begin;
+    }
+    const uint32_t gain = tl_contours_farthest_gain(work, begin, end);
+    return gain != begin ? gain : middle_of_long(work, loop, begin, end);
 }
 
 static void refine(tl_contour_work *work, const tl_contour_loop *loop, uint32_t begin, uint32_t end, uint32_t *stack)

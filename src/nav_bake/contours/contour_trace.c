@@ -246,6 +246,9 @@ static void emit_edge(tracer *t, uint32_t vertex, uint32_t floor, uint32_t direc
     end->z = (int32_t)(z + (direction == 0 || direction == 1)) - (int32_t)compact->border_size;
     end->y = (int32_t)c.height;
     end->flags = is_border_vertex(compact, &c) ? TL_CONTOUR_BORDER_VERTEX : 0;
+    if (work->guarded != NULL) {
+        work->guarded[vertex] = work->near[floor];
+    }
 }
 
 static int64_t loop_area2(const tl_contour_vertex *vertices, uint32_t count)
@@ -368,6 +371,10 @@ static tl_result prepare_trace(tracer *t, tl_arena *scratch)
     work->across = TL_PUSH(work->arena, uint32_t, edge_count);
     work->twin = TL_PUSH(work->arena, uint32_t, edge_count);
     work->loop_of = TL_PUSH(work->arena, uint32_t, edge_count);
+    work->guarded = work->near != NULL ? TL_PUSH_ZERO(work->arena, uint8_t, edge_count) : NULL;
+    if (work->near != NULL && work->guarded == NULL) {
+        return TL_ERR_MEMORY;
+    }
     return t->vertex_of && work->vertices && work->across && work->twin && work->loop_of ? TL_OK : TL_ERR_MEMORY;
 }
 

@@ -208,6 +208,7 @@ static tl_result pack_contours(const assembly *a, tl_nav_contours *out)
 static tl_result build_contour_set(tl_contour_work *work, const tl_host *host, tl_nav_contours *out)
 {
     TL_TRY(tl_progress_update(host, "contours", 0, 3));
+    TL_TRY(tl_contours_find_guarded(work));
     TL_TRY(tl_contours_trace(work));
     TL_TRY(tl_progress_update(host, "contours", 1, 3));
     TL_TRY(tl_contours_simplify(work));

@@ -30,7 +30,9 @@ typedef struct tl_contour_work {
     uint32_t *across;            ///< region on the other side of the edge that starts here; 0 none
     uint32_t *twin;              ///< the same edge as another loop runs it, or TL_NO_TWIN
     uint32_t *loop_of;
-    uint8_t *keep; ///< 1: the simplified outline has this vertex
+    uint8_t *keep;       ///< 1: the simplified outline has this vertex
+    const uint8_t *near; ///< [span_count] 1: floors at or near those that were taken away; NULL: none was
+    uint8_t *guarded;    ///< [vertex_count] 1: the edge that starts here is of such a floor; NULL: none is
     tl_contour_loop *loops;
     uint32_t loop_count;
     uint32_t *region_first; ///< [region_count + 1] into by_region
@@ -44,6 +46,14 @@ typedef struct tl_contour_path {
     uint32_t *vertices;
     uint32_t count;
 } tl_contour_path;
+
+/// Finds the floors near those that were taken away (compact->taken), where outlines may only draw back. Before the
+/// trace.
+tl_result tl_contours_find_guarded(tl_contour_work *work);
+
+/// Of the traced guarded vertices between begin and end that are not kept, the one that the chord between the two runs
+/// past the farthest, on the floor's side; `begin` when there is none.
+uint32_t tl_contours_farthest_gain(const tl_contour_work *work, uint32_t begin, uint32_t end);
 
 /// Walks all outlines. Fills all but `keep`. TL_ERR_CORRUPT when neighbour links are not mutual.
 tl_result tl_contours_trace(tl_contour_work *work);

@@ -55,6 +55,36 @@ static tl_result rebake_with_memo(const tl_nav_config *config, tl_nav_compact *c
     return tl_nav_tile_bake_from_distance(config, compact, watershed, host, stack_out, report_out);
 }
 
+// Obstacles' floors: contours keep away from these.
+static tl_result mark_taken(tl_nav_compact *compact, const uint8_t *base_area, const tl_allocator *allocator)
+{
+    uint8_t *taken = tl_allocate_array(allocator, compact->span_count, sizeof *taken);
+    if (taken == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint8_t any = 0;
+    for (uint32_t i = 0; i < compact->span_count; i++) {
+        taken[i] = base_area[i] != TL_NAV_NULL_AREA && compact->area[i] == TL_NAV_NULL_AREA;
+        any |= taken[i];
+    }
+    if (any) {
+        compact->taken = taken;
+    } else {
+        tl_release_array(allocator, taken, compact->span_count, sizeof *taken);
+    }
+    return TL_OK;
+}
+
+static void free_taken(tl_nav_compact *compact, const tl_allocator *allocator)
+{
+    union {
+        const uint8_t *read;
+        uint8_t *write;
+    } taken = { compact->taken };
+    tl_release_array(allocator, taken.write, compact->span_count, sizeof *taken.write);
+    compact->taken = NULL;
+}
+
 tl_result tl_nav_tile_rebake(const tl_nav_config *config, tl_nav_compact *compact, const uint8_t *base_area,
                              tl_nav_tile_memo **memo, const tl_host *host, tl_nav_tile_stack *stack_out,
                              tl_nav_bake_report *report_out)
@@ -75,7 +105,11 @@ tl_result tl_nav_tile_rebake(const tl_nav_config *config, tl_nav_compact *compac
     if (first_time) {
         TL_TRY(make_memo(config, compact, base_area, &allocator, memo));
     }
-    const tl_result result = rebake_with_memo(config, compact, base_area, *memo, host, stack_out, report_out);
+    tl_result result = mark_taken(compact, base_area, &allocator);
+    if (result == TL_OK) {
+        result = rebake_with_memo(config, compact, base_area, *memo, host, stack_out, report_out);
+    }
+    free_taken(compact, &allocator);
     if (result != TL_OK && first_time) {
         tl_nav_tile_memo_free(*memo);
         *memo = NULL;
