@@ -3,7 +3,9 @@
 // Area by direction tells up axis and winding. Of 22 levels of games and robotics, indoors and out, floors and ceilings
 // (|n.y| > cos 45) have at least 0.85 times the area of the walls along either axis, and floors at least 0.99 times
 // that of ceilings; the limits below leave room beyond both. A level of closed solids has as many floors as ceilings,
-// so that its winding cannot be told from areas: nothing is said of it.
+// so that areas do not tell its winding; the signed volumes of its closed parts do. Of those levels none has parts that
+// face inwards beyond 0.2 m3, but for rooms, which are few; turned round, 19 of the 22 are told. What neither tells, a
+// shell of one part, stays unsaid: seen from outside it is a level too.
 
 #include "cli/level/level_doubt.h"
 
@@ -55,12 +57,48 @@ static double longest_side(tl_aabb bounds)
     return (double)fmaxf(size.x, fmaxf(size.y, size.z));
 }
 
+// Of three axes the one along which a level is by far the thinnest is up, when enough of it lies flat across that one;
+// and else the one whose area differs, since the other two are both walls.
 static bool lies_on_its_side(const face_areas *f, tl_aabb bounds)
 {
     const tl_vec3 size = tl_aabb_size(bounds);
     const double floors = f->up + f->down;
-    const bool flat_along_z = size.z < 0.6f * fminf(size.x, size.y);
-    return (f->z_up > 1.3 * floors && flat_along_z) || (f->z_up > 2.5 * floors && f->z_up > 2.0 * f->x_wall);
+    const float across = fminf(size.x, size.y);
+    const bool other_two_alike = f->x_wall > 0.6 * floors && f->x_wall < 1.6 * floors;
+    return (f->z_up > 1.3 * floors && size.z < 0.6f * across) ||
+           (f->z_up > 2.5 * floors && f->z_up > 2.0 * f->x_wall) ||
+           (f->z_up > 0.8 * floors && size.z < 0.25f * across) ||
+           (f->z_up > floors && size.z < 0.5f * across && other_two_alike);
+}
+
+// Cubic metres that closed parts enclose, by the side that they face.
+typedef struct closed_volumes {
+    double outward, inward;
+    uint32_t inward_count;
+} closed_volumes;
+
+static closed_volumes measure_closed(const tl_mesh_view *mesh)
+{
+    closed_volumes v = { 0.0, 0.0, 0 };
+    tl_closed_parts parts;
+    if (tl_closed_parts_find(mesh, NULL, &parts, NULL) != TL_OK) {
+        return v; // no memory for a doubt is none
+    }
+    for (uint32_t i = 0; i < parts.part_count; i++) {
+        v.outward += parts.volumes[i] > 0.0 ? parts.volumes[i] : 0.0;
+        v.inward -= parts.volumes[i] < 0.0 ? parts.volumes[i] : 0.0;
+        v.inward_count += parts.volumes[i] < 0.0;
+    }
+    tl_closed_parts_free(&parts);
+    return v;
+}
+
+// Closed rooms face inwards rightly, but a level has few of them, and furniture in it that faces outwards.
+static bool is_inside_out(const closed_volumes *v, double agent_height)
+{
+    enum { MIN_PARTS = 6 };
+    return v->inward_count >= MIN_PARTS && v->inward > 3.0 * v->outward &&
+           v->inward > 0.05 * agent_height * agent_height * agent_height;
 }
 
 static tl_level_doubt doubt_up_axis(const face_areas *f, const tl_bake_settings *settings)
@@ -81,6 +119,17 @@ static tl_level_doubt doubt_winding(const face_areas *f)
              "its floors face down: %.4g m2 of triangles face down and %.4g m2 up; triangles are to be wound "
              "counter-clockwise as seen from above, so turn them round in the export",
              f->down, f->up);
+    return doubt;
+}
+
+static tl_level_doubt doubt_solids(const closed_volumes *v)
+{
+    tl_level_doubt doubt = { "winding", "" };
+    snprintf(
+        doubt.text, sizeof(doubt.text),
+        "its solids are inside out: %u closed parts of %.4g m3 face inwards, and %.4g m3 outwards; triangles are to "
+        "be wound counter-clockwise as seen from outside, so turn them round in the export",
+        v->inward_count, v->inward, v->outward);
     return doubt;
 }
 
@@ -135,6 +184,10 @@ tl_level_doubt tl_level_doubt_find(const tl_mesh_view *mesh, tl_aabb bounds, con
     if (longest > (double)LARGE_METRES && mesh->triangle_count >= 100 &&
         f.mean_edge > (double)LARGE_TRIANGLES * (double)settings->nav_def.agent_height) {
         return doubt_units(longest, 0.01, settings);
+    }
+    const closed_volumes closed = measure_closed(mesh);
+    if (is_inside_out(&closed, (double)settings->nav_def.agent_height)) {
+        return doubt_solids(&closed);
     }
     const tl_level_doubt none = { NULL, "" };
     return none;

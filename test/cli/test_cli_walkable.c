@@ -121,6 +121,39 @@ static void check_doubt(const char *path, const char *part)
     cli_free(&check);
 }
 
+// A cube of `size` metres at a place, wound to face outwards or inwards.
+static void write_cube(FILE *file, uint32_t *vertices, const double low[3], double size, bool inward)
+{
+    static const int faces[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 },
+                                     { 2, 6, 7, 3 }, { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
+    for (int k = 0; k < 8; ++k) {
+        fprintf(file, "v %g %g %g\n", low[0] + size * (k & 1), low[1] + size * (k >> 1 & 1), low[2] + size * (k >> 2));
+    }
+    for (int f = 0; f < 6; ++f) {
+        fprintf(file, "f");
+        for (int k = 0; k < 4; ++k) {
+            fprintf(file, " %u", *vertices + 1 + (uint32_t)faces[f][inward ? 3 - k : k]);
+        }
+        fprintf(file, "\n");
+    }
+    *vertices += 8;
+}
+
+// Closed rooms of 4 m in a row, which face inwards, and crates of 3 m, the first ones in the rooms.
+static void write_rooms(const char *path, int rooms, int crates)
+{
+    uint32_t vertices = 0;
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    for (int i = 0; i < rooms; ++i) {
+        write_cube(file, &vertices, (const double[3]){ 5.0 * i, 0.0, 0.0 }, 4.0, true);
+    }
+    for (int i = 0; i < crates; ++i) {
+        write_cube(file, &vertices, (const double[3]){ 5.0 * i + 0.5, 0.0, 0.5 }, 3.0, false);
+    }
+    fclose(file);
+}
+
 static void test_odd_levels_are_told(void **state)
 {
     (void)state;
@@ -133,8 +166,16 @@ static void test_odd_levels_are_told(void **state)
         check_doubt("z.obj --up z", NULL);
         check_doubt("good.obj --up z", "leave out --up z");
     }
-    write_changed_sample("terrain", "turned.obj", false, true, 1.0);
-    check_doubt("turned.obj", "its floors face down");
+    for (int i = 0; i < 4; ++i) { // by areas in the open, else by the volumes of solids
+        write_changed_sample(names[i], "turned.obj", false, true, 1.0);
+        check_doubt("turned.obj", i == 3 ? "its floors face down" : "its solids are inside out");
+    }
+    write_rooms("rooms.obj", 5, 0);
+    check_doubt("rooms.obj", NULL);
+    write_rooms("furnished.obj", 40, 40); // many rooms, each with a crate that is large enough
+    check_doubt("furnished.obj", NULL);
+    write_rooms("crates.obj", 0, 12);
+    check_doubt("crates.obj", NULL);
     write_changed_sample("courtyard", "large.obj", false, false, 100.0);
     cli_result bake = cli_expect(0, "bake large.obj -o out.talus --no-soup --cell-size 20 --agent-max-climb 60");
     cli_check_part(bake.err, "give --scale 0.01");
