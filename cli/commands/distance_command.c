@@ -21,6 +21,7 @@ typedef struct distance_settings {
 typedef struct distance_query {
     tl_convex a, b;
     tl_transform pose_a, pose_b;
+    bool mirrored; // the level's axes are left-handed, where turns go the other way
     bool json;
 } distance_query;
 
@@ -74,7 +75,7 @@ static void write_json(tl_text *text, const tl_separation *s)
     tl_text_add(text, ",\"point_b\":");
     tl_text_add_json_point(text, s->point_b);
     tl_text_add(text, ",\"normal\":");
-    tl_text_add_json_point(text, s->normal);
+    tl_text_add_json_direction(text, s->normal);
     tl_text_add(text, ",\"status\":\"");
     tl_text_add(text, status_word(s->status));
     tl_text_add(text, "\",\"iterations\":");
@@ -94,7 +95,7 @@ static void write_line(tl_text *text, const tl_separation *s)
     tl_text_add(text, " ");
     tl_text_add_point(text, s->point_b, ',');
     tl_text_add(text, " ");
-    tl_text_add_point(text, s->normal, ',');
+    tl_text_add_direction(text, s->normal, ',');
     tl_text_add(text, "\n");
 }
 
@@ -109,12 +110,51 @@ static void answer_pose(const distance_query *query, tl_transform pose_b, tl_tex
     }
 }
 
+// The turn about an axis that was mirrored with the level.
+static tl_transform turn_back(tl_transform pose)
+{
+    pose.rotation.x = -pose.rotation.x;
+    pose.rotation.y = -pose.rotation.y;
+    pose.rotation.z = -pose.rotation.z;
+    return pose;
+}
+
+// A pose of the options, in the level's axes: how far it moves from where the level has it, and how it turns.
+static tl_transform enter_pose(const tl_pack_frame *frame, tl_transform pose)
+{
+    if (frame == NULL) {
+        return pose;
+    }
+    const tl_pack_axes axes = (tl_pack_axes)frame->axes;
+    const tl_vec3 about = tl_pack_turn_in(axes, tl_vec3_make(pose.rotation.x, pose.rotation.y, pose.rotation.z));
+    pose.position = tl_pack_turn_in(axes, pose.position);
+    pose.rotation.x = about.x;
+    pose.rotation.y = about.y;
+    pose.rotation.z = about.z;
+    return axes >= TL_PACK_AXES_Y_UP_LEFT ? turn_back(pose) : pose;
+}
+
+// Both hulls of levels with the same axes and origin: the command speaks their coordinates. Else it speaks talus' own,
+// and says so of each that has others.
+static void choose_frame(tl_cli *cli, const tl_hull_input *a, const tl_hull_input *b)
+{
+    const tl_pack_frame *frames[2] = { &a->frame, &b->frame };
+    const bool alike = frames[0]->axes == frames[1]->axes &&
+                       memcmp(frames[0]->origin, frames[1]->origin, sizeof frames[0]->origin) == 0;
+    cli->speaks_frame = alike;
+    for (int i = 0; i < (alike ? 1 : 2); i++) {
+        const tl_pack_frame frame = *frames[i];
+        tl_level_take_frame(cli, cli->arguments.words[i], (tl_pack_axes)frame.axes, frame.origin);
+    }
+}
+
 static bool answer_pose_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
 {
+    const distance_query *query = user;
     tl_transform pose;
     (void)worker;
-    (void)pose_from(numbers, count, &pose); // a line holds 3 numbers or 7
-    answer_pose(user, pose, text);
+    (void)pose_from(numbers, count, &pose); // a line holds 3 numbers or 7, turned to talus' axes
+    answer_pose(query, query->mirrored ? turn_back(pose) : pose, text);
     return true;
 }
 
@@ -132,7 +172,7 @@ static bool answer_given(const float *numbers, uint32_t count, tl_text *text, ui
 static tl_exit answer_poses(tl_cli *cli, distance_query *query, const char *poses)
 {
     const tl_batch batch = {
-        poses, "px py pz [qx qy qz qw]", 3, 7, poses != NULL ? answer_pose_line : answer_given, query, 0
+        poses, "px py pz [qx qy qz qw]", 3, 7, poses != NULL ? answer_pose_line : answer_given, query, 3u
     };
     return tl_batch_run(cli, &batch, NULL);
 }
@@ -177,11 +217,16 @@ static tl_exit run_distance(tl_cli *cli)
     }
     tl_hull_input a, b;
     memset(&b, 0, sizeof(b));
+    cli->speaks_frame = true; // until both are known
     if (tl_hull_open(cli, cli->arguments.words[0], &s.hull_a, &a, &code) &&
         tl_hull_open(cli, cli->arguments.words[1], &s.hull_b, &b, &code)) {
         query.a = tl_convex_from_hull(a.hull, s.radius_a);
         query.b = tl_convex_from_hull(b.hull, s.radius_b);
         query.json = cli->json;
+        choose_frame(cli, &a, &b);
+        query.pose_a = enter_pose(cli->frame, query.pose_a);
+        query.pose_b = enter_pose(cli->frame, query.pose_b);
+        query.mirrored = cli->frame != NULL && cli->frame->axes >= TL_PACK_AXES_Y_UP_LEFT;
         code = answer_poses(cli, &query, s.poses);
     }
     tl_hull_input_close(&a);

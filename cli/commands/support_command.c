@@ -9,6 +9,7 @@
 
 typedef struct support_query {
     const tl_hull *hull;
+    const tl_pack_frame *frame; // NULL: talus' own coordinates
     bool json;
 } support_query;
 
@@ -21,7 +22,11 @@ static bool answer_direction(const float *n, uint32_t count, tl_text *text, uint
     uint32_t vertex = tl_hull_support(query->hull, tl_vec3_make(n[0], n[1], n[2]), TL_NO_VERTEX);
     tl_vec3 p = tl_hull_vertices(query->hull)[vertex];
     uint32_t source = tl_hull_sources(query->hull)[vertex];
-    float dot = (float)((double)p.x * (double)n[0] + (double)p.y * (double)n[1] + (double)p.z * (double)n[2]);
+    double at[3]; // as the level has it, and so the direction
+    tl_pack_place_out(query->frame, p, at);
+    const tl_vec3 own = tl_vec3_make(n[0], n[1], n[2]);
+    const tl_vec3 d = query->frame != NULL ? tl_pack_turn_out((tl_pack_axes)query->frame->axes, own) : own;
+    float dot = (float)(at[0] * (double)d.x + at[1] * (double)d.y + at[2] * (double)d.z);
     if (query->json) {
         tl_text_add(text, "{\"vertex\":");
         tl_text_add_count(text, source);
@@ -54,6 +59,7 @@ static tl_exit run_support(tl_cli *cli)
     if (!tl_hull_parse(cli, options, 2, &settings, &code)) {
         return code;
     }
+    cli->speaks_frame = true;
     static const tl_question_words words = { "direction", NULL, "directions" };
     float numbers[3] = { 0 };
     if (!tl_question_read(cli, &words, directions, numbers, &code)) {
@@ -61,7 +67,7 @@ static tl_exit run_support(tl_cli *cli)
     }
     tl_hull_input input;
     if (tl_hull_open(cli, cli->arguments.words[0], &settings, &input, &code)) {
-        support_query query = { input.hull, cli->json };
+        support_query query = { input.hull, cli->frame, cli->json };
         const tl_batch batch = { directions, "dx dy dz", 3, 3, answer_direction, &query, 1u };
         code = tl_batch_run(cli, &batch, numbers);
     }

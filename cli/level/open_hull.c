@@ -111,8 +111,13 @@ bool tl_hull_open(tl_cli *cli, const char *path, const tl_hull_settings *setting
 {
     memset(input_out, 0, sizeof(*input_out));
     if (tl_input_is_baked(path)) {
-        return open_baked_hull(cli, path, input_out, exit_out);
+        const bool is_open = open_baked_hull(cli, path, input_out, exit_out);
+        input_out->frame = cli->frame_room;
+        return is_open;
     }
+    static const double nowhere[3] = { 0.0, 0.0, 0.0 };
+    tl_level_take_frame(cli, path, (tl_pack_axes)settings->level.up, nowhere);
+    input_out->frame = cli->frame_room;
     tl_point_clouds clouds;
     if (!tl_read_clouds(cli, path, settings, &clouds, exit_out)) {
         return false;

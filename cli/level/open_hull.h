@@ -28,9 +28,10 @@ bool tl_hull_parse(tl_cli *cli, const tl_option *options, uint32_t max_words, tl
 
 typedef struct tl_hull_input {
     const tl_hull *hull;
-    tl_hull *built;  ///< when it was built here
-    tl_input baked;  ///< when it came from a baked file
-    uint32_t points; ///< it was built from; 0 when baked
+    tl_hull *built;      ///< when it was built here
+    tl_input baked;      ///< when it came from a baked file
+    uint32_t points;     ///< it was built from; 0 when baked
+    tl_pack_frame frame; ///< of the level that it is of; zero: talus' own
     tl_hull_report report;
 } tl_hull_input;
 

@@ -146,8 +146,8 @@ static tl_exit answer_one(tl_cli *cli, const tl_batch *batch, const float *numbe
         }
         enter_frame(cli->frame, batch, exact, batch->min_numbers / 3 * 3, turned);
         numbers = turned;
-        text.frame = cli->frame;
     }
+    text.frame = cli->frame;
     const bool yes = batch->answer(numbers, batch->min_numbers, &text, 0, batch->user);
     const tl_exit code = text.failed ? tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory")
                          : yes       ? TL_EXIT_OK

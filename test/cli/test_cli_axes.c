@@ -171,6 +171,66 @@ static void test_commands_speak_the_level(void **state)
     }
 }
 
+// Hulls too: directions, poses as motions and turns, points and normals, alone and by lines.
+static void test_hulls_speak_the_level(void **state)
+{
+    (void)state;
+    char line[400], file[32];
+    write_courtyard("near.obj", NULL);
+    cli_do(0, "bake near.obj -o near.talus --hull --no-nav");
+    const tl_vec3 direction = { 0.25f, 1, -0.5f }, motion = { 55, 3, 20 }, about = { 0.1f, 0.7f, 0.2f };
+    for (int up = 0; up < 4; ++up) {
+        const tl_pack_axes axes = (tl_pack_axes)up;
+        snprintf(file, sizeof(file), "hull%d.talus", up);
+        write_courtyard("far.obj", &axes);
+        snprintf(line, sizeof(line), "bake far.obj -o %s --up %s --origin 500000,4649000,-250 --hull --no-nav", file,
+                 ups[up]);
+        cli_do(0, line);
+        const tl_vec3 d = tl_pack_turn_out(axes, direction), m = tl_pack_turn_out(axes, motion);
+        cli_result near = cli_expect(0, "support near.talus 0.25,1,-0.5");
+        snprintf(line, sizeof(line), "support %s %g,%g,%g", file, (double)d.x, (double)d.y, (double)d.z);
+        cli_result far = cli_expect(0, line);
+        assert_string_equal(far.err, "");
+        compare_answers(axes, near.out, far.out, "sp", line);
+        double vertex, p[3], dot;
+        assert_int_equal(sscanf(far.out, "%lf %lf %lf %lf %lf", &vertex, &p[0], &p[1], &p[2], &dot), 5);
+        TEST_CHECK(fabs(dot - (p[0] * (double)d.x + p[1] * (double)d.y + p[2] * (double)d.z)) < 1.0); // of 5e6, a float
+        cli_free(&near);
+        cli_free(&far);
+        near = cli_expect(0, "distance near.talus near.talus --pose 55,3,20,0.1,0.7,0.2,0.6");
+        const float side = axes >= TL_PACK_AXES_Y_UP_LEFT ? -1.0f : 1.0f; // turns go the other way in a mirror
+        const tl_vec3 a = tl_pack_turn_out(axes, tl_scale(about, side));
+        char pose[160];
+        snprintf(pose, sizeof(pose), "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,0.6", (double)m.x, (double)m.y, (double)m.z,
+                 (double)a.x, (double)a.y, (double)a.z);
+        snprintf(line, sizeof(line), "distance %s %s --pose %s", file, file, pose);
+        far = cli_expect(0, line);
+        assert_string_equal(far.err, "");
+        compare_answers(axes, near.out, far.out, "sppd", line);
+        for (char *comma = pose; (comma = strchr(comma, ',')) != NULL;) {
+            *comma = ' ';
+        }
+        strcat(pose, "\n");
+        cli_write_text("poses.txt", pose);
+        snprintf(line, sizeof(line), "distance %s %s --poses poses.txt", file, file);
+        cli_result lines = cli_expect(0, line);
+        assert_string_equal(lines.out, far.out);
+        cli_free(&lines);
+        cli_free(&near);
+        cli_free(&far);
+        // Levels that have not the same axes and origin have no coordinates in common.
+        snprintf(line, sizeof(line), "distance %s near.talus --pose 55,3,20", file);
+        cli_check_error(0, line, "coordinates here are y-up and right-handed", "500000,4649000,-250");
+    }
+    // A mesh that is not baked: its own axes, the same answer.
+    write_courtyard("z.obj", NULL);
+    cli_result turned = cli_expect(0, "support z.obj 0,0,1 --up z"), plain = cli_expect(0, "support z.obj 0,0,1");
+    assert_string_equal(turned.out, plain.out);
+    TEST_CHECK(turned.err[0] == '\0');
+    cli_free(&turned);
+    cli_free(&plain);
+}
+
 // Options of the bake that are points, and a level that is not baked beforehand.
 static void test_options_speak_the_level(void **state)
 {
@@ -217,6 +277,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_commands_speak_the_level),
+        cmocka_unit_test(test_hulls_speak_the_level),
         cmocka_unit_test(test_options_speak_the_level),
         cmocka_unit_test(test_z_up),
     };
