@@ -54,7 +54,7 @@ static void check(const tl_soup *const soups[2], tl_vec3 origin, tl_vec3 target,
     tl_ray_walk_many_fn *many = tl_ray_walk_many_for(tl_ray_best_isa());
     if (!is_segment) {
         tl_ray_hit found;
-        tl_ray_batch batch = { soups[0], &ray, 1, NULL, &found };
+        const tl_ray_batch batch = { .soup = soups[0], .rays = &ray, .count = 1, .hits = &found };
         many(&batch);
         TEST_CHECK((found.triangle != TL_NO_TRIANGLE) == hit && (!hit || found.triangle == job.triangle));
     }
