@@ -249,7 +249,7 @@ static tl_exit check_baked(findings *f, const char *path)
     tl_report report;
     memset(&report, 0, sizeof(report));
     report.element_index = TL_NO_ELEMENT;
-    tl_result result = tl_pack_open(map.bytes, map.size, &pack, &report);
+    tl_result result = tl_file_open_pack(&map, &pack, &report);
     add_failed(f, "file", result, &report);
     if (result == TL_OK) {
         say_ok(f, "file", map.size);

@@ -120,7 +120,7 @@ bool tl_input_open_baked(tl_cli *cli, const char *path, tl_input *input_out, tl_
     tl_report report;
     memset(&report, 0, sizeof(report));
     report.element_index = TL_NO_ELEMENT;
-    tl_result result = tl_pack_open(input_out->map.bytes, input_out->map.size, &input_out->pack, &report);
+    tl_result result = tl_file_open_pack(&input_out->map, &input_out->pack, &report);
     if (result != TL_OK) {
         report.advice =
             result == TL_ERR_MAGIC ? "this is not a file of talus bake" : "copy it again, or bake the level again";

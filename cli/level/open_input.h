@@ -6,7 +6,7 @@
 #define TALUS_CLI_OPEN_INPUT_H
 
 #include "cli/level/bake_level.h"
-#include "io/files/file_map.h"
+#include "io/files/file_pack.h"
 
 #include <talus/pack.h>
 

@@ -4,10 +4,13 @@
 // machines and for Windows, without Assimp and Jansson. Its argument is an empty folder that it may fill.
 
 #include "io/files/atomic_write.h"
-#include "io/files/file_map.h"
+#include "io/files/file_pack.h"
 #include "io/files/sibling_file.h"
 #include "io/mesh/mesh_import.h"
 #include "io/mesh/obj_write.h"
+
+#include <talus/pack.h>
+#include <talus/soup.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -136,6 +139,45 @@ static void meshes(void)
     EXPECT(strstr(error.message, "Assimp") != NULL);
 }
 
+static tl_result write_piece(const void *bytes, size_t size, void *user)
+{
+    return tl_atomic_file_write(user, bytes, size, NULL);
+}
+
+// What the command does with a baked file: the bytes are little-endian, and queries run on what was read.
+static void baked_files(void)
+{
+    static const tl_vec3 CORNERS[4] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 0, 1 }, { 0, 0, 1 } };
+    static const uint32_t INDICES[6] = { 0, 2, 1, 0, 3, 2 };
+    const tl_mesh_view quad = { CORNERS, 4, INDICES, 2, NULL };
+    const char *path = in_folder("quad.talus");
+    tl_soup *soup;
+    tl_atomic_file *file;
+    EXPECT(tl_soup_bake(&quad, NULL, &soup, NULL) == TL_OK);
+    const tl_pack_item item = { TL_PACK_SOUP, 0, soup, tl_soup_size(soup) };
+    EXPECT(tl_atomic_file_open(path, &file, NULL) == TL_OK);
+    EXPECT(tl_pack_write(&item, 1, NULL, write_piece, file, NULL) == TL_OK);
+    EXPECT(tl_atomic_file_commit(file, NULL) == TL_OK);
+    tl_blob_free(soup);
+    tl_file_map map;
+    tl_pack pack;
+    tl_pack_chunk chunk;
+    tl_ray_hit hit;
+    const tl_ray ray = { { 0.25f, 2.0f, 0.5f }, { 0.0f, -1.0f, 0.0f }, 10.0f };
+    EXPECT(tl_file_read(path, 0, &map, NULL) == TL_OK);
+    const unsigned char *bytes = map.bytes;
+    EXPECT(bytes[8] == TL_PACK_VERSION && bytes[11] == 0); // little-endian, whatever the machine
+    for (int time = 0; time < 2; time++) {                 // bytes that were turned round stay so
+        EXPECT(tl_file_open_pack(&map, &pack, NULL) == TL_OK);
+        EXPECT(tl_pack_find(&pack, TL_PACK_SOUP, 0, &chunk) == TL_OK);
+        EXPECT(tl_soup_check(chunk.bytes, chunk.size, NULL) == TL_OK);
+        EXPECT(tl_soup_cast_ray(chunk.bytes, &ray, NULL, &hit) && hit.t == 2.0f);
+    }
+    ((unsigned char *)(uintptr_t)map.bytes)[map.size - 1] ^= 1;
+    EXPECT(tl_file_open_pack(&map, &pack, NULL) != TL_OK && pack.bytes == NULL);
+    tl_file_map_close(&map);
+}
+
 // Folders of names so long that Windows' old calls give up, if the program may make them there.
 static void long_names(void)
 {
@@ -157,6 +199,7 @@ int main(int count, char **words)
     refusals();
     siblings();
     meshes();
+    baked_files();
     long_names();
     printf(faults == 0 ? "files: all as it should be\n" : "files: %d faults\n", faults);
     return faults != 0;
