@@ -213,16 +213,24 @@ static bool make_searchers(path_queries *queries, uint32_t count)
     return true;
 }
 
-// Many wide paths pay for a look around each polygon; for the others that is the user's to say. False: out of memory.
-static bool prepare_navmesh(tl_navmesh *navmesh, const path_settings *settings)
+// Many wide paths pay for a look around each polygon; for the others that is the user's to say. TL_ERR_MEMORY and
+// TL_ERR_CANCELLED; without what is too large, paths are found all the same.
+static tl_result prepare_navmesh(const tl_cli *cli, tl_navmesh *navmesh, const path_settings *settings)
 {
-    if (settings->prepared && tl_navmesh_prepare(navmesh, NULL, NULL) == TL_ERR_MEMORY) {
-        return false;
+    if (settings->prepared) {
+        tl_nav_prepare_def prepare = tl_default_nav_prepare_def();
+        prepare.progress = cli->host.progress;
+        const tl_result result = tl_navmesh_prepare(navmesh, &prepare, NULL);
+        if (result == TL_ERR_MEMORY || result == TL_ERR_CANCELLED) {
+            return result;
+        }
     }
     tl_nav_wide_def def = tl_default_nav_wide_def();
     def.max_radius = settings->radius;
-    return settings->pairs == NULL || settings->radius <= 0.0f ||
-           tl_navmesh_prepare_wide(navmesh, &def, NULL) != TL_ERR_MEMORY;
+    return settings->pairs != NULL && settings->radius > 0.0f &&
+                   tl_navmesh_prepare_wide(navmesh, &def, NULL) == TL_ERR_MEMORY
+               ? TL_ERR_MEMORY
+               : TL_OK;
 }
 
 static tl_exit find_paths(tl_cli *cli, path_settings *settings, const float *numbers)
@@ -233,8 +241,11 @@ static tl_exit find_paths(tl_cli *cli, path_settings *settings, const float *num
         tl_extents_read(cli, settings->extents_text, &settings->extents, &code)) {
         path_queries queries = { input.navmesh, settings, NULL, 0 };
         tl_area_filter_warn(cli, &settings->areas, input.navmesh, input.path);
-        if (!prepare_navmesh(input.navmesh, settings) ||
-            !make_searchers(&queries, settings->pairs != NULL ? cli->host.tasks->worker_count : 1)) {
+        const tl_result prepared = prepare_navmesh(cli, input.navmesh, settings);
+        if (prepared == TL_ERR_CANCELLED) {
+            code = tl_cli_fail(cli, TL_EXIT_CANCELLED, "cancelled");
+        } else if (prepared != TL_OK ||
+                   !make_searchers(&queries, settings->pairs != NULL ? cli->host.tasks->worker_count : 1)) {
             code = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
         } else {
             const tl_batch batch = { settings->pairs, "ax ay az bx by bz", 6, 6, answer_pair_line, &queries, 0 };
