@@ -18,6 +18,11 @@
 #include <stdlib.h>
 #include <string>
 
+extern "C" {
+#include "math/cos_degrees.h"
+#include "nav_bake/input/level_mesh.h"
+}
+
 // Last: cmocka takes the word fail from the standard headers.
 #include "level_list.hpp"
 
@@ -48,6 +53,35 @@ void lattice_is_recasts(void **)
         TEST_CHECK(config.width == (uint32_t)width && config.height == (uint32_t)height);
         TEST_CHECK(std::memcmp(&config.bounds.min, &box.min, sizeof box.min) == 0);
     }
+}
+
+// Of triangles of any slope, and of such that are exactly as steep as the limit but for their rounding, which decides.
+void slopes_are_recasts(void **)
+{
+    test_random random = { 12 };
+    uint32_t walkable = 0, at_limit = 0;
+    for (uint32_t i = 0; i < 200000; i++) {
+        float corners[9];
+        const int triangle[3] = { 0, 1, 2 };
+        for (float &value : corners) {
+            value = test_random_range(&random, -20, 20);
+        }
+        const bool is_bevel = i % 2 == 0; // a quarter turn's half about an axis along a wall
+        if (is_bevel) {
+            const float turn = test_random_range(&random, 0, 6.28f), run = test_random_range(&random, 0.05f, 4);
+            const float dx = std::cos(turn), dz = std::sin(turn);
+            corners[3] = corners[0] - dz, corners[4] = corners[1], corners[5] = corners[2] + dx;
+            corners[6] = corners[0] + dx * run, corners[7] = corners[1] + run, corners[8] = corners[2] + dz * run;
+        }
+        unsigned char area = 0;
+        rcContext context(false);
+        rcMarkWalkableTriangles(&context, 45.0f, corners, 3, triangle, 1, &area);
+        const tl_vec3 *v = reinterpret_cast<const tl_vec3 *>(corners);
+        TEST_CHECK(tl_triangle_is_walkable(v[0], v[1], v[2], tl_cos_degrees(45.0f)) == (area != 0));
+        walkable += area != 0;
+        at_limit += is_bevel && area != 0;
+    }
+    TEST_CHECK(walkable > 40000 && at_limit > 10000 && at_limit < 90000);
 }
 
 struct span_counts {
@@ -190,7 +224,7 @@ void polygons_agree(void **)
 int main(int argc, char **argv)
 {
     take_level_arguments(argc, argv);
-    const struct CMUnitTest tests[] = { cmocka_unit_test(lattice_is_recasts), cmocka_unit_test(spans_and_floors_agree),
-                                        cmocka_unit_test(polygons_agree) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(lattice_is_recasts), cmocka_unit_test(slopes_are_recasts),
+                                        cmocka_unit_test(spans_and_floors_agree), cmocka_unit_test(polygons_agree) };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
