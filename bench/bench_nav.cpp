@@ -2,9 +2,12 @@
 //
 // The navmesh build stage by stage, with Recast in the same process on the same settings where it is installed.
 //
-//   bench_nav [LEVEL.obj ...] [--cell-size METRES (0.3)] [--repetitions N (5)] [--json FILE]
+//   bench_nav [LEVEL.obj ...] [--repetitions N (3)] [--stages 1] [--cell-size METRES (0.3)] [--json FILE]
 //
 // Without levels: the built-in ones, those of the data folder, and a city of a million triangles in tiles of 64 cells.
+// Each level gets a line for each setting, ratios to Recast: time, peak memory, walkable floors after erosion; and how
+// many times as fast two threads are as one. Their geometric mean and the worst level are what is claimed. --stages 1
+// shows every stage of every level in cells of --cell-size too, and the sums.
 // CPU time of one thread, the best of the repetitions, which alternate. `whole` is the build as users call it, for
 // Recast the sum of its stages. Memory is the most that was held at one time, counted by the allocator hooks of both;
 // each piece is freed when its last reader is done. A tiled level's memory is that of its largest tile.
@@ -13,6 +16,7 @@
 #include "measure.h"
 #include "nav_levels.hpp"
 #include "report.h"
+#include "second_thread.hpp"
 
 #ifdef TALUS_HAVE_RECAST
 #include "recast_pipeline.hpp"
@@ -20,10 +24,9 @@
 #endif
 
 #include <algorithm>
-#include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <thread>
 
 namespace
 {
@@ -202,22 +205,39 @@ double recast_peak(const bench_part &)
 }
 #endif
 
-// ---- Two threads -------------------------------------------------------------------------------------------
-
-void run_on_two_threads(tl_task_fn *task, uint32_t count, void *task_user, void *)
+// Walkable floors after erosion.
+double talus_floors(const bench_part &part)
 {
-    std::atomic<uint32_t> next{ 0 };
-    auto work = [&](uint32_t worker) {
-        for (uint32_t i; (i = next.fetch_add(1)) < count;) {
-            task(i, worker, task_user);
-        }
-    };
-    std::thread other(work, 1);
-    work(0);
-    other.join();
+    const tl_mesh_view mesh = part.mesh.view();
+    tl_nav_stages s = {};
+    double floors = 0;
+    if (!tl_nav_rasterize(&part.config, &mesh, nullptr, nullptr, &s.heightfield, nullptr) &&
+        !tl_nav_filter_and_compact(&part.config, &s.heightfield, nullptr, &s.compact, nullptr) &&
+        !tl_nav_erode(&part.config, nullptr, &s.compact, nullptr)) {
+        floors = (double)std::count_if(s.compact.area, s.compact.area + s.compact.span_count,
+                                       [](uint8_t area) { return area != TL_NAV_NULL_AREA; });
+    }
+    tl_nav_stages_free(&s);
+    return floors;
 }
 
-// Wall milliseconds of a level's build.
+double recast_floors(const bench_part &part)
+{
+#ifdef TALUS_HAVE_RECAST
+    recast_pipeline recast;
+    if (recast.rasterize(part.config, part.mesh.view(), 45.0f) && recast.filter(part.config) &&
+        recast.build_compact(part.config) && recast.erode(part.config)) {
+        return (double)std::count_if(recast.compact->areas, recast.compact->areas + recast.compact->spanCount,
+                                     [](unsigned char area) { return area != RC_NULL_AREA; });
+    }
+#endif
+    (void)part;
+    return 0;
+}
+
+// ---- Two threads -------------------------------------------------------------------------------------------
+
+// Wall milliseconds of a level's build, in tiles or in one piece.
 double wall_ms(const bench_level &level, tl_nav_def def, const tl_tasks *tasks)
 {
     def.host.tasks = tasks;
@@ -231,17 +251,17 @@ double wall_ms(const bench_level &level, tl_nav_def def, const tl_tasks *tasks)
     return result == TL_OK ? ms : 0;
 }
 
-void bench_threads(bench_report *report, const bench_level &level, const tl_nav_def &def, int repetitions)
+// How many times as fast two threads are as one.
+double thread_speed(const bench_level &level, const tl_nav_def &def, int repetitions)
 {
-    const tl_tasks two = { run_on_two_threads, 2, nullptr };
+    second_thread second;
+    const tl_tasks two = second.tasks();
     double alone = 1e9, together = 1e9;
     for (int r = 0; r < repetitions; r++) {
         alone = std::min(alone, wall_ms(level, def, nullptr));
         together = std::min(together, wall_ms(level, def, &two));
     }
-    std::printf("%s, wall ms: one thread %.0f, two %.0f: %.2f times as fast (%u processors)\n", level.name.c_str(),
-                alone, together, alone / together, std::thread::hardware_concurrency());
-    bench_report_at_least(report, "tiles, two threads", alone / together, 1.9);
+    return alone / together;
 }
 
 // ---- Tables ------------------------------------------------------------------------------------------------
@@ -369,32 +389,162 @@ void bench_layers(bench_report *report, std::vector<bench_level> levels, int rep
     }
 }
 
+// ---- Ratios, a level a line ----------------------------------------------------------------------------------
+
+struct setting {
+    const char *name;
+    float cell_size;
+    tl_nav_partition partition;
+    double mean_bar, worst_bar; ///< of the time
+};
+
+const setting SETTINGS[] = { { "0.3 m watershed", 0.3f, TL_NAV_WATERSHED, 0.22, 0.4 },
+                             { "0.1 m watershed", 0.1f, TL_NAV_WATERSHED, 0.18, 0.35 },
+                             { "0.1 m monotone", 0.1f, TL_NAV_MONOTONE, 0.2, 0.35 } };
+const setting CITY = { "city in tiles of 64", 0.3f, TL_NAV_WATERSHED, 0.2, 0.35 };
+/// A part with more columns takes Recast minutes and gigabytes: its line says so.
+constexpr uint64_t MOST_COLUMNS = 16000000;
+
+// Ratios to Recast: their geometric mean, and the worst.
+struct ratios {
+    double log_sum = 0, worst = 0;
+    int count = 0;
+
+    void add(double ratio)
+    {
+        log_sum += std::log(ratio);
+        worst = std::max(worst, ratio);
+        count++;
+    }
+
+    double mean() const
+    {
+        return count > 0 ? std::exp(log_sum / count) : 0;
+    }
+};
+
+// The best of the repetitions of whole builds, which alternate; false when one of them fails.
+bool time_both(const bench_level &level, int repetitions, figures *ours, figures *theirs)
+{
+    for (int r = 0; r < repetitions; r++) {
+        figures our_sum, their_sum;
+        for (const bench_part &part : level.parts) {
+            if (!time_whole(part, &our_sum) || !run_recast(part, &their_sum)) {
+                return false;
+            }
+        }
+        r == 0 ? ours->add(our_sum) : ours->keep_best(our_sum);
+        r == 0 ? theirs->add(their_sum) : theirs->keep_best(their_sum);
+    }
+    return true;
+}
+
+struct level_ratios {
+    ratios time, memory, threads;
+    double largest_difference = 0; ///< of walkable floors, a fraction
+};
+
+void ratio_line(const bench_level &level, const tl_nav_def &def, int repetitions, level_ratios *all)
+{
+    std::printf("  %-46s", level.name.c_str());
+    for (const bench_part &part : level.parts) {
+        if ((uint64_t)part.config.width * part.config.height > MOST_COLUMNS) {
+            std::printf(" left out: %u x %u columns\n", part.config.width, part.config.height);
+            return;
+        }
+    }
+    figures ours, theirs;
+    if (!time_both(level, repetitions, &ours, &theirs)) {
+        std::printf(" no result from one of the two\n");
+        return;
+    }
+    double our_floors = 0, their_floors = 0;
+    for (const bench_part &part : level.parts) {
+        ours.peak = std::max(ours.peak, talus_peak(part));
+        theirs.peak = std::max(theirs.peak, recast_peak(part));
+        our_floors += talus_floors(part);
+        their_floors += recast_floors(part);
+    }
+    const double speed = thread_speed(level, def, repetitions);
+    const double time = ours.ms[WHOLE] / theirs.ms[WHOLE], memory = ours.peak / theirs.peak;
+    all->time.add(time);
+    all->memory.add(memory);
+    all->threads.add(speed);
+    all->largest_difference = std::max(all->largest_difference, std::fabs(our_floors / their_floors - 1));
+    std::printf(" %9.2f %9.2f %7.2f %8.3f %8.2f %9.4f %8.2f\n", ours.ms[WHOLE], theirs.ms[WHOLE], time,
+                ours.peak * 1e-6, memory, our_floors / their_floors, speed);
+}
+
+void bench_ratios(bench_report *report, const std::vector<bench_level> &levels, tl_nav_def def, const setting &s,
+                  int repetitions)
+{
+    std::printf("%s, best of %d\n  %-46s %9s %9s %7s %8s %8s %9s %8s\n", s.name, repetitions, "", "ms", "Recast",
+                "time", "peak MB", "memory", "floors", "threads");
+    level_ratios all;
+    for (const bench_level &level : levels) {
+        ratio_line(level, def, repetitions, &all);
+    }
+    if (all.time.count == 0) {
+        return;
+    }
+    std::printf("  %-46s %9s %9s %7.3f %8s %8.3f %9s %8.2f\n  %-46s %9s %9s %7.2f %8s %8.2f %8.2f%%\n",
+                "geometric mean", "", "", all.time.mean(), "", all.memory.mean(), "", all.threads.mean(), "worst", "",
+                "", all.time.worst, "", all.memory.worst, 100 * all.largest_difference);
+    const std::string name = s.name;
+    bench_report_at_most(report, (name + ": time, fraction of Recast's, mean").c_str(), all.time.mean(), s.mean_bar);
+    bench_report_at_most(report, (name + ": time, worst level").c_str(), all.time.worst, s.worst_bar);
+    bench_report_at_most(report, (name + ": peak memory, mean").c_str(), all.memory.mean(), 0.5);
+    bench_report_at_most(report, (name + ": peak memory, worst level").c_str(), all.memory.worst, 1.0);
+    bench_report_at_most(report, (name + ": walkable floors, difference").c_str(), all.largest_difference, 0.005);
+    bench_report_at_least(report, (name + ": two threads").c_str(), all.threads.mean(), 1.7);
+}
+
+void bench_setting(bench_report *report, const std::vector<std::string> &files, const setting &s, int repetitions)
+{
+    tl_nav_def def = tl_default_nav_def();
+    def.cell_size = s.cell_size;
+    def.partition = s.partition;
+    const bool tiled = &s == &CITY;
+    const std::vector<bench_level> levels = tiled           ? city_in_tiles(def)
+                                            : files.empty() ? default_levels(def)
+                                                            : levels_of_files(files, def);
+    def.tile_size = tiled ? TILE_SIZE : 0;
+    bench_ratios(report, levels, def, s, repetitions);
+}
+
+void bench_stages(bench_report *report, const std::vector<std::string> &files, const tl_nav_def &def, int repetitions)
+{
+    const std::vector<bench_level> levels = files.empty() ? default_levels(def) : levels_of_files(files, def);
+    print_head("watershed", repetitions, def.cell_size);
+    bench_watershed(report, levels, repetitions);
+    print_head("layers", 1, def.cell_size);
+    bench_layers(report, levels, 1);
+}
+
 } // namespace
 
 int main(int argc, char **argv)
 {
     tl_nav_def def = tl_default_nav_def();
-    uint32_t count = 5;
-    const bench_option options[] = { { "cell-size", BENCH_NUMBER, &def.cell_size, "metres" },
+    uint32_t count = 3, stages = 0;
+    const bench_option options[] = { { "cell-size", BENCH_NUMBER, &def.cell_size, "metres, of the stages" },
                                      { "repetitions", BENCH_COUNT, &count, "of which the best counts" },
+                                     { "stages", BENCH_COUNT, &stages, "1: every stage too" },
                                      { nullptr, BENCH_COUNT, nullptr, nullptr } };
     std::vector<const char *> words((size_t)argc);
     const char *json = nullptr;
     words.resize((size_t)bench_parse(argc, argv, options, words.data(), &json));
     const std::vector<std::string> files(words.begin(), words.end());
     const int repetitions = (int)count;
-    std::vector<bench_level> levels = files.empty() ? default_levels(def) : levels_of_files(files, def);
     bench_report *report = bench_report_new("nav", "ms", nullptr);
-    print_head("watershed", repetitions, def.cell_size);
-    bench_watershed(report, levels, repetitions);
-    print_head("layers", 1, def.cell_size);
-    bench_layers(report, levels, 1);
-    for (const bench_level &level : levels) {
-        if (level.parts.size() > 1) {
-            tl_nav_def tiled = def;
-            tiled.tile_size = TILE_SIZE;
-            bench_threads(report, level, tiled, repetitions);
-        }
+    for (const setting &s : SETTINGS) {
+        bench_setting(report, files, s, repetitions);
+    }
+    if (files.empty()) {
+        bench_setting(report, files, CITY, repetitions);
+    }
+    if (stages > 0) {
+        bench_stages(report, files, def, repetitions);
     }
     bench_report_print_claims(report);
     return bench_report_close(report, json);

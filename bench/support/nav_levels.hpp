@@ -7,7 +7,9 @@
 
 #include "io/mesh/mesh_import.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <talus/nav_bake.h>
 #include <unordered_map>
@@ -161,21 +163,30 @@ inline void add_sample(const tl_sample_level &sample, uint32_t triangles, const 
     tl_sample_mesh_free(&mesh);
 }
 
+inline std::vector<bench_level> city_in_tiles(tl_nav_def def)
+{
+    std::vector<bench_level> levels;
+    def.tile_size = TILE_SIZE;
+    add_sample(*tl_sample_find_level("city"), CITY_TRIANGLES, def, &levels);
+    return levels;
+}
+
 inline std::vector<bench_level> default_levels(const tl_nav_def &def)
 {
     std::vector<std::string> files;
-    for (const char *name : { "nav_test", "dungeon", "undulating", "proto-level", "collision_mesh_01", "test_map01" }) {
-        files.push_back(std::string(TALUS_DATA_DIR) + "/levels/" + name + ".obj");
+    std::error_code missing; // without the data folder the built-in levels are all there is
+    for (const auto &entry : std::filesystem::directory_iterator(std::string(TALUS_DATA_DIR) + "/levels", missing)) {
+        if (entry.path().extension() == ".obj") {
+            files.push_back(entry.path().string());
+        }
     }
+    std::sort(files.begin(), files.end());
     std::vector<bench_level> levels = levels_of_files(files, def);
     uint32_t count;
     const tl_sample_level *samples = tl_sample_levels(&count);
     for (uint32_t i = 0; i < count; i++) {
         add_sample(samples[i], samples[i].default_triangles, def, &levels);
     }
-    tl_nav_def tiled = def;
-    tiled.tile_size = TILE_SIZE;
-    add_sample(*tl_sample_find_level("city"), CITY_TRIANGLES, tiled, &levels);
     return levels;
 }
 
