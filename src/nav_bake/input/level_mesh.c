@@ -7,8 +7,6 @@
 #include "base/assert.h"
 #include "base/host.h"
 
-#include <math.h>
-
 static tl_result check_vertex(const tl_mesh_view *mesh, uint32_t vertex, tl_report *report)
 {
     tl_vec3 p = mesh->vertices[vertex];
@@ -45,18 +43,16 @@ tl_result tl_level_mesh_check(const tl_mesh_view *mesh, tl_aabb *bounds_out, tl_
     const bool sound = are_vertices_sound(mesh);
     tl_aabb bounds = tl_aabb_empty();
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        for (uint32_t k = 0; k < 3; k++) {
-            uint32_t vertex = mesh->indices[3 * i + k];
-            if (vertex >= mesh->vertex_count) {
-                return tl_report_fail(report, TL_ERR_INDEX, "triangle", i, "check the index buffer");
-            }
-            if (!sound) {
-                TL_TRY(check_vertex(mesh, vertex, report));
-            }
-            if (bounds_out != NULL) {
-                bounds = tl_aabb_add_point(bounds, mesh->vertices[vertex]);
-            }
+        const uint32_t *corner = mesh->indices + 3 * (size_t)i;
+        if (corner[0] >= mesh->vertex_count || corner[1] >= mesh->vertex_count || corner[2] >= mesh->vertex_count) {
+            return tl_report_fail(report, TL_ERR_INDEX, "triangle", i, "check the index buffer");
         }
+        for (uint32_t k = 0; k < 3 && !sound; k++) {
+            TL_TRY(check_vertex(mesh, corner[k], report));
+        }
+        const tl_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
+        bounds.min = tl_min(bounds.min, tl_min(a, tl_min(b, c)));
+        bounds.max = tl_max(bounds.max, tl_max(a, tl_max(b, c)));
     }
     if (bounds_out != NULL) {
         *bounds_out = bounds;
@@ -64,33 +60,11 @@ tl_result tl_level_mesh_check(const tl_mesh_view *mesh, tl_aabb *bounds_out, tl_
     return TL_OK;
 }
 
-/// Squares of a normal's length, m^4, in which floats neither overflow nor lose their small ones.
-static const float MIN_NORMAL_SQUARE = 1e-20f, MAX_NORMAL_SQUARE = 1e30f;
-
-// For triangles that floats are too short for, 1e-10 m2 or 1e15 m2.
-static bool is_walkable_in_double(tl_vec3 a, tl_vec3 b, tl_vec3 c, float slope_cos)
+bool tl_triangle_is_walkable_in_double(tl_vec3 a, tl_vec3 b, tl_vec3 c, float slope_cos)
 {
     const double ux = (double)b.x - (double)a.x, uy = (double)b.y - (double)a.y, uz = (double)b.z - (double)a.z;
     const double vx = (double)c.x - (double)a.x, vy = (double)c.y - (double)a.y, vz = (double)c.z - (double)a.z;
     const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx, limit = (double)slope_cos;
     // n.y / |n| > limit without root and division; what is flat is walkable at any limit.
     return ny > 0.0 && (ny * ny > limit * limit * (nx * nx + ny * ny + nz * nz) || (nx == 0.0 && nz == 0.0));
-}
-
-// Whether the unit normal's y, in floats, is above the limit: Recast's question, in the order of its operations. Of a
-// slope of exactly the limit the rounding of coordinates decides, whatever is asked; so only who rounds alike has the
-// same walkable triangles. Rejected: to call all of them walkable, within a bound of the rounding. A level of slabs
-// with bevels of 45 degrees then has 74% more floor than with Recast.
-bool tl_triangle_is_walkable(tl_vec3 a, tl_vec3 b, tl_vec3 c, float slope_cos)
-{
-    const tl_vec3 u = tl_sub(b, a), v = tl_sub(c, a);
-    const float nx = u.y * v.z - u.z * v.y, ny = u.z * v.x - u.x * v.z, nz = u.x * v.y - u.y * v.x;
-    const float square = nx * nx + ny * ny + nz * nz;
-    if (!(square >= MIN_NORMAL_SQUARE && square <= MAX_NORMAL_SQUARE)) {
-        return is_walkable_in_double(a, b, c, slope_cos);
-    }
-    if (!(ny > 0.0f)) {
-        return false; // walls and ceilings: the most of a level
-    }
-    return ny * (1.0f / sqrtf(square)) > slope_cos || (nx == 0.0f && nz == 0.0f); // flat: at any limit
 }

@@ -93,6 +93,11 @@ tl_result tl_rasterizer_run(tl_rasterizer *rasterizer, uint32_t band_index, uint
     TL_TRY(voxelize_list(r, &band, list));
     const tl_nav_span *spans;
     TL_TRY(tl_span_buffer_merge(&worker->buffer, worker->first_span, &spans));
+    if (r->band_count == 1) {
+        tl_span_buffer_free_lists(&worker->buffer); // of a small level they are a third of the peak
+        tl_release_array(r->allocator, worker->heights, TL_VOXEL_HEIGHTS_PER_CELL * (uint64_t)r->line, sizeof(double));
+        worker->heights = NULL;
+    }
     *rows_out = (tl_span_rows){ spans, worker->first_span, config->width, config->height, begin };
     return TL_OK;
 }

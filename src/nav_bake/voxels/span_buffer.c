@@ -32,13 +32,22 @@ enum {
     AREAS = 256
 };
 
-void tl_span_buffer_free(tl_span_buffer *buffer)
+void tl_span_buffer_free_lists(tl_span_buffer *buffer)
 {
     const tl_allocator *allocator = buffer->allocator;
     tl_release_array(allocator, buffer->lowest, buffer->lowest_capacity, sizeof *buffer->lowest);
     tl_release_array(allocator, buffer->nodes, buffer->node_capacity, sizeof *buffer->nodes);
     tl_release_array(allocator, buffer->late, buffer->late_capacity, sizeof *buffer->late);
     tl_release_array(allocator, buffer->column, buffer->column_capacity, sizeof *buffer->column);
+    buffer->lowest = buffer->nodes = buffer->late = buffer->column = NULL;
+    buffer->lowest_capacity = buffer->node_capacity = 0;
+    buffer->late_capacity = buffer->column_capacity = 0;
+}
+
+void tl_span_buffer_free(tl_span_buffer *buffer)
+{
+    const tl_allocator *allocator = buffer->allocator;
+    tl_span_buffer_free_lists(buffer);
     tl_release_array(allocator, buffer->spans, buffer->span_capacity, sizeof *buffer->spans);
     memset(buffer, 0, sizeof *buffer);
 }

@@ -95,6 +95,8 @@ typedef struct tl_span_buffer {
 /// Empties the buffer for a band of column_count columns, 1 to TL_SPAN_ITEM_MAX_COLUMNS.
 tl_result tl_span_buffer_begin(tl_span_buffer *buffer, uint32_t column_count);
 void tl_span_buffer_free(tl_span_buffer *buffer);
+/// Frees all but the result, after the last merge.
+void tl_span_buffer_free_lists(tl_span_buffer *buffer);
 
 /// What tl_span_buffer_reserve does when there is no room.
 tl_result tl_span_buffer_make_room(tl_span_buffer *buffer, uint32_t count);

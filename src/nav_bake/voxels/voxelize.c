@@ -151,6 +151,29 @@ static tl_result add_line(const tl_voxel_walk *w, side_point p, side_point q, si
     return TL_OK;
 }
 
+// Whether a box lies within one cell of the band, as those of most triangles do in a detailed level. One that reaches
+// out of the band is not asked about.
+static inline bool lies_in_one_cell_of(const tl_voxel_band *band, const point_box *box)
+{
+    const double first_row = (double)band->first_row;
+    if (!(box->min.x >= 0.0 && box->max.x < (double)band->width && box->min.z >= first_row &&
+          box->max.z < first_row + (double)band->row_count)) {
+        return false;
+    }
+    const double end_x = (double)((int32_t)box->min.x + 1), end_z = (double)((int32_t)box->min.z + 1);
+    return box->max.x <= end_x && box->max.z <= end_z;
+}
+
+static tl_result add_cell(const tl_voxel_band *band, const point_box *box, uint32_t area)
+{
+    const tl_voxel_walk w = { .band = band, .area = area };
+    const uint32_t row = (uint32_t)(int32_t)box->min.z - band->first_row;
+    const double low = box->min.y * TL_SUBDIVISIONS, high = box->max.y * TL_SUBDIVISIONS;
+    TL_TRY(tl_span_buffer_reserve(band->buffer, 1));
+    tl_voxel_add_heights(&w, low, high, row * band->width + (uint32_t)(int32_t)box->min.x);
+    return TL_OK;
+}
+
 tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_voxel_point a, tl_voxel_point b, tl_voxel_point c,
                                uint32_t area)
 {
@@ -158,6 +181,9 @@ tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_voxel_point a, tl_v
         close_far_side(band, &a, &b, &c);
     }
     const point_box box = box_of_points(&a, &b, &c);
+    if (lies_in_one_cell_of(band, &box)) {
+        return add_cell(band, &box, area);
+    }
     const double first_row = (double)band->first_row, height = (double)band->height_voxels;
     int32_t first_x, last_x, first_z, last_z; // columns and rows of the band
     tl_voxel_cell_range(box.min.x, box.max.x, band->width, &first_x, &last_x);
@@ -170,7 +196,7 @@ tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_voxel_point a, tl_v
     const uint32_t column = (uint32_t)first_z * band->width + (uint32_t)first_x;
     // Judged in the whole lattice, not in the band's or field's part of it: all that see a triangle treat it alike.
     const bool in_one_row = is_in_one_cell(box.min.z, box.max.z), in_one_column = is_in_one_cell(box.min.x, box.max.x);
-    if (in_one_row && in_one_column) {
+    if (in_one_row && in_one_column) { // on the rim of the band
         TL_TRY(tl_span_buffer_reserve(band->buffer, 1));
         tl_voxel_add_heights(&w, low, high, column);
         return TL_OK;
