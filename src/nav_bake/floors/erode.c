@@ -78,7 +78,10 @@ static void sweep_backward(tl_nav_compact *compact, uint32_t limit, uint16_t *di
     for (uint32_t i = compact->span_count; i-- > 0;) {
         uint32_t nearest = distance[i];
         if (nearest > STRAIGHT) { // nothing but a border is nearer
-            nearest = nearest_over(compact, distance, tl_nav_compact_neighbour(compact, i, 2), 1, nearest);
+            const uint32_t right = tl_nav_compact_neighbour(compact, i, 2);
+            if (distance[right] < limit) { // as above
+                nearest = nearest_over(compact, distance, right, 1, nearest);
+            }
             nearest = nearest_over(compact, distance, tl_nav_compact_neighbour(compact, i, 1), 0, nearest);
             distance[i] = (uint16_t)nearest;
         }
@@ -100,7 +103,8 @@ tl_result tl_nav_erode(const tl_nav_config *config, const tl_host *host, tl_nav_
         if (distance == NULL) {
             return TL_ERR_MEMORY;
         }
-        const bool holes = memchr(compact->area, TL_NAV_NULL_AREA, compact->span_count) != NULL;
+        const bool holes =
+            compact->span_count > 0 && memchr(compact->area, TL_NAV_NULL_AREA, compact->span_count) != NULL;
         sweep_forward(compact, limit, holes, distance);
         sweep_backward(compact, limit, distance);
         tl_release_array(allocator, distance, compact->span_count, sizeof *distance);

@@ -63,8 +63,8 @@ static tl_result reserve_spans(const watershed *w, floor_list *list, uint64_t co
     if (count <= list->capacity) {
         return TL_OK;
     }
-    const uint64_t most = w->compact->span_count, doubled = 2 * (uint64_t)list->capacity;
-    uint64_t capacity = count > doubled ? count : doubled;
+    const uint64_t most = w->compact->span_count, more = (uint64_t)list->capacity + list->capacity / 2;
+    uint64_t capacity = count > more ? count : more;
     capacity = capacity < most ? capacity : most;
     uint32_t *grown = tl_allocate_array(w->allocator, capacity, sizeof *grown);
     if (grown == NULL) {
