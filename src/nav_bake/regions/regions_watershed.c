@@ -293,40 +293,7 @@ static tl_result measure_levels(watershed *w, tl_arena *arena)
     if (w->level_size == NULL || w->level_end == NULL) {
         return TL_ERR_MEMORY;
     }
-    if (w->compact->span_count > SORTED_AT_ONCE) {
-        count_waiting(w, w->level_size);
-    }
-    return TL_OK;
-}
-
-// Makes the order of all floors that wait, in a field so small that all levels are sorted at once: those are gathered
-// first, and then counted and put in their places without a look at the others.
-static tl_result sort_all(watershed *w)
-{
-    const uint32_t count = w->compact->span_count;
-    floor_list *list = &w->joining; // is not used yet
-    TL_TRY(reserve_spans(w, list, (uint64_t)count));
-    uint32_t waiting = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        list->floors[waiting] = i; // no more have been kept than were seen, so there is room
-        waiting += waits(w, i);
-    }
-    TL_TRY(reserve_spans(w, &w->order, waiting));
-    uint32_t *next = w->level_end; // how many floors a level has, then where the next one goes, then where it ends
-    memset(next, 0, w->level_count * sizeof *next);
-    for (uint32_t k = 0; k < waiting; k++) {
-        next[level_of(w, list->floors[k])]++;
-    }
-    for (uint32_t level = 0, position = 0; level < w->level_count; level++) {
-        const uint32_t size = next[level];
-        next[level] = position;
-        position += size;
-    }
-    for (uint32_t k = 0; k < waiting; k++) {
-        const uint32_t floor = list->floors[k];
-        w->order.floors[next[level_of(w, floor)]++] = floor;
-    }
-    w->order.count = waiting;
+    count_waiting(w, w->level_size);
     return TL_OK;
 }
 
@@ -404,11 +371,10 @@ static tl_result run_level(watershed *w, uint32_t *begin, uint32_t k)
 
 static tl_result run_levels(watershed *w)
 {
-    const bool at_once = w->compact->span_count <= SORTED_AT_ONCE;
     for (uint32_t k = 0; k < w->level_count;) {
-        const uint32_t end = at_once ? w->level_count : last_level(w, k);
+        const uint32_t end = last_level(w, k);
         uint32_t begin = 0;
-        TL_TRY(at_once ? sort_all(w) : sort_levels(w, k, end));
+        TL_TRY(sort_levels(w, k, end));
         for (; k < end; k++) {
             TL_TRY(run_level(w, &begin, k));
         }
