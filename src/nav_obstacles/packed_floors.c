@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+//
+// Floors packed in runs: how many each column has, their heights, their areas, and in which of the four directions each
+// has a neighbour. Source of the packing: PackBits (Apple, 1984): runs of one value and runs of different ones.
+//
+// Which floor lies beside another needs no number: links between two columns are mutual and do not cross, so the first
+// linked floor of one goes with the first of the other, and so on (link_floors.c).
+//
+// DetourTileCache leaves its compression to the caller, most often a general one (FastLZ). Levels are flat and of one
+// storey nearly everywhere, so runs do as well, in one pass that costs a few nanoseconds a floor.
+
+#include "nav_obstacles/packed_floors.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/stage.h"
+
+#include <string.h>
+
+enum {
+    MAX_LITERALS = 128, // control bytes 0 .. 127: so many values and one more
+    MIN_RUN = 3,        // control bytes 128 .. 255: a value that stands MIN_RUN and more times
+    MAX_RUN = 127 + MIN_RUN
+};
+
+// ---- Runs --------------------------------------------------------------------------------------------------
+
+// Some values of one or two bytes, one after the other.
+typedef struct value_array {
+    const uint8_t *bytes;
+    size_t size; ///< of a value, bytes
+    uint64_t count;
+} value_array;
+
+static uint64_t most_bytes(const value_array *values)
+{
+    return values->count * values->size + values->count / MAX_LITERALS + 1;
+}
+
+static bool are_equal(const value_array *values, uint64_t a, uint64_t b)
+{
+    return memcmp(values->bytes + a * values->size, values->bytes + b * values->size, values->size) == 0;
+}
+
+static uint64_t run_length(const value_array *values, uint64_t first)
+{
+    uint64_t end = first + 1;
+    while (end < values->count && end - first < MAX_RUN && are_equal(values, first, end)) {
+        end++;
+    }
+    return end - first;
+}
+
+// Writes the values, for which there is room; returns the end of what was written.
+static uint8_t *write_runs(const value_array *values, uint8_t *to)
+{
+    for (uint64_t i = 0; i < values->count;) {
+        uint64_t run = run_length(values, i);
+        if (run >= MIN_RUN) {
+            *to++ = (uint8_t)(128 + run - MIN_RUN);
+            memcpy(to, values->bytes + i * values->size, values->size);
+            to += values->size;
+            i += run;
+            continue;
+        }
+        uint64_t end = i + run; // up to the next run
+        while (end < values->count && end - i < MAX_LITERALS && (run = run_length(values, end)) < MIN_RUN) {
+            end += run;
+        }
+        const uint64_t literals = end - i < MAX_LITERALS ? end - i : MAX_LITERALS;
+        *to++ = (uint8_t)(literals - 1);
+        memcpy(to, values->bytes + i * values->size, literals * values->size);
+        to += literals * values->size;
+        i += literals;
+    }
+    return to;
+}
+
+// Reads `count` values; returns the end of what was read.
+static const uint8_t *read_runs(const uint8_t *from, size_t size, uint64_t count, uint8_t *to)
+{
+    const uint8_t *end = to + count * size;
+    while (to < end) {
+        const uint32_t control = *from++;
+        if (control < 128) {
+            const size_t bytes = (control + 1) * size;
+            memcpy(to, from, bytes);
+            from += bytes;
+            to += bytes;
+            continue;
+        }
+        const uint32_t run = control - 128 + MIN_RUN;
+        if (size == 1) {
+            memset(to, *from, run);
+        } else {
+            for (uint32_t k = 0; k < run; k++) {
+                memcpy(to + 2 * (size_t)k, from, 2);
+            }
+        }
+        from += size;
+        to += run * size;
+    }
+    return from;
+}
+
+// ---- Packing -----------------------------------------------------------------------------------------------
+
+// What is packed besides floors and areas.
+typedef struct pack_scratch {
+    uint16_t *counts; ///< [columns] floors; heights take 16 bits, so no column has more
+    uint8_t *links;   ///< [span_count] bit d: there is a neighbour in direction d
+    uint8_t *bytes;   ///< [capacity]
+    uint64_t columns, spans, capacity;
+} pack_scratch;
+
+static tl_result fill_scratch(const tl_nav_compact *compact, const tl_allocator *allocator, pack_scratch *s)
+{
+    s->counts = tl_allocate_array(allocator, s->columns, sizeof *s->counts);
+    s->links = tl_allocate_array(allocator, s->spans, sizeof *s->links);
+    if (s->counts == NULL || s->links == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint64_t c = 0; c < s->columns; c++) {
+        s->counts[c] = (uint16_t)(compact->first_span[c + 1] - compact->first_span[c]);
+    }
+    for (uint32_t i = 0; i < compact->span_count; i++) {
+        uint32_t links = 0;
+        for (uint32_t d = 0; d < 4; d++) {
+            links |= (uint32_t)(tl_nav_compact_neighbour(compact, i, d) != TL_NAV_NO_SPAN) << d;
+        }
+        s->links[i] = (uint8_t)links;
+    }
+    return TL_OK;
+}
+
+static tl_result pack(const tl_nav_compact *compact, const tl_allocator *allocator, pack_scratch *s,
+                      tl_packed_floors *packed)
+{
+    TL_TRY(fill_scratch(compact, allocator, s));
+    const value_array parts[4] = { { (const uint8_t *)s->counts, sizeof *s->counts, s->columns },
+                                   { (const uint8_t *)compact->floor, sizeof *compact->floor, s->spans },
+                                   { compact->area, 1, s->spans },
+                                   { s->links, 1, s->spans } };
+    for (int k = 0; k < 4; k++) {
+        s->capacity += most_bytes(&parts[k]);
+    }
+    s->bytes = tl_allocate_array(allocator, s->capacity, 1);
+    if (s->bytes == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint8_t *to = s->bytes;
+    for (int k = 0; k < 4; k++) {
+        to = write_runs(&parts[k], to);
+    }
+    const uint64_t size = (uint64_t)(to - s->bytes);
+    packed->bytes = tl_allocate_array(allocator, size, 1);
+    if (packed->bytes == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memcpy(packed->bytes, s->bytes, size);
+    packed->size = size;
+    return TL_OK;
+}
+
+// The fields without the arrays.
+static tl_nav_compact frame_of(const tl_nav_compact *compact, const tl_allocator *allocator)
+{
+    tl_nav_compact frame = *compact;
+    frame.first_span = NULL;
+    frame.floor = frame.clearance = frame.distance = NULL;
+    frame.area = NULL;
+    frame.step = NULL;
+    frame.neighbour = frame.region = NULL;
+    frame.max_distance = 0;
+    frame.region_count = 0;
+    memset(&frame.region_stats, 0, sizeof frame.region_stats);
+    frame.allocator = *allocator;
+    return frame;
+}
+
+tl_result tl_floors_pack(const tl_nav_compact *compact, const tl_allocator *allocator, tl_packed_floors *packed_out)
+{
+    memset(packed_out, 0, sizeof *packed_out);
+    if (compact->span_count == 0) {
+        return TL_OK;
+    }
+    pack_scratch s = { NULL, NULL, NULL, (uint64_t)compact->width * compact->height, compact->span_count, 0 };
+    const tl_result result = pack(compact, allocator, &s, packed_out);
+    tl_release_array(allocator, s.counts, s.columns, sizeof *s.counts);
+    tl_release_array(allocator, s.links, s.spans, sizeof *s.links);
+    tl_release_array(allocator, s.bytes, s.capacity, 1);
+    if (result == TL_OK) {
+        packed_out->frame = frame_of(compact, allocator);
+        packed_out->has_steps = compact->step != NULL;
+    }
+    return result;
+}
+
+void tl_packed_floors_free(tl_packed_floors *packed)
+{
+    tl_release_array(&packed->frame.allocator, packed->bytes, packed->size, 1);
+    memset(packed, 0, sizeof *packed);
+}
+
+// ---- Unpacking ---------------------------------------------------------------------------------------------
+
+static void link_pair_of_floors(const tl_nav_compact *compact, uint32_t a, uint32_t b, uint32_t direction)
+{
+    if (compact->step != NULL) {
+        const int32_t step = (int32_t)(b - a);
+        compact->step[4 * (size_t)a + direction] = (int16_t)step;
+        compact->step[4 * (size_t)b + (direction ^ 2)] = (int16_t)-step;
+    } else {
+        compact->neighbour[4 * (size_t)a + direction] = b;
+        compact->neighbour[4 * (size_t)b + (direction ^ 2)] = a;
+    }
+}
+
+// Links the floors of a column with those of the column beside it in a direction: the linked ones in order.
+static void link_packed_columns(const tl_nav_compact *compact, const uint8_t *links, uint32_t column, uint32_t beside,
+                                uint32_t direction)
+{
+    uint32_t other = compact->first_span[beside];
+    for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
+        if ((links[i] >> direction & 1) == 0) {
+            continue;
+        }
+        while ((links[other] >> (direction ^ 2) & 1) == 0) {
+            other++;
+        }
+        TL_ASSERT(other < compact->first_span[beside + 1]);
+        link_pair_of_floors(compact, i, other, direction);
+        other++;
+    }
+}
+
+// Columns with one floor each, as most are, need no loop and no branch on the link.
+static inline void link_packed_pair(const tl_nav_compact *compact, const uint8_t *links, uint32_t column,
+                                    uint32_t beside, uint32_t direction)
+{
+    const uint32_t a = compact->first_span[column], b = compact->first_span[beside];
+    if (compact->step == NULL || compact->first_span[column + 1] - a != 1 || compact->first_span[beside + 1] - b != 1) {
+        link_packed_columns(compact, links, column, beside, direction);
+        return;
+    }
+    const int32_t step = (int32_t)(b - a) * (links[a] >> direction & 1);
+    compact->step[4 * (size_t)a + direction] = (int16_t)step;
+    compact->step[4 * (size_t)b + (direction ^ 2)] = (int16_t)-step;
+}
+
+static void link_packed(const tl_nav_compact *compact, const uint8_t *links)
+{
+    for (uint32_t z = 0; z < compact->height; z++) {
+        for (uint32_t x = 0; x < compact->width; x++) {
+            const uint32_t column = z * compact->width + x;
+            if (x + 1 < compact->width) {
+                link_packed_pair(compact, links, column, column + 1, 2);
+            }
+            if (z + 1 < compact->height) {
+                link_packed_pair(compact, links, column, column + compact->width, 1);
+            }
+        }
+    }
+}
+
+static void fill_floors(const tl_packed_floors *packed, const tl_nav_compact *compact, uint16_t *counts, uint8_t *links)
+{
+    const uint64_t columns = (uint64_t)compact->width * compact->height, spans = compact->span_count;
+    const uint8_t *from = read_runs(packed->bytes, sizeof *counts, columns, (uint8_t *)counts);
+    from = read_runs(from, sizeof *compact->floor, spans, (uint8_t *)compact->floor);
+    from = read_runs(from, 1, spans, compact->area);
+    from = read_runs(from, 1, spans, links);
+    TL_ASSERT(from == packed->bytes + packed->size);
+    (void)from;
+    uint32_t end = 0;
+    for (uint64_t c = 0; c < columns; c++) {
+        compact->first_span[c] = end;
+        end += counts[c];
+    }
+    compact->first_span[columns] = end;
+    if (compact->step != NULL) {
+        memset(compact->step, 0, 4 * spans * sizeof *compact->step);
+    } else {
+        memset(compact->neighbour, 0xff, 4 * spans * sizeof *compact->neighbour); // TL_NAV_NO_SPAN
+    }
+    link_packed(compact, links);
+}
+
+// The next `size` bytes of a block, from a multiple of 8 on.
+static void *take_bytes(uint8_t **at, uint64_t size)
+{
+    void *taken = *at;
+    *at += (size + 7) / 8 * 8;
+    return taken;
+}
+
+tl_result tl_floors_unpack(const tl_packed_floors *packed, tl_floors_scratch *scratch, tl_nav_compact *compact_out,
+                           uint8_t **base_area_out)
+{
+    const uint64_t columns = (uint64_t)packed->frame.width * packed->frame.height, spans = packed->frame.span_count;
+    const uint64_t link_size = 4 * (packed->has_steps ? sizeof(int16_t) : sizeof(uint32_t));
+    // Of a column its begin and its count, of a floor its links twice, its height and its area twice; the gaps between.
+    const uint64_t size = columns * 6 + 4 + spans * (link_size + 5) + 7 * UINT64_C(8);
+    if (scratch->size < size) {
+        tl_release_array(scratch->allocator, scratch->block, scratch->size, 1);
+        scratch->size = 0;
+        scratch->block = tl_allocate_array(scratch->allocator, size, 1);
+        if (scratch->block == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        scratch->size = size;
+    }
+    uint8_t *at = scratch->block;
+    *compact_out = packed->frame;
+    void *links_out = take_bytes(&at, spans * link_size);
+    compact_out->step = packed->has_steps ? links_out : NULL;
+    compact_out->neighbour = packed->has_steps ? NULL : links_out;
+    compact_out->first_span = take_bytes(&at, (columns + 1) * sizeof *compact_out->first_span);
+    compact_out->floor = take_bytes(&at, spans * sizeof *compact_out->floor);
+    uint16_t *counts = take_bytes(&at, columns * sizeof *counts);
+    compact_out->area = take_bytes(&at, spans);
+    uint8_t *base_area = take_bytes(&at, spans), *links = take_bytes(&at, spans);
+    TL_ASSERT(at <= (uint8_t *)scratch->block + scratch->size);
+    fill_floors(packed, compact_out, counts, links);
+    memcpy(base_area, compact_out->area, spans);
+    *base_area_out = base_area;
+    return TL_OK;
+}
+
+void tl_floors_scratch_free(tl_floors_scratch *scratch)
+{
+    tl_release_array(scratch->allocator, scratch->block, scratch->size, 1);
+    memset(scratch, 0, sizeof *scratch);
+}
