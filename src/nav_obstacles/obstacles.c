@@ -472,8 +472,8 @@ static void mark_obstacles(const tl_nav_obstacles *o, uint32_t x, uint32_t z, tl
 }
 
 // Makes a tile with what stands on it now.
-static tl_result rebake_tile(tl_nav_obstacles *o, tile_floors *tile, tl_nav_rebaked_tile *rebaked,
-                             tl_nav_bake_report *report)
+static tl_result rebake_with_obstacles(tl_nav_obstacles *o, tile_floors *tile, tl_nav_rebaked_tile *rebaked,
+                                       tl_nav_bake_report *report)
 {
     const uint32_t x = (uint32_t)rebaked->tile_x, z = (uint32_t)rebaked->tile_z;
     tl_nav_config config;
@@ -508,7 +508,7 @@ tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked
     rebaked_out->tile_x = (int32_t)x;
     rebaked_out->tile_z = (int32_t)z;
     if (tile->floors.frame.span_count > 0) {
-        TL_TRY(rebake_tile(o, tile, rebaked_out, report_out));
+        TL_TRY(rebake_with_obstacles(o, tile, rebaked_out, report_out));
     }
     end_wait(o);
     return TL_OK;

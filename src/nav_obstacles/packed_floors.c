@@ -18,9 +18,9 @@
 #include <string.h>
 
 enum {
-    MAX_LITERALS = 128, // control bytes 0 .. 127: so many values and one more
-    MIN_RUN = 3,        // control bytes 128 .. 255: a value that stands MIN_RUN and more times
-    MAX_RUN = 127 + MIN_RUN
+    MAX_PACKED_LITERALS = 128, // control bytes 0 .. 127: so many values and one more
+    MIN_PACKED_RUN = 3,        // control bytes 128 .. 255: a value that stands MIN_PACKED_RUN and more times
+    MAX_PACKED_RUN = 127 + MIN_PACKED_RUN
 };
 
 // ---- Runs --------------------------------------------------------------------------------------------------
@@ -34,7 +34,7 @@ typedef struct value_array {
 
 static uint64_t most_bytes(const value_array *values)
 {
-    return values->count * values->size + values->count / MAX_LITERALS + 1;
+    return values->count * values->size + values->count / MAX_PACKED_LITERALS + 1;
 }
 
 static bool are_equal(const value_array *values, uint64_t a, uint64_t b)
@@ -45,7 +45,7 @@ static bool are_equal(const value_array *values, uint64_t a, uint64_t b)
 static uint64_t run_length(const value_array *values, uint64_t first)
 {
     uint64_t end = first + 1;
-    while (end < values->count && end - first < MAX_RUN && are_equal(values, first, end)) {
+    while (end < values->count && end - first < MAX_PACKED_RUN && are_equal(values, first, end)) {
         end++;
     }
     return end - first;
@@ -56,18 +56,19 @@ static uint8_t *write_runs(const value_array *values, uint8_t *to)
 {
     for (uint64_t i = 0; i < values->count;) {
         uint64_t run = run_length(values, i);
-        if (run >= MIN_RUN) {
-            *to++ = (uint8_t)(128 + run - MIN_RUN);
+        if (run >= MIN_PACKED_RUN) {
+            *to++ = (uint8_t)(128 + run - MIN_PACKED_RUN);
             memcpy(to, values->bytes + i * values->size, values->size);
             to += values->size;
             i += run;
             continue;
         }
         uint64_t end = i + run; // up to the next run
-        while (end < values->count && end - i < MAX_LITERALS && (run = run_length(values, end)) < MIN_RUN) {
+        while (end < values->count && end - i < MAX_PACKED_LITERALS &&
+               (run = run_length(values, end)) < MIN_PACKED_RUN) {
             end += run;
         }
-        const uint64_t literals = end - i < MAX_LITERALS ? end - i : MAX_LITERALS;
+        const uint64_t literals = end - i < MAX_PACKED_LITERALS ? end - i : MAX_PACKED_LITERALS;
         *to++ = (uint8_t)(literals - 1);
         memcpy(to, values->bytes + i * values->size, literals * values->size);
         to += literals * values->size;
@@ -89,7 +90,7 @@ static const uint8_t *read_runs(const uint8_t *from, size_t size, uint64_t count
             to += bytes;
             continue;
         }
-        const uint32_t run = control - 128 + MIN_RUN;
+        const uint32_t run = control - 128 + MIN_PACKED_RUN;
         if (size == 1) {
             memset(to, *from, run);
         } else {

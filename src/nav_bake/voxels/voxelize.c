@@ -164,7 +164,7 @@ static inline bool lies_in_one_cell_of(const tl_voxel_band *band, const point_bo
     return box->max.x <= end_x && box->max.z <= end_z;
 }
 
-static tl_result add_cell(const tl_voxel_band *band, const point_box *box, uint32_t area)
+static tl_result add_one_cell(const tl_voxel_band *band, const point_box *box, uint32_t area)
 {
     const tl_voxel_walk w = { .band = band, .area = area };
     const uint32_t row = (uint32_t)(int32_t)box->min.z - band->first_row;
@@ -182,7 +182,7 @@ tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_voxel_point a, tl_v
     }
     const point_box box = box_of_points(&a, &b, &c);
     if (lies_in_one_cell_of(band, &box)) {
-        return add_cell(band, &box, area);
+        return add_one_cell(band, &box, area);
     }
     const double first_row = (double)band->first_row, height = (double)band->height_voxels;
     int32_t first_x, last_x, first_z, last_z; // columns and rows of the band
