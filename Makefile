@@ -6,6 +6,7 @@
 #   make python-test   set up, build and test the Python package, in a virtual environment of its own
 #   make amalgamation   the library as two files, build/amalgamation/talus.c and talus.h
 #   make package    the Debian packages, in build/package
+#   make rust-test  test the Rust crates (cargo)
 #   make docs       the documentation site, in build/docs/html
 #   make viewer     set up, build the viewer's page, and serve it to the browser; talus view fills it with a level
 #   make bench      set up, build, and run every benchmark; make bench-rays runs one
@@ -29,7 +30,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench bench-simd bench-python sanitize tsan msan fuzz cross growth python-test docs amalgamation package format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
+.PHONY: all demo test benchmarks bench bench-simd bench-python sanitize tsan msan fuzz cross growth python-test docs amalgamation package rust-test format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
 
 all:
 	tools/setup tools
@@ -130,6 +131,10 @@ amalgamation:
 package:
 	tools/setup tools package
 	tools/package build/package
+
+rust-test:
+	tools/setup tools rust
+	tools/rust-test build/rust
 
 format:
 	git ls-files '*.c' '*.h' '*.inl' '*.cpp' '*.hpp' | xargs clang-format -i

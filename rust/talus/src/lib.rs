@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#![doc = include_str!("../README.md")]
+
+mod error;
+mod level;
+mod memory;
+mod navmesh;
+mod shapes;
+mod soup;
+
+pub use error::{Error, ErrorKind};
+pub use level::Level;
+pub use navmesh::{Navmesh, NavmeshSettings, Path, Query};
+pub use shapes::{distance, penetration, Hull, Penetration, Pose, Separation, Shape};
+pub use soup::{Cull, Nearest, Ray, RayHit, Side, Soup};
+
+/// A point or direction: x, y up, z; metres.
+pub type Point = [f32; 3];

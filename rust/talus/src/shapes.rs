@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+use std::marker::PhantomData;
+use std::ptr::{null, null_mut};
+
+use talus_sys as sys;
+
+use crate::memory::Blob;
+use crate::soup::point_of;
+use crate::{Error, Point};
+
+pub(crate) fn vec3(p: Point) -> sys::tl_vec3 {
+    sys::tl_vec3 { x: p[0], y: p[1], z: p[2] }
+}
+
+/// The convex hull of points. Immutable: threads may share it.
+pub struct Hull {
+    pub(crate) blob: Blob<sys::tl_hull>,
+}
+
+impl Hull {
+    /// Bakes the hull of points, exactly: every point lies in it.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Degenerate`](crate::ErrorKind) for points in a plane, `NotFinite`, `Range`, `Memory`.
+    pub fn bake(points: &[Point]) -> Result<Hull, Error> {
+        let count = u32::try_from(points.len()).map_err(|_| Error::too_many("points"))?;
+        let mut hull = null_mut();
+        // SAFETY: the slice outlives the call; a NULL def means the defaults; outputs are valid.
+        unsafe {
+            let mut report: sys::tl_hull_report = std::mem::zeroed();
+            let result = sys::tl_hull_bake(points.as_ptr().cast(), count, null(), &mut hull, &mut report);
+            Error::check(result, Some(&report.base))?;
+        }
+        Ok(Hull { blob: Blob::owned(hull) })
+    }
+
+    /// How many of the points are corners.
+    pub fn vertex_count(&self) -> u32 {
+        // SAFETY: the hull is whole.
+        unsafe { (*self.blob.get()).vertex_count }
+    }
+
+    /// Whether a point lies in the hull or on it.
+    pub fn contains(&self, point: Point) -> bool {
+        // SAFETY: the hull is whole.
+        unsafe { sys::tl_hull_contains(self.blob.get(), vec3(point)) }
+    }
+}
+
+/// A convex shape in a frame of its own, with a rounding `radius` around it.
+#[derive(Clone, Copy)]
+pub struct Shape<'a> {
+    raw: sys::tl_convex,
+    hull: PhantomData<&'a Hull>,
+}
+
+// SAFETY: plain data, and a borrowed hull, which threads may share.
+unsafe impl Send for Shape<'_> {}
+unsafe impl Sync for Shape<'_> {}
+
+impl<'a> Shape<'a> {
+    fn new(raw: sys::tl_convex) -> Shape<'a> {
+        Shape { raw, hull: PhantomData }
+    }
+
+    pub(crate) fn raw(&self) -> *const sys::tl_convex {
+        &self.raw
+    }
+
+    /// A sphere.
+    pub fn sphere(center: Point, radius: f32) -> Shape<'static> {
+        // SAFETY: makes a plain struct; so do those below.
+        Shape::new(unsafe { sys::tl_convex_sphere(vec3(center), radius) })
+    }
+
+    /// A box along the axes, by its half extents in metres.
+    pub fn cuboid(center: Point, half_extents: Point, radius: f32) -> Shape<'static> {
+        // SAFETY: see sphere.
+        Shape::new(unsafe { sys::tl_convex_box(vec3(center), vec3(half_extents), radius) })
+    }
+
+    /// The segment from a to b, with a radius.
+    pub fn capsule(a: Point, b: Point, radius: f32) -> Shape<'static> {
+        // SAFETY: see sphere.
+        Shape::new(unsafe { sys::tl_convex_capsule(vec3(a), vec3(b), radius) })
+    }
+
+    /// A cylinder by the middles of its two discs.
+    pub fn cylinder(a: Point, b: Point, disc_radius: f32, radius: f32) -> Shape<'static> {
+        // SAFETY: see sphere.
+        Shape::new(unsafe { sys::tl_convex_cylinder(vec3(a), vec3(b), disc_radius, radius) })
+    }
+
+    /// A hull, which is borrowed.
+    pub fn hull(hull: &'a Hull, radius: f32) -> Shape<'a> {
+        // SAFETY: the hull is whole, and outlives the shape by its lifetime.
+        Shape::new(unsafe { sys::tl_convex_from_hull(hull.blob.get(), radius) })
+    }
+}
+
+/// Where a shape stands: turned first, then moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// A unit quaternion: x, y, z, w.
+    pub rotation: [f32; 4],
+    /// Metres.
+    pub position: Point,
+}
+
+impl Default for Pose {
+    fn default() -> Pose {
+        Pose { rotation: [0.0, 0.0, 0.0, 1.0], position: [0.0; 3] }
+    }
+}
+
+impl Pose {
+    /// Moved, and not turned.
+    pub fn at(position: Point) -> Pose {
+        Pose { position, ..Pose::default() }
+    }
+
+    pub(crate) fn raw(&self) -> sys::tl_transform {
+        let [x, y, z, w] = self.rotation;
+        sys::tl_transform { rotation: sys::tl_quat { x, y, z, w }, position: vec3(self.position) }
+    }
+}
+
+/// How far two shapes are apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Separation {
+    /// Metres; 0 where they overlap.
+    pub distance: f32,
+    /// Metres: the true distance is not less.
+    pub lower_bound: f32,
+    /// Whether they overlap.
+    pub overlap: bool,
+    /// The nearest point of the first shape.
+    pub point_a: Point,
+    /// The nearest point of the second shape.
+    pub point_b: Point,
+    /// The direction between them, of length 1.
+    pub normal: Point,
+}
+
+/// How deep two shapes are in one another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Penetration {
+    /// Metres: the shortest translation that separates them.
+    pub depth: f32,
+    /// The true depth lies between these two.
+    pub bounds: [f32; 2],
+    /// The direction of that translation, of length 1.
+    pub normal: Point,
+    /// The first shape's point deepest in the second.
+    pub point_a: Point,
+    /// The second shape's point deepest in the first.
+    pub point_b: Point,
+}
+
+/// The distance of two shapes, with the points nearest to one another.
+///
+/// ```
+/// use talus::{distance, Pose, Shape};
+///
+/// let ball = Shape::sphere([0.0; 3], 1.0);
+/// let crate_ = Shape::cuboid([0.0; 3], [1.0; 3], 0.0);
+/// let apart = distance(&ball, &Pose::at([4.0, 0.0, 0.0]), &crate_, &Pose::default());
+/// assert!((apart.distance - 2.0).abs() < 1e-6);
+/// ```
+pub fn distance(a: &Shape<'_>, pose_a: &Pose, b: &Shape<'_>, pose_b: &Pose) -> Separation {
+    // SAFETY: shapes borrow their hulls; the rest is plain data; without a cache the search begins anew.
+    unsafe {
+        let mut found: sys::tl_separation = std::mem::zeroed();
+        sys::tl_convex_distance(a.raw(), pose_a.raw(), b.raw(), pose_b.raw(), null_mut(), &mut found);
+        Separation {
+            distance: found.distance,
+            lower_bound: found.lower_bound,
+            overlap: found.overlap,
+            point_a: point_of(found.point_a),
+            point_b: point_of(found.point_b),
+            normal: point_of(found.normal),
+        }
+    }
+}
+
+/// How deep two shapes are in one another; `None`: they do not overlap.
+pub fn penetration(a: &Shape<'_>, pose_a: &Pose, b: &Shape<'_>, pose_b: &Pose) -> Option<Penetration> {
+    // SAFETY: as in distance.
+    unsafe {
+        let mut found: sys::tl_penetration = std::mem::zeroed();
+        sys::tl_convex_penetration(a.raw(), pose_a.raw(), b.raw(), pose_b.raw(), null_mut(), &mut found).then(|| {
+            Penetration {
+                depth: found.depth,
+                bounds: [found.lower_bound, found.upper_bound],
+                normal: point_of(found.normal),
+                point_a: point_of(found.point_a),
+                point_b: point_of(found.point_b),
+            }
+        })
+    }
+}

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+use std::ptr::null;
+
+use talus_sys as sys;
+
+use crate::memory::Blob;
+use crate::shapes::vec3;
+use crate::{Error, Point, Pose, Shape};
+
+/// Which sides of triangles a ray ignores.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Cull {
+    /// Both sides are hit.
+    #[default]
+    None,
+    /// Back sides are ignored.
+    Back,
+    /// Front sides are ignored.
+    Front,
+}
+
+/// A ray: an origin, a direction of any length, and how far it reaches in lengths of its direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Metres.
+    pub origin: Point,
+    /// Of any length but 0.
+    pub direction: Point,
+    /// In lengths of the direction; infinity is allowed.
+    pub max_t: f32,
+}
+
+impl Ray {
+    /// A ray without an end.
+    pub fn new(origin: Point, direction: Point) -> Ray {
+        Ray { origin, direction, max_t: f32::INFINITY }
+    }
+
+    fn raw(&self) -> sys::tl_ray {
+        sys::tl_ray { origin: vec3(self.origin), direction: vec3(self.direction), tmax: self.max_t }
+    }
+}
+
+/// Where a ray hits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayHit {
+    /// The point is origin + t * direction.
+    pub t: f32,
+    /// Index of the triangle in the source.
+    pub triangle: u32,
+    /// Weights of the triangle's second and third corner.
+    pub barycentric: [f32; 2],
+    /// The front side's normal, of length 1.
+    pub normal: Point,
+    /// The triangle's material, or 0.
+    pub material: u16,
+    /// Whether the back side was hit.
+    pub back: bool,
+}
+
+/// The point of a soup nearest to a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// On the surface.
+    pub point: Point,
+    /// Metres.
+    pub distance: f32,
+    /// The triangle's front normal, of length 1.
+    pub normal: Point,
+    /// Index of the triangle in the source.
+    pub triangle: u32,
+}
+
+/// Where a point is, in a closed soup.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Not enclosed.
+    Outside,
+    /// Enclosed.
+    Inside,
+    /// On a triangle.
+    OnSurface,
+}
+
+/// A level's triangles in a BVH, for rays and shapes. Immutable: threads may share it.
+///
+/// No ray slips through an edge or a corner that triangles share.
+pub struct Soup {
+    pub(crate) blob: Blob<sys::tl_soup>,
+}
+
+/// A view of the caller's slices, for the C interface; it lives as long as they.
+pub(crate) fn view(vertices: &[Point], triangles: &[[u32; 3]]) -> Result<sys::tl_mesh_view, Error> {
+    Ok(sys::tl_mesh_view {
+        vertices: vertices.as_ptr().cast(),
+        vertex_count: u32::try_from(vertices.len()).map_err(|_| Error::too_many("vertices"))?,
+        indices: triangles.as_ptr().cast(),
+        triangle_count: u32::try_from(triangles.len()).map_err(|_| Error::too_many("triangles"))?,
+        materials: null(),
+    })
+}
+
+impl Soup {
+    /// Bakes triangles, given as indices into `vertices`. Triangles without area are left out.
+    ///
+    /// # Errors
+    /// [`ErrorKind::NotFinite`](crate::ErrorKind), `Range`, `Index` name the vertex or triangle; `Empty`, `Memory`.
+    pub fn bake(vertices: &[Point], triangles: &[[u32; 3]]) -> Result<Soup, Error> {
+        let view = view(vertices, triangles)?;
+        let mut soup = std::ptr::null_mut();
+        // SAFETY: the view's slices outlive the call; a NULL def means the defaults; outputs are valid.
+        unsafe {
+            let mut report: sys::tl_soup_report = std::mem::zeroed();
+            let result = sys::tl_soup_bake(&view, null(), &mut soup, &mut report);
+            Error::check(result, Some(&report.base))?;
+        }
+        Ok(Soup { blob: Blob::owned(soup) })
+    }
+
+    /// The first triangle that the ray hits.
+    pub fn cast_ray(&self, ray: &Ray) -> Option<RayHit> {
+        self.cast_ray_culled(ray, Cull::None)
+    }
+
+    /// The first triangle that the ray hits on a side that is not ignored.
+    pub fn cast_ray_culled(&self, ray: &Ray, cull: Cull) -> Option<RayHit> {
+        // SAFETY: the soup is whole, the structs are plain data; a zeroed filter ignores nothing.
+        unsafe {
+            let mut filter: sys::tl_ray_filter = std::mem::zeroed();
+            filter.cull = cull as sys::tl_ray_cull;
+            let filter = if cull == Cull::None { null() } else { &filter as *const _ };
+            let mut hit = std::mem::zeroed();
+            sys::tl_soup_cast_ray(self.blob.get(), &ray.raw(), filter, &mut hit).then(|| ray_hit(&hit))
+        }
+    }
+
+    /// Many rays at once: the same answers, faster in soups larger than the processor's caches.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Limit`](crate::ErrorKind) for more than 2^32 - 1 rays.
+    pub fn cast_rays(&self, rays: &[Ray]) -> Result<Vec<Option<RayHit>>, Error> {
+        let count = u32::try_from(rays.len()).map_err(|_| Error::too_many("rays"))?;
+        let rays: Vec<sys::tl_ray> = rays.iter().map(Ray::raw).collect();
+        // SAFETY: zero is a valid value of every field; both arrays have `count` entries.
+        unsafe {
+            let mut hits: Vec<sys::tl_ray_hit> = vec![std::mem::zeroed(); rays.len()];
+            sys::tl_soup_cast_rays(self.blob.get(), rays.as_ptr(), count, null(), null(), hits.as_mut_ptr());
+            Ok(hits.iter().map(|hit| (hit.triangle != sys::TL_NO_TRIANGLE).then(|| ray_hit(hit))).collect())
+        }
+    }
+
+    /// Whether the ray hits anything: faster than where.
+    pub fn is_occluded(&self, ray: &Ray) -> bool {
+        // SAFETY: the soup is whole, the ray plain data.
+        unsafe { sys::tl_soup_occluded(self.blob.get(), &ray.raw(), null()) }
+    }
+
+    /// Whether no triangle meets the segment from a to b.
+    pub fn line_of_sight(&self, a: Point, b: Point) -> bool {
+        // SAFETY: as in is_occluded.
+        unsafe { sys::tl_soup_line_of_sight(self.blob.get(), vec3(a), vec3(b), null()) }
+    }
+
+    /// The nearest point of the surface within `max_distance` metres; `None`: nothing is that near.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Argument`](crate::ErrorKind) and `NotFinite` for such arguments.
+    pub fn nearest(&self, point: Point, max_distance: f32) -> Result<Option<Nearest>, Error> {
+        // SAFETY: the soup is whole, the output valid.
+        unsafe {
+            let mut found: sys::tl_soup_point = std::mem::zeroed();
+            match sys::tl_soup_nearest(self.blob.get(), vec3(point), max_distance, null(), &mut found) {
+                sys::TL_NOT_FOUND => Ok(None),
+                result => Error::check(result, None).map(|()| {
+                    Some(Nearest {
+                        point: point_of(found.point),
+                        distance: found.distance,
+                        normal: point_of(found.normal),
+                        triangle: found.triangle,
+                    })
+                }),
+            }
+        }
+    }
+
+    /// Whether a shape at a pose overlaps a triangle.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Argument`](crate::ErrorKind) and `NotFinite` for such a shape or pose.
+    pub fn overlaps(&self, shape: &Shape<'_>, pose: &Pose) -> Result<bool, Error> {
+        let mut overlap = false;
+        // SAFETY: the shape borrows its hull; the rest is plain data, and the output valid.
+        let result = unsafe { sys::tl_soup_overlaps(self.blob.get(), shape.raw(), pose.raw(), null(), &mut overlap) };
+        Error::check(result, None).map(|()| overlap)
+    }
+
+    /// On which side of a closed surface a point is.
+    ///
+    /// # Errors
+    /// [`ErrorKind::NotFinite`](crate::ErrorKind) for such a point.
+    pub fn locate(&self, point: Point) -> Result<Side, Error> {
+        // SAFETY: the soup is whole, the output valid.
+        unsafe {
+            let mut location: sys::tl_soup_location = std::mem::zeroed();
+            Error::check(sys::tl_soup_locate(self.blob.get(), vec3(point), &mut location), None)?;
+            Ok(match location.side {
+                sys::TL_SOUP_INSIDE => Side::Inside,
+                sys::TL_SOUP_ON_SURFACE => Side::OnSurface,
+                _ => Side::Outside,
+            })
+        }
+    }
+
+    /// Bytes of memory, and in a file.
+    pub fn size(&self) -> u64 {
+        // SAFETY: the soup is whole.
+        unsafe { sys::tl_soup_size(self.blob.get()) }
+    }
+}
+
+pub(crate) fn point_of(v: sys::tl_vec3) -> Point {
+    [v.x, v.y, v.z]
+}
+
+fn ray_hit(hit: &sys::tl_ray_hit) -> RayHit {
+    RayHit {
+        t: hit.t,
+        triangle: hit.triangle,
+        barycentric: [hit.u, hit.v],
+        normal: point_of(hit.normal),
+        material: hit.material,
+        back: hit.back,
+    }
+}
