@@ -169,6 +169,21 @@ typedef struct tl_convex_hit {
 TL_API bool tl_convex_cast(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                            tl_vec3 motion, tl_convex_hit *hit_out);
 
+/// Cast with rotation: moves B from pose `from` to pose `to`, and finds when it first comes as near to A as `gap`,
+/// metres, > 0. Returns `hit`.
+///
+/// The position moves evenly, the rotation the shorter way by the normalized mean of both quaternions, t of the second
+/// and 1 - t of the first: at most 1.28 times as fast at half time as on average. t is never later than the
+/// true time of that gap but for float rounding of the poses, and then the shapes are at most `gap` apart, or
+/// touch: conservative advancement, each step as long as no point of B can close the distance along the separating
+/// plane. A step is a distance query; five are common for a gap of a hundredth of the size. A gap below a millionth of
+/// the coordinates counts as that. `point` and `normal` as in
+/// tl_convex_cast; after TL_MAX_CAST_ITERATIONS the way is free until t, unknown beyond, reported as a hit with
+/// TL_CONVEX_ITERATIONS. A `gap` that is not > 0, or NaN: TL_CONVEX_NOT_FINITE.
+/// Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996.
+TL_API bool tl_convex_cast_turning(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform from,
+                                   tl_transform to, float gap, tl_convex_hit *hit_out);
+
 /// Casts a ray at any shape. The direction has any length but zero; t is in units of it, up to t_max, which may be
 /// INFINITY. An origin inside is an initial overlap. Returns `hit`.
 TL_API bool tl_convex_cast_ray(const tl_convex *shape, tl_transform pose, tl_vec3 origin, tl_vec3 direction,

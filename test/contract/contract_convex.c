@@ -71,6 +71,17 @@ static tl_result cast(contract_run *run)
     return TL_OK;
 }
 
+static tl_result cast_turning(contract_run *run)
+{
+    const convex_pair p = make_pair(run, 3.0f);
+    tl_transform to = p.pose_b;
+    to.position.y -= 4.0f;
+    tl_convex_hit hit;
+    TEST_CHECK(tl_convex_cast_turning(&p.a, p.pose_a, &p.b, p.pose_b, to, 0.01f, &hit));
+    run->answer = contract_hash(&hit.t, sizeof hit.t, hit.iterations);
+    return TL_OK;
+}
+
 static tl_result cast_ray(contract_run *run)
 {
     const convex_pair p = make_pair(run, 3.0f);
@@ -122,6 +133,7 @@ const contract_entry CONTRACT_TABLE_convex[] = {
     { "tl_convex_overlap", POSE_CASES, 0, 0, NULL, overlap, NULL },
     { "tl_convex_penetration", POSE_CASES, 0, 0, NULL, penetration, NULL },
     { "tl_convex_cast", POSE_CASES, 0, 0, NULL, cast, NULL },
+    { "tl_convex_cast_turning", POSE_CASES, 0, 0, NULL, cast_turning, NULL },
     { "tl_convex_cast_ray", POSE_CASES, 0, 0, NULL, cast_ray, NULL },
     { "tl_convex_contacts", POSE_CASES | CONTRACT_BIT(NULL_DEF), 0, 0, NULL, contacts, NULL },
     { "tl_convex_contacts_along", POSE_CASES | CONTRACT_BIT(NULL_DEF), 0, 0, NULL, contacts_along, NULL },
