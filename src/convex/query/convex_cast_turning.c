@@ -60,7 +60,7 @@ static bool start_turning(turning_cast *c, const tl_convex *b, tl_transform from
     tl_quat r = c->to.rotation;
     double x = (double)r.x - (double)p.x, y = (double)r.y - (double)p.y, z = (double)r.z - (double)p.z,
            w = (double)r.w - (double)p.w;
-    double chord = sqrt(x * x + y * y + z * z + w * w); // 2 sin(p / 2)
+    double chord = sqrt(x * x + y * y + z * z + w * w); // twice the sine of half the angle
     c->turn_speed = 2.0 * chord / sqrt(0.5 * (1.0 + cosine)) * reach * (1.0 + 16.0 * (double)TL_FLOAT_ROUNDING);
     c->velocity = tl_vec3d_sub(tl_vec3d_from(to.position), tl_vec3d_from(from.position));
     c->noise = POSE_ROUNDING *
