@@ -15,7 +15,10 @@
 #define AXIS_GAP (4.0 * (double)TL_FLOAT_ROUNDING)
 
 // Edges whose cross product is shorter are parallel, and then the faces' normals are as shallow to so much of the size.
-#define PARALLEL  1e-7
+#define PARALLEL 1e-7
+
+// Where edges that are so nearly parallel cross cannot be told.
+#define LEVEL     1e-4
 
 #define BOX_ERROR TL_DOUBLE_GAMMA(64)
 
@@ -90,7 +93,7 @@ static void load_boxes(const tl_minkowski *pair, const tl_box *a, const tl_box *
 static void try_box_axis(box_pair *p, int axis, double depth, double gap, tl_vec3d normal)
 {
     p->least = depth < p->least ? depth : p->least;
-    if (depth < p->best - gap) {
+    if (depth < p->best - (p->axis < 6 ? gap : 0.0)) { // of two edges the better one, or their points lie elsewhere
         p->best = depth;
         p->axis = axis;
         p->normal = normal;
@@ -159,7 +162,7 @@ static tl_vec3d edge_middle(tl_vec3d center, const double half[3], uint32_t bits
     return tl_vec3d_make(p[0], p[1], p[2]);
 }
 
-// The points of both edges that are nearest to one another.
+// The points of both edges that are nearest to one another; of edges that are nearly parallel a search knows better.
 static void edge_points(const tl_minkowski *pair, const box_pair *p, tl_deepest *out)
 {
     int i = (p->axis - 6) / 3, j = (p->axis - 6) % 3;
@@ -171,6 +174,9 @@ static void edge_points(const tl_minkowski *pair, const box_pair *p, tl_deepest 
     tl_vec3d u = { i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0 }, v = column(p, j);
     tl_vec3d apart = tl_vec3d_sub(b, a), cross = tl_vec3d_cross(u, v);
     double length_sq = tl_vec3d_dot(cross, cross);
+    if (length_sq < LEVEL * LEVEL) {
+        return;
+    }
     double s = tl_vec3d_dot(tl_vec3d_cross(apart, v), cross) / length_sq,
            t = tl_vec3d_dot(tl_vec3d_cross(apart, u), cross) / length_sq;
     out->on_a = tl_vec3d_mul_add(a, u, fmin(fmax(s, -p->half_a[i]), p->half_a[i]));
