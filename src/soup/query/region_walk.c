@@ -10,6 +10,8 @@
 
 #include "soup/query/region_walk.h"
 
+#include "base/compiler.h"
+
 uint32_t tl_region_enter_box(const tl_walk_boxes *boxes, const void *region)
 {
     const tl_aabb *box = region;
@@ -36,7 +38,8 @@ static bool leaf_has(const tl_soup *soup, uint32_t child, uint32_t triangle)
     return false;
 }
 
-static bool is_first_copy(const tl_soup *soup, const tl_region *region, const tl_walk_triangle *triangle)
+// Its walk is gone from the stack when the triangle is reported.
+static TL_NOINLINE bool is_first_copy(const tl_soup *soup, const tl_region *region, const tl_walk_triangle *triangle)
 {
     tl_aabb own = tl_walk_triangle_box(triangle);
     tl_walk walk;

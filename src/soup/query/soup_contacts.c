@@ -66,26 +66,36 @@ static bool is_accepted(const contact_walk *w, const tl_walk_triangle *triangle)
                                                              tl_query_shape_sees(&w->shape, triangle->corners));
 }
 
-static bool triangle_near_point(const tl_walk_triangle *triangle, void *user)
+static bool rises_at_point(const plane_test *t, const tl_vec3 corners[3])
 {
-    const plane_test *t = user;
-    return tl_aabb_overlaps(tl_walk_triangle_box(triangle), t->box) && is_accepted(t->walk, triangle);
-}
-
-static bool test_triangle(const tl_walk_triangle *triangle, void *user)
-{
-    plane_test *t = user;
     bool rises = false;
     for (int i = 0; i < 3; i++) {
-        double distance, rise = rise_above(t, triangle->corners[i], &distance);
+        double distance, rise = rise_above(t, corners[i], &distance);
         rises = rises || rise > RISE * distance + (double)t->gap;
     }
-    if (rises) { // the exact distance only where it matters
-        tl_convex shape = tl_convex_triangle(triangle->corners[0], triangle->corners[1], triangle->corners[2], 0.0f),
-                  point = tl_convex_sphere(t->point, t->gap);
-        t->rises = tl_convex_overlap(&shape, tl_transform_identity(), &point, tl_transform_identity(), NULL);
+    if (!rises) { // the exact distance only where it matters
+        return false;
     }
-    return !t->rises;
+    tl_convex shape = tl_convex_triangle(corners[0], corners[1], corners[2], 0.0f),
+              point = tl_convex_sphere(t->point, t->gap);
+    return tl_convex_overlap(&shape, tl_transform_identity(), &point, tl_transform_identity(), NULL);
+}
+
+// Here a triangle that comes twice does no harm, so none is said to belong: that it is the first copy takes another
+// walk, on a stack where one walk is under way already.
+static bool look_at_neighbour(const tl_walk_triangle *triangle, void *user)
+{
+    plane_test *t = user;
+    t->rises = t->rises || (tl_aabb_overlaps(tl_walk_triangle_box(triangle), t->box) &&
+                            is_accepted(t->walk, triangle) && rises_at_point(t, triangle->corners));
+    return false;
+}
+
+static bool go_on(const tl_walk_triangle *triangle, void *user)
+{
+    (void)triangle;
+    (void)user;
+    return true;
 }
 
 // Of several contacts a point of the edge that they lie on, which is no end of it.
@@ -111,7 +121,7 @@ static bool stands_out(const contact_walk *w, const tl_walk_triangle *triangle, 
     t.box.min = t.box.max = t.point;
     t.box = grown_box(t.box, t.gap);
     t.rises = false;
-    tl_region region = { tl_region_enter_box, &t.box, triangle_near_point, test_triangle, &t };
+    tl_region region = { tl_region_enter_box, &t.box, look_at_neighbour, go_on, &t };
     tl_region_walk(w->soup, &region);
     return !t.rises;
 }
