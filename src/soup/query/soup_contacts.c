@@ -112,7 +112,8 @@ static bool stands_out(const contact_walk *w, const tl_walk_triangle *triangle, 
 {
     plane_test t;
     tl_triangle_point nearest;
-    tl_triangle_nearest(triangle->corners, tl_vec3d_from(middle_contact(manifold)), &nearest);
+    const tl_vec3 corners[3] = { triangle->corners[0], triangle->corners[1], triangle->corners[2] };
+    tl_triangle_nearest(corners, tl_vec3d_from(middle_contact(manifold)), &nearest);
     t.walk = w;
     t.point = tl_vec3d_to_float(nearest.point);
     tl_vec3 size = tl_abs(t.point);
