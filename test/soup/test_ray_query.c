@@ -2,6 +2,7 @@
 //
 // ray_query.c: what a ray hits, by example, against integer arithmetic, and without leaks.
 
+#include "soup/ray/ray_job.h"
 #include "soup_models.h"
 
 static tl_vec3 vec(float x, float y, float z)
@@ -488,6 +489,68 @@ static void test_line_of_sight_is_symmetric(void **state)
     model_free(&m);
 }
 
+static bool third(uint32_t triangle, uint16_t material, void *user)
+{
+    (void)material;
+    (void)user;
+    return triangle % 3 != 0;
+}
+
+// What a filter ignores is told by the float filters where they are sure of a hit, and else in double, as for all hits.
+// Every order of corners, so that pairs are stored in all of theirs.
+static void test_filters_of_sure_hits(void **state)
+{
+    (void)state;
+    model m = model_ball(3, 4, 0.3f, vec(0, 0, 0), 1);
+    uint16_t *materials = malloc(m.triangle_count * sizeof *materials);
+    TEST_CHECK(materials != NULL);
+    for (uint32_t i = 0; i < m.triangle_count; i++) {
+        uint32_t *corner = m.indices + 3 * (size_t)i, kept[3] = { corner[0], corner[1], corner[2] };
+        for (uint32_t k = 0; k < 3; k++) {
+            corner[k] = kept[(i % 2 == 0 ? k + i : 2 * k + i) % 3]; // 1 in 2 runs the other way round
+        }
+        materials[i] = (uint16_t)(i % 5);
+    }
+    tl_ray_filter filters[5] = { 0 };
+    filters[0].cull = TL_RAY_CULL_BACK;
+    filters[1].cull = TL_RAY_CULL_FRONT;
+    filters[2].ignored_materials = 0x15;
+    filters[3].accept = third;
+    filters[4] = (tl_ray_filter){ TL_RAY_CULL_BACK, 2, third, NULL };
+    tl_mesh_view view = model_view(&m);
+    view.materials = materials;
+    for (model_storage storage = 0; storage < MODEL_STORAGES; storage++) {
+        tl_soup_def def = model_soup_def(storage);
+        tl_soup *soup = NULL;
+        TEST_CHECK(tl_soup_bake(&view, &def, &soup, NULL) == TL_OK);
+        test_random random = { 5 };
+        uint32_t met = 0, missed = 0;
+        for (uint32_t i = 0; i < 4000; i++) {
+            tl_vec3 from = test_random_point(&random, vec(-6, -6, -6), vec(6, 6, 6));
+            tl_ray ray = { from, test_random_direction(&random), i % 3 == 0 ? 5.0f : INFINITY };
+            const tl_ray_filter *filter = &filters[i % 5];
+            tl_ray_hit hit, first;
+            uint32_t count;
+            TEST_CHECK(!tl_is_error(tl_soup_cast_ray_all(soup, &ray, TL_HITS_TOUCHED, filter, &first, 1, &count)));
+            for (tl_ray_isa isa = TL_RAY_SCALAR; isa < TL_RAY_ISA_COUNT; isa++) {
+                tl_ray_walk_fn *walk = tl_ray_walk_for(isa);
+                if (walk != NULL) {
+                    bool found = tl_soup_cast_ray_with(walk, soup, &ray, filter, &hit);
+                    TEST_CHECK(found == (count != 0) && tl_soup_occluded_with(walk, soup, &ray, filter) == found);
+                    TEST_CHECK(!found ||
+                               (hit.t == first.t && hit.triangle == first.triangle && hit.back == first.back));
+                }
+            }
+            met += count != 0;
+            missed += count == 0;
+        }
+        TEST_CHECK(met > 400 && missed > 400);
+        tl_blob_free(soup);
+    }
+    free(materials);
+    model_free(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -496,6 +559,7 @@ int main(void)
         cmocka_unit_test(test_what_hits_nothing),
         cmocka_unit_test(test_culling_and_folded_pair),
         cmocka_unit_test(test_masks_filters_and_ties),
+        cmocka_unit_test(test_filters_of_sure_hits),
         cmocka_unit_test(test_one_material),
         cmocka_unit_test(test_lattice_against_integers),
         cmocka_unit_test(test_closed_surface_has_no_leak),

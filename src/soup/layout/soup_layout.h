@@ -142,6 +142,12 @@ static inline uint32_t tl_id_order(uint32_t id)
     return id >> 29;
 }
 
+/// Whether the view's corners run around the triangle the other way than a, e, c.
+static inline bool tl_id_is_reversed(uint32_t id)
+{
+    return tl_id_order(id) >= 4; // the odd permutations are the last three
+}
+
 static inline const tl_soup_node *tl_soup_nodes(const tl_soup *soup)
 {
     return (const tl_soup_node *)(const void *)((const char *)soup + soup->node_offset);

@@ -31,8 +31,8 @@ static inline bool tl_ray_filter_accepts(const tl_soup *soup, const tl_ray_filte
     return filter->accept == NULL || filter->accept(triangle, material, filter->accept_user);
 }
 
-/// The filter, or NULL where it ignores nothing that the soup holds: then a hit that the float filters are sure of
-/// needs no second look, which is worth a third of the time.
+/// The filter, or NULL where it ignores nothing that the soup holds: then hits need not be looked at, and coherent rays
+/// are traced in packets.
 static inline const tl_ray_filter *tl_ray_filter_in_use(const tl_soup *soup, const tl_ray_filter *filter)
 {
     if (filter == NULL || filter->cull != TL_RAY_CULL_NONE || filter->accept != NULL) {

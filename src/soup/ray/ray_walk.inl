@@ -374,6 +374,22 @@ static TL_ALWAYS_INLINE uint32_t nearest_lane(const walk_lanes *lanes, uint32_t 
     return nearest;
 }
 
+// Which of the lanes that are surely hit the filter ignores. All weights of such a lane have one sign, that of
+// `negative` for the order of its slots, and so it is known from which side the ray comes.
+static TL_NOINLINE uint32_t ignored_lanes(const tl_ray_job *job, uint32_t child, uint32_t sure, uint32_t negative)
+{
+    uint32_t ignored = 0, n = tl_child_pair_count(child);
+    const tl_soup_leaf *leaf = leaf_of(job, child, BUFFER_VISITED);
+    const uint32_t *ids = (const uint32_t *)(const void *)(leaf + 1);
+    for (; sure != 0; sure &= sure - 1) {
+        uint32_t bit = tl_lowest_bit(sure), id = ids[lane_of_bit(bit, n)];
+        bool positive = (negative >> bit & 1u) == (uint32_t)tl_id_is_reversed(id);
+        tl_seen seen = (job->per_depth > 0.0f) == positive ? TL_SEEN_BACK : TL_SEEN_FRONT;
+        ignored |= (uint32_t)!tl_ray_filter_accepts(job->soup, job->filter, id & TL_ID_INDEX, seen) << bit;
+    }
+    return ignored;
+}
+
 // Settles the lanes of a leaf that may be hit. True: any hit will do, and there is one.
 static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const leaf_lanes *v, uint32_t child, bool any,
                                           walk_best *best)
@@ -403,8 +419,13 @@ static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const leaf_lanes *v, 
     if (maybe == 0) {
         return false;
     }
-    uint32_t sure =
-        tl_f32x8_signs(v->sure) & tl_f32x8_less(tl_f32x8_all(0.0f), low) & clear & (job->filter == NULL ? 0xffu : 0u);
+    uint32_t sure = tl_f32x8_signs(v->sure) & tl_f32x8_less(tl_f32x8_all(0.0f), low) & clear;
+    if (job->filter != NULL) {
+        maybe &= ~ignored_lanes(job, child, maybe & sure, tl_f32x8_signs(v->ae));
+        if (maybe == 0) {
+            return false;
+        }
+    }
     uint32_t better = maybe & sure & tl_f32x8_less(high, tl_f32x8_all(best->ahead));
     if (any && better != 0) {
         return true;
