@@ -16,7 +16,9 @@
 //   where it does not fit, the promise for that very place decides: a point d metres from the outline has d more
 //   metres free than the outline. A probe as thin as that is swept again. A fixed radius that is small enough to be
 //   safe everywhere was rejected: it would pass a pillar at arm's length.
-// - Step. Two floors a climb apart in voxels are up to a voxel farther apart in truth, since both are rounded.
+// - Step. Two floors a climb apart in voxels are up to a voxel farther apart in truth, since both are rounded. And a
+//   slope's voxel is as high as its column's upper side, from where the step is taken: whoever has walked on to the
+//   lower side, as far as under the edge of a platform, has the slope's rise over a column more before him.
 // - Height. A floor is rounded up and a ceiling down, so a column keeps its promise; but the floor under the path is
 //   one point of the column.
 // - Surface. A floor's voxel is the top of what lies in its column: a slope's higher side, rounded up. The detail mesh
@@ -287,7 +289,8 @@ void tl_audit_walk_begin(tl_audit_walker *walker)
 static bool is_step(const tl_audit_walker *walker, const floor_hit *floor)
 {
     const tl_audit_scene *scene = walker->scene;
-    return !walker->standing || fabsf(floor->y - walker->feet.y) <= scene->probe.step + floor->rise * scene->stride;
+    const float slope = tl_maxf(floor->rise * scene->stride, walker->rise * SQRT_2 * scene->config.cell_size);
+    return !walker->standing || fabsf(floor->y - walker->feet.y) <= scene->probe.step + slope;
 }
 
 // What was tried when no floor could be reached.
@@ -311,6 +314,7 @@ static bool reach_floor(tl_audit_walker *walker, float radius, tl_vec3 surface, 
         }
         if (can_walk_to(walker, radius, to, &hit)) {
             walker->feet = to;
+            walker->rise = floors[i].rise;
             return true;
         }
         if (!trial->stopped) {
@@ -339,6 +343,7 @@ static bool choose_floor(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 su
                                  : record_high_step(walker, polygon, trial.nearest, floors[0].triangle);
         }
         walker->feet = trial.nearest;
+        walker->rise = 0.0f;
     }
     walker->polygon = polygon;
     walker->standing = true;

@@ -29,6 +29,7 @@ typedef struct tl_audit_walker {
     uint64_t tolerated; ///< places where a thinner probe was enough
     bool standing;
     tl_vec3 feet;       ///< where the probe stands, when it does
+    float rise;         ///< of the slope that it stands on, over a metre
     tl_nav_ref polygon; ///< that it stands on
 } tl_audit_walker;
 

@@ -86,6 +86,19 @@ static void test_missing_navmesh(void **state)
     cli_do(0, "audit hole.talus --paths 50 --min-area 100");
 }
 
+// A ramp goes on under a platform that one steps up to from it: its column of voxels is as high as its upper side, from
+// where the step is low enough. Whoever has walked to the lower side has more before him, which is no fault.
+static void test_ramp_under_a_platform(void **state)
+{
+    (void)state;
+    cli_write_text("ramp.obj", "v -3 4 0\nv -3 4 6\nv 3 4 6\nv 3 4 0\n"
+                               "v -3 4.2935 -1.7\nv -3 2 0.714211\nv 3 2 0.714211\nv 3 4.2935 -1.7\n"
+                               "v -3 4.2935 -6.2909\nv 3 4.2935 -6.2909\n"
+                               "f 1 2 3 4\nf 5 6 7 8\nf 9 5 8 10\n");
+    cli_do(0, "path ramp.obj 0,4.1,-5 0,4,5 --agent-radius 0.45");
+    cli_do(0, "audit ramp.obj --agent-radius 0.45");
+}
+
 // A file keeps the volumes that it was baked with: where one cut the floor away nothing is missing, and why names it.
 static void test_volumes_are_kept(void **state)
 {
@@ -179,9 +192,13 @@ static void test_bad_input(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_sound_level),    cmocka_unit_test(test_missing_navmesh),
-        cmocka_unit_test(test_volumes_are_kept), cmocka_unit_test(test_why),
-        cmocka_unit_test(test_pruned_files),     cmocka_unit_test(test_bad_input),
+        cmocka_unit_test(test_a_sound_level),
+        cmocka_unit_test(test_missing_navmesh),
+        cmocka_unit_test(test_ramp_under_a_platform),
+        cmocka_unit_test(test_volumes_are_kept),
+        cmocka_unit_test(test_why),
+        cmocka_unit_test(test_pruned_files),
+        cmocka_unit_test(test_bad_input),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }

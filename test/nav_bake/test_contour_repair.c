@@ -38,6 +38,33 @@ static void thin_floor_stays(void **state)
     fixture_compact_free(&compact);
 }
 
+// A pillar on the border between two regions: each on its own may make its half of the outline straight, and both are
+// then the same edge, there and back, with nothing between.
+static void pillar_between_regions_stays(void **state)
+{
+    (void)state;
+    static const char *const rows[] = { "000000000000", "000000000000", "000000000000", "00000   0000", "00000   0000",
+                                        "00000   0000", "000000000000", "000000000000", "000000000000" };
+    enum { WIDTH = 12, HEIGHT = 9, BORDER_X = 6 };
+    tl_nav_compact compact = fixture_from_rows(rows, HEIGHT, 0);
+    tl_nav_config config = region_config(TL_NAV_LAYERS, 0, 0);
+    config.max_simplification_error = 4.0f;
+    TEST_RESULT(tl_nav_bake_regions(&config, NULL, &compact, NULL), TL_OK);
+    for (uint32_t column = 0; column < WIDTH * HEIGHT; column++) {
+        for (uint32_t i = compact.first_span[column]; i < compact.first_span[column + 1]; i++) {
+            compact.region[i] = column % WIDTH < BORDER_X ? 1 : 2;
+        }
+    }
+    compact.region_count = 3;
+    tl_nav_contours contours;
+    TEST_RESULT(tl_nav_bake_contours(&config, &compact, NULL, &contours, NULL), TL_OK);
+    TEST_CHECK(contours.set.contour_count == 2 && contours.repaired_count > 0);
+    const int64_t area2 = contour_area2(&contours.set, 0) + contour_area2(&contours.set, 1);
+    TEST_CHECK(area2 < 2 * WIDTH * HEIGHT && area2 >= 2 * (WIDTH * HEIGHT - 9));
+    tl_nav_contours_free(&contours);
+    fixture_compact_free(&compact);
+}
+
 static uint64_t count_conflicts(const tl_contour_work *work)
 {
     uint64_t conflicts = 0;
@@ -113,6 +140,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(thin_wall_stays),
         cmocka_unit_test(thin_floor_stays),
+        cmocka_unit_test(pillar_between_regions_stays),
         cmocka_unit_test(no_conflict_is_left),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -7,7 +7,8 @@
 // edges that conflict the one with the larger error gets its farthest traced vertex back, on both of its sides; then
 // all regions concerned are checked again. Traced outlines have no conflict, so this ends with them at the latest.
 //
-// A hole that an edge has left behind on its wrong side is a conflict too.
+// A hole that an edge has left behind on its wrong side is a conflict too. And so is a pillar between two regions of
+// which both outlines have become one edge, the same there and back: the polygons on its two sides would be neighbours.
 // Conflicts are found exactly, by a sweep along x over the edges of one region. Allowed are edges that share an end,
 // and those that run the same way back: the two sides of a drop inside a region. (Recast does not look; it names the
 // region in its log when a hole is left without an outline.)
@@ -15,6 +16,7 @@
 #include "nav_bake/contours/contours.h"
 
 #include "base/assert.h"
+#include "base/hash.h"
 
 #include <string.h>
 
@@ -301,6 +303,96 @@ static void mend_stray_holes(repair *r, uint32_t region, uint32_t count)
     }
 }
 
+// ---- Pillars between regions -------------------------------------------------------------------------------------
+
+// Traced vertices that the simplified outline has, each with the next one, where the edge between them is a wall.
+typedef struct wall_list {
+    tl_sort_item *items, *scratch; // key: a hash of both ends, the same for both directions; value: begin; extra: end
+    uint32_t count;
+} wall_list;
+
+static uint64_t wall_key(const tl_contour_vertex *a, const tl_contour_vertex *b)
+{
+    const uint64_t p = tl_hash_mix((uint64_t)(uint32_t)a->x << 32 | (uint32_t)a->z);
+    const uint64_t q = tl_hash_mix((uint64_t)(uint32_t)b->x << 32 | (uint32_t)b->z);
+    return p + q; // compared in full below
+}
+
+static void add_walls_of_loop(const tl_contour_work *work, const tl_contour_loop *loop, wall_list *walls)
+{
+    uint32_t first = loop->first;
+    while (!work->keep[first]) {
+        first++;
+    }
+    for (uint32_t begin = first;;) {
+        uint32_t end = tl_contour_next(work, begin);
+        while (!work->keep[end]) {
+            end = tl_contour_next(work, end);
+        }
+        if (work->across[begin] == 0) {
+            const tl_sort_item item = { wall_key(&work->vertices[begin], &work->vertices[end]), begin, end };
+            walls->items[walls->count++] = item;
+        }
+        if (end == first) {
+            return;
+        }
+        begin = end;
+    }
+}
+
+static bool runs_back(const tl_contour_work *work, const tl_sort_item *e, const tl_sort_item *f)
+{
+    const tl_contour_vertex *v = work->vertices;
+    return tl_contour_same_xz(&v[e->value], &v[f->extra]) && tl_contour_same_xz(&v[e->extra], &v[f->value]) &&
+           v[e->value].y == v[f->extra].y && v[e->extra].y == v[f->value].y;
+}
+
+// Room for the walls of all outlines as they are simplified now, in order of their keys.
+static tl_result collect_walls(const tl_contour_work *work, wall_list *walls)
+{
+    uint32_t kept = 0;
+    for (uint32_t v = 0; v < work->vertex_count; v++) {
+        kept += work->keep[v];
+    }
+    walls->items = TL_PUSH(work->arena, tl_sort_item, kept);
+    walls->scratch = TL_PUSH(work->arena, tl_sort_item, kept);
+    walls->count = 0;
+    if (walls->items == NULL || walls->scratch == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t l = 0; l < work->loop_count; l++) {
+        if (work->loops[l].area2 != 0) {
+            add_walls_of_loop(work, &work->loops[l], walls);
+        }
+    }
+    tl_radix_sort(walls->items, walls->scratch, walls->count);
+    return TL_OK;
+}
+
+// Whether a pillar got a vertex back, so that its regions are to be checked again.
+static bool mend_pillars(repair *r, const wall_list *walls)
+{
+    const tl_contour_work *work = r->work;
+    bool mended = false;
+    for (uint32_t i = 0; i < walls->count; i++) {
+        const tl_sort_item *e = &walls->items[i];
+        for (uint32_t k = i + 1; k < walls->count && walls->items[k].key == e->key; k++) {
+            const tl_sort_item *f = &walls->items[k];
+            double e_error, f_error;
+            if (!runs_back(work, e, f)) {
+                continue;
+            }
+            const uint32_t e_far = tl_contours_farthest(work, e->value, e->extra, &e_error);
+            const uint32_t f_far = tl_contours_farthest(work, f->value, f->extra, &f_error);
+            if (e_error > 0 || f_error > 0) { // else a drop, whose two sides are traced alike
+                keep_vertex(r, e_error >= f_error ? e_far : f_far);
+                mended = true;
+            }
+        }
+    }
+    return mended;
+}
+
 static tl_result prepare_repair(repair *r)
 {
     tl_contour_work *work = r->work;
@@ -323,29 +415,41 @@ static tl_result prepare_repair(repair *r)
                                                                                                        : TL_ERR_MEMORY;
 }
 
+static void repair_regions(repair *r)
+{
+    for (bool changed = true; changed;) { // each round but the last keeps at least one vertex more
+        changed = false;
+        for (uint32_t region = 1; region < r->region_count; region++) {
+            if (!r->dirty[region]) {
+                continue;
+            }
+            r->dirty[region] = 0;
+            for (uint32_t k = r->work->region_first[region]; k < r->work->region_first[region + 1]; k++) {
+                tl_contours_refine(r->work, r->work->by_region[k], r->stack);
+            }
+            uint32_t count = collect_edges(r, region);
+            mend_crossings(r, count);
+            if (!r->dirty[region]) {
+                mend_stray_holes(r, region, count);
+            }
+            changed = true;
+        }
+    }
+}
+
 tl_result tl_contours_repair(tl_contour_work *work)
 {
     repair r = { .work = work, .region_count = work->compact->region_count };
     tl_arena_mark mark = tl_arena_get_mark(work->arena);
     TL_TRY(prepare_repair(&r));
     memset(r.dirty, 1, r.region_count);
-    for (bool changed = true; changed;) { // each round but the last keeps at least one vertex more
-        changed = false;
-        for (uint32_t region = 1; region < r.region_count; region++) {
-            if (!r.dirty[region]) {
-                continue;
-            }
-            r.dirty[region] = 0;
-            for (uint32_t k = r.work->region_first[region]; k < r.work->region_first[region + 1]; k++) {
-                tl_contours_refine(work, r.work->by_region[k], r.stack);
-            }
-            uint32_t count = collect_edges(&r, region);
-            mend_crossings(&r, count);
-            if (!r.dirty[region]) {
-                mend_stray_holes(&r, region, count);
-            }
-            changed = true;
-        }
+    for (bool mended = true; mended;) {
+        const tl_arena_mark before = tl_arena_get_mark(work->arena);
+        wall_list walls;
+        repair_regions(&r);
+        TL_TRY(collect_walls(work, &walls));
+        mended = mend_pillars(&r, &walls);
+        tl_arena_rollback(work->arena, before);
     }
     for (uint32_t l = 0; l < work->loop_count; l++) {
         work->repaired_count += r.mended[l];
