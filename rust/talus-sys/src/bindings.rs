@@ -453,14 +453,31 @@ pub struct tl_contact {
     pub point_a: tl_vec3,
     pub point_b: tl_vec3,
     pub separation: f32,
+    pub feature_a: u32,
+    pub feature_b: u32,
+    pub previous: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct tl_contact_manifold {
     pub count: u32,
-    pub contacts: [tl_contact; 4],
+    pub contacts: [tl_contact; 5],
     pub normal: tl_vec3,
+    pub separation: f32,
     pub status: tl_convex_status,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_contact_cache {
+    pub simplex: tl_simplex_cache,
+    pub count: u32,
+    pub has_axis: u32,
+    pub features: [[u32; 2]; 5],
+    pub points: [tl_vec3; 5],
+    pub axis_a: tl_vec3,
+    pub axis_b: tl_vec3,
+    pub b_to_a: [f32; 12],
+    pub proven_depth: f32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1148,6 +1165,7 @@ pub struct tl_nav_compact {
     pub region: *mut u32,
     pub region_count: u32,
     pub region_stats: tl_nav_region_stats,
+    pub taken: *const u8,
     pub allocator: tl_allocator,
 }
 #[repr(C)]
@@ -1345,6 +1363,12 @@ pub struct tl_ray_hit {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct tl_segment {
+    pub a: tl_vec3,
+    pub b: tl_vec3,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct tl_soup_point {
     pub point: tl_vec3,
     pub distance: f32,
@@ -1367,6 +1391,22 @@ pub struct tl_shape_hit {
     pub normal: tl_vec3,
     pub face_normal: tl_vec3,
     pub status: tl_convex_status,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_soup_contact_query {
+    pub shape: *const tl_convex,
+    pub pose: tl_transform,
+    pub limits: tl_contact_limits,
+    pub filter: *const tl_ray_filter,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_soup_contact {
+    pub triangle: u32,
+    pub material: u16,
+    pub is_face: bool,
+    pub manifold: tl_contact_manifold,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1409,6 +1449,7 @@ pub struct tl_nav_audit_def {
     pub volume_count: u32,
     pub pruned: *const tl_navmesh,
     pub min_missing_area: f32,
+    pub max_steps: u64,
     pub host: tl_host,
     pub cookie: u32,
 }
@@ -1621,6 +1662,7 @@ pub struct tl_nav_rebaked_tile {
 pub struct tl_nav_prepare_def {
     pub table_bytes: u64,
     pub label_bytes: u64,
+    pub progress: *const tl_progress,
     pub cookie: u32,
 }
 #[repr(C)]
@@ -1810,6 +1852,34 @@ pub struct tl_pack_pruning {
     pub seed_count: u32,
     pub drop_inside_solids: u32,
     pub reserved: [u32; 5],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_pack_offmesh_link {
+    pub start: tl_vec3,
+    pub end: tl_vec3,
+    pub radius: f32,
+    pub cost_factor: f32,
+    pub fixed_cost: f32,
+    pub area: u32,
+    pub both_ways: u32,
+    pub reserved: u32,
+    pub flags: u64,
+    pub user: u64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_pack_offmesh {
+    pub blob: tl_blob,
+    pub count: u32,
+    pub reserved: [u32; 11],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_pack_areas {
+    pub blob: tl_blob,
+    pub count: u32,
+    pub reserved: [u32; 11],
 }
 #[repr(C)]
 pub struct tl_scene {
@@ -2025,6 +2095,15 @@ extern "C" {
         motion: tl_vec3,
         hit_out: *mut tl_convex_hit,
     ) -> bool;
+    pub fn tl_convex_cast_turning(
+        a: *const tl_convex,
+        pose_a: tl_transform,
+        b: *const tl_convex,
+        from: tl_transform,
+        to: tl_transform,
+        gap: f32,
+        hit_out: *mut tl_convex_hit,
+    ) -> bool;
     pub fn tl_convex_cast_ray(
         shape: *const tl_convex,
         pose: tl_transform,
@@ -2039,7 +2118,16 @@ extern "C" {
         b: *const tl_convex,
         pose_b: tl_transform,
         limits: *const tl_contact_limits,
-        cache: *mut tl_simplex_cache,
+        cache: *mut tl_contact_cache,
+        manifold_out: *mut tl_contact_manifold,
+    ) -> u32;
+    pub fn tl_convex_contacts_along(
+        a: *const tl_convex,
+        pose_a: tl_transform,
+        b: *const tl_convex,
+        pose_b: tl_transform,
+        normal: tl_vec3,
+        limits: *const tl_contact_limits,
         manifold_out: *mut tl_contact_manifold,
     ) -> u32;
     pub fn tl_default_mesh_def() -> tl_mesh_def;
@@ -2246,6 +2334,7 @@ extern "C" {
         report: *mut tl_report,
     ) -> tl_result;
     pub fn tl_nav_query_destroy(query: *mut tl_nav_query);
+    pub fn tl_nav_query_reserve(query: *mut tl_nav_query, nodes: u32) -> tl_result;
     pub fn tl_nav_path_status_name(status: tl_nav_path_status) -> *const c_char;
     pub fn tl_nav_query_find_path(
         query: *mut tl_nav_query,
@@ -2622,6 +2711,30 @@ extern "C" {
         host: *const tl_host,
         hits_out: *mut tl_ray_hit,
     );
+    pub fn tl_soup_cast_segments(
+        soup: *const tl_soup,
+        segments: *const tl_segment,
+        count: u32,
+        filter: *const tl_ray_filter,
+        host: *const tl_host,
+        hits_out: *mut tl_ray_hit,
+    );
+    pub fn tl_soup_occluded_rays(
+        soup: *const tl_soup,
+        rays: *const tl_ray,
+        count: u32,
+        filter: *const tl_ray_filter,
+        host: *const tl_host,
+        occluded_out: *mut bool,
+    );
+    pub fn tl_soup_lines_of_sight(
+        soup: *const tl_soup,
+        segments: *const tl_segment,
+        count: u32,
+        filter: *const tl_ray_filter,
+        host: *const tl_host,
+        clear_out: *mut bool,
+    );
     pub fn tl_soup_cast_ray_all(
         soup: *const tl_soup,
         ray: *const tl_ray,
@@ -2661,6 +2774,13 @@ extern "C" {
         motion: tl_vec3,
         filter: *const tl_ray_filter,
         hit_out: *mut tl_shape_hit,
+    ) -> tl_result;
+    pub fn tl_soup_find_contacts(
+        soup: *const tl_soup,
+        query: *const tl_soup_contact_query,
+        contacts_out: *mut tl_soup_contact,
+        capacity: u32,
+        count_out: *mut u32,
     ) -> tl_result;
     pub fn tl_soup_locate(
         soup: *const tl_soup,
@@ -3143,6 +3263,32 @@ extern "C" {
         report_out: *mut tl_report,
     ) -> tl_result;
     pub fn tl_pack_pruning_seeds(pruning: *const tl_pack_pruning) -> *const tl_vec3;
+    pub fn tl_pack_offmesh_encode(
+        links: *const tl_nav_offmesh,
+        count: u32,
+        allocator: *const tl_allocator,
+        offmesh_out: *mut *mut tl_pack_offmesh,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_pack_offmesh_check(
+        bytes: *const c_void,
+        size: u64,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_pack_offmesh_at(offmesh: *const tl_pack_offmesh, index: u32) -> tl_nav_offmesh;
+    pub fn tl_pack_areas_encode(
+        areas: *const u8,
+        count: u32,
+        allocator: *const tl_allocator,
+        areas_out: *mut *mut tl_pack_areas,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_pack_areas_check(
+        bytes: *const c_void,
+        size: u64,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_pack_areas_array(areas: *const tl_pack_areas) -> *const u8;
     pub fn tl_pack_load_navmesh(
         pack: *const tl_pack,
         allocator: *const tl_allocator,
@@ -3421,15 +3567,29 @@ mod layout {
         assert_eq!(core::mem::size_of::<tl_contact_limits>(), 8);
         assert_eq!(core::mem::offset_of!(tl_contact_limits, margin), 0);
         assert_eq!(core::mem::offset_of!(tl_contact_limits, tolerance), 4);
-        assert_eq!(core::mem::size_of::<tl_contact>(), 28);
+        assert_eq!(core::mem::size_of::<tl_contact>(), 40);
         assert_eq!(core::mem::offset_of!(tl_contact, point_a), 0);
         assert_eq!(core::mem::offset_of!(tl_contact, point_b), 12);
         assert_eq!(core::mem::offset_of!(tl_contact, separation), 24);
-        assert_eq!(core::mem::size_of::<tl_contact_manifold>(), 132);
+        assert_eq!(core::mem::offset_of!(tl_contact, feature_a), 28);
+        assert_eq!(core::mem::offset_of!(tl_contact, feature_b), 32);
+        assert_eq!(core::mem::offset_of!(tl_contact, previous), 36);
+        assert_eq!(core::mem::size_of::<tl_contact_manifold>(), 224);
         assert_eq!(core::mem::offset_of!(tl_contact_manifold, count), 0);
         assert_eq!(core::mem::offset_of!(tl_contact_manifold, contacts), 4);
-        assert_eq!(core::mem::offset_of!(tl_contact_manifold, normal), 116);
-        assert_eq!(core::mem::offset_of!(tl_contact_manifold, status), 128);
+        assert_eq!(core::mem::offset_of!(tl_contact_manifold, normal), 204);
+        assert_eq!(core::mem::offset_of!(tl_contact_manifold, separation), 216);
+        assert_eq!(core::mem::offset_of!(tl_contact_manifold, status), 220);
+        assert_eq!(core::mem::size_of::<tl_contact_cache>(), 220);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, simplex), 0);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, count), 36);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, has_axis), 40);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, features), 44);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, points), 84);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, axis_a), 144);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, axis_b), 156);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, b_to_a), 168);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, proven_depth), 216);
         assert_eq!(core::mem::size_of::<tl_mesh_view>(), 40);
         assert_eq!(core::mem::offset_of!(tl_mesh_view, vertices), 0);
         assert_eq!(core::mem::offset_of!(tl_mesh_view, vertex_count), 8);
@@ -4018,7 +4178,7 @@ mod layout {
             core::mem::offset_of!(tl_nav_region_stats, filtered_spans),
             12
         );
-        assert_eq!(core::mem::size_of::<tl_nav_compact>(), 200);
+        assert_eq!(core::mem::size_of::<tl_nav_compact>(), 208);
         assert_eq!(core::mem::offset_of!(tl_nav_compact, width), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_compact, height), 4);
         assert_eq!(core::mem::offset_of!(tl_nav_compact, border_size), 8);
@@ -4040,7 +4200,8 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_compact, region), 144);
         assert_eq!(core::mem::offset_of!(tl_nav_compact, region_count), 152);
         assert_eq!(core::mem::offset_of!(tl_nav_compact, region_stats), 156);
-        assert_eq!(core::mem::offset_of!(tl_nav_compact, allocator), 176);
+        assert_eq!(core::mem::offset_of!(tl_nav_compact, taken), 176);
+        assert_eq!(core::mem::offset_of!(tl_nav_compact, allocator), 184);
         assert_eq!(core::mem::size_of::<tl_nav_contours>(), 216);
         assert_eq!(core::mem::offset_of!(tl_nav_contours, set), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_contours, raw), 80);
@@ -4065,12 +4226,12 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_input, areas), 40);
         assert_eq!(core::mem::offset_of!(tl_nav_input, volumes), 48);
         assert_eq!(core::mem::offset_of!(tl_nav_input, volume_count), 56);
-        assert_eq!(core::mem::size_of::<tl_nav_stages>(), 776);
+        assert_eq!(core::mem::size_of::<tl_nav_stages>(), 784);
         assert_eq!(core::mem::offset_of!(tl_nav_stages, heightfield), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_stages, compact), 112);
-        assert_eq!(core::mem::offset_of!(tl_nav_stages, contours), 312);
-        assert_eq!(core::mem::offset_of!(tl_nav_stages, polygons), 528);
-        assert_eq!(core::mem::offset_of!(tl_nav_stages, detail), 688);
+        assert_eq!(core::mem::offset_of!(tl_nav_stages, contours), 320);
+        assert_eq!(core::mem::offset_of!(tl_nav_stages, polygons), 536);
+        assert_eq!(core::mem::offset_of!(tl_nav_stages, detail), 696);
         assert_eq!(core::mem::size_of::<tl_nav_bake_report>(), 128);
         assert_eq!(core::mem::offset_of!(tl_nav_bake_report, base), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_bake_report, span_count), 48);
@@ -4211,6 +4372,9 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_ray_hit, normal), 16);
         assert_eq!(core::mem::offset_of!(tl_ray_hit, material), 28);
         assert_eq!(core::mem::offset_of!(tl_ray_hit, back), 30);
+        assert_eq!(core::mem::size_of::<tl_segment>(), 24);
+        assert_eq!(core::mem::offset_of!(tl_segment, a), 0);
+        assert_eq!(core::mem::offset_of!(tl_segment, b), 12);
         assert_eq!(core::mem::size_of::<tl_soup_point>(), 40);
         assert_eq!(core::mem::offset_of!(tl_soup_point, point), 0);
         assert_eq!(core::mem::offset_of!(tl_soup_point, distance), 12);
@@ -4230,6 +4394,16 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_shape_hit, normal), 28);
         assert_eq!(core::mem::offset_of!(tl_shape_hit, face_normal), 40);
         assert_eq!(core::mem::offset_of!(tl_shape_hit, status), 52);
+        assert_eq!(core::mem::size_of::<tl_soup_contact_query>(), 56);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact_query, shape), 0);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact_query, pose), 8);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact_query, limits), 36);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact_query, filter), 48);
+        assert_eq!(core::mem::size_of::<tl_soup_contact>(), 232);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact, triangle), 0);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact, material), 4);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact, is_face), 6);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact, manifold), 8);
         assert_eq!(core::mem::size_of::<tl_soup_location>(), 12);
         assert_eq!(core::mem::offset_of!(tl_soup_location, side), 0);
         assert_eq!(core::mem::offset_of!(tl_soup_location, winding), 4);
@@ -4247,7 +4421,7 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_probe, height), 8);
         assert_eq!(core::mem::offset_of!(tl_nav_probe, surface), 12);
         assert_eq!(core::mem::offset_of!(tl_nav_probe, gap), 16);
-        assert_eq!(core::mem::size_of::<tl_nav_audit_def>(), 224);
+        assert_eq!(core::mem::size_of::<tl_nav_audit_def>(), 232);
         assert_eq!(core::mem::offset_of!(tl_nav_audit_def, nav), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_audit_def, path_count), 128);
         assert_eq!(core::mem::offset_of!(tl_nav_audit_def, seed), 136);
@@ -4260,8 +4434,9 @@ mod layout {
             core::mem::offset_of!(tl_nav_audit_def, min_missing_area),
             184
         );
-        assert_eq!(core::mem::offset_of!(tl_nav_audit_def, host), 192);
-        assert_eq!(core::mem::offset_of!(tl_nav_audit_def, cookie), 216);
+        assert_eq!(core::mem::offset_of!(tl_nav_audit_def, max_steps), 192);
+        assert_eq!(core::mem::offset_of!(tl_nav_audit_def, host), 200);
+        assert_eq!(core::mem::offset_of!(tl_nav_audit_def, cookie), 224);
         assert_eq!(core::mem::size_of::<tl_nav_finding>(), 80);
         assert_eq!(core::mem::offset_of!(tl_nav_finding, kind), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_finding, triangle), 4);
@@ -4417,10 +4592,11 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_rebaked_tile, tile_x), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_rebaked_tile, tile_z), 4);
         assert_eq!(core::mem::offset_of!(tl_nav_rebaked_tile, stack), 8);
-        assert_eq!(core::mem::size_of::<tl_nav_prepare_def>(), 24);
+        assert_eq!(core::mem::size_of::<tl_nav_prepare_def>(), 32);
         assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, table_bytes), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, label_bytes), 8);
-        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, cookie), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, progress), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, cookie), 24);
         assert_eq!(core::mem::size_of::<tl_nav_prepared>(), 80);
         assert_eq!(core::mem::offset_of!(tl_nav_prepared, base), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_prepared, kind), 48);
@@ -4573,6 +4749,25 @@ mod layout {
             40
         );
         assert_eq!(core::mem::offset_of!(tl_pack_pruning, reserved), 44);
+        assert_eq!(core::mem::size_of::<tl_pack_offmesh_link>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh_link, start), 0);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh_link, end), 12);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh_link, radius), 24);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh_link, cost_factor), 28);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh_link, fixed_cost), 32);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh_link, area), 36);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh_link, both_ways), 40);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh_link, reserved), 44);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh_link, flags), 48);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh_link, user), 56);
+        assert_eq!(core::mem::size_of::<tl_pack_offmesh>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh, blob), 0);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh, count), 16);
+        assert_eq!(core::mem::offset_of!(tl_pack_offmesh, reserved), 20);
+        assert_eq!(core::mem::size_of::<tl_pack_areas>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_pack_areas, blob), 0);
+        assert_eq!(core::mem::offset_of!(tl_pack_areas, count), 16);
+        assert_eq!(core::mem::offset_of!(tl_pack_areas, reserved), 20);
         assert_eq!(core::mem::size_of::<tl_scene_instance>(), 48);
         assert_eq!(core::mem::offset_of!(tl_scene_instance, soup), 0);
         assert_eq!(core::mem::offset_of!(tl_scene_instance, shape), 8);
