@@ -37,6 +37,7 @@ set(talus_test_sample_level_needs talus_sample)
 
 # Parts of the command.
 set(talus_test_thread_pool_needs talus_cli)
+set(talus_test_draw_navmesh_needs talus_cli talus_sample)
 
 set(talus_test_ray_decide_needs talus_peer_gmp)
 set(talus_test_soup_bake_libraries pthread)
