@@ -51,7 +51,7 @@ static void check(const tl_soup *const soups[2], tl_vec3 origin, tl_vec3 target,
                                   : tl_soup_occluded_with(walk, soups[k], &ray, NULL) == hit);
         }
     }
-    tl_ray_walk_many_fn *many = tl_ray_walk_many_for(tl_ray_best_isa());
+    tl_ray_walk_many_fn *many = tl_ray_best_walk_many();
     if (!is_segment) {
         tl_ray_hit found;
         const tl_ray_batch batch = { .soup = soups[0], .rays = &ray, .count = 1, .hits = &found };

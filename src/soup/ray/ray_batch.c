@@ -24,7 +24,7 @@ enum { SLICE_RAYS = 1 << 12 };
 
 void tl_ray_batch_one(const tl_ray_batch *batch, uint32_t index)
 {
-    tl_ray_walk_fn *walk = tl_ray_walk_for(tl_ray_best_isa());
+    tl_ray_walk_fn *walk = tl_ray_best_walk();
     const tl_vec3 *origin, *target;
     float tmax;
     tl_ray_of_batch(batch, index, &origin, &target, &tmax);
@@ -48,7 +48,7 @@ void tl_ray_batch_apart(const tl_ray_batch *batch, uint32_t first, uint32_t end)
 {
     if (batch->soup->layout == TL_SOUP_FAST && batch->soup->blob.size >= INTERLEAVED_SOUP_SIZE && first < end) {
         tl_ray_batch part = part_of(batch, first, end);
-        tl_ray_walk_many_for(tl_ray_best_isa())(&part);
+        tl_ray_best_walk_many()(&part);
         return;
     }
     for (uint32_t i = first; i < end; i++) {
@@ -63,7 +63,7 @@ static void trace_slice(uint32_t slice, uint32_t worker, void *user)
     tl_ray_batch part = part_of(all, slice * SLICE_RAYS, tl_block_end(slice, SLICE_RAYS, all->count));
     bool packets = all->filter == NULL && all->soup->layout == TL_SOUP_FAST && all->soup->node_count < PACKET_MAX_NODES;
     if (packets) {
-        tl_ray_packets_for(tl_ray_best_packet_isa())(&part);
+        tl_ray_best_packets()(&part);
     } else {
         tl_ray_batch_apart(&part, 0, part.count);
     }

@@ -195,8 +195,10 @@ tl_ray_packets_fn *tl_ray_packets_for(tl_ray_isa isa);
 /// The instruction set that the public queries use on this machine.
 tl_ray_isa tl_ray_best_isa(void);
 
-/// The instruction set of their packets: the widest, for packets fill all lanes.
-tl_ray_isa tl_ray_best_packet_isa(void);
+/// What they run: walks of that instruction set; packets of the widest, for packets fill all lanes.
+tl_ray_walk_fn *tl_ray_best_walk(void);
+tl_ray_walk_many_fn *tl_ray_best_walk_many(void);
+tl_ray_packets_fn *tl_ray_best_packets(void);
 
 /// The public queries with a walk of the caller's choice.
 bool tl_soup_cast_ray_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,

@@ -60,6 +60,8 @@ tl_ray_packets_fn *tl_ray_packets_for(tl_ray_isa isa)
 // AVX-512 on AMD's processors only: Zen 4 and later trace a ray 5 to 15 per cent faster with it. On Intel's Sapphire
 // Rapids it saves instructions and no time (2 to 8 per cent slower), so AVX2 is used there, and on unmeasured
 // processors (bench_rays has a row for each). A machine with AVX-512 always has AVX2.
+//
+// Where the target decides, kernels are named and not looked up, so that a linker can leave the others out.
 static inline tl_ray_walk_fn *best_ray_walk(void)
 {
 #if TL_CPU_LEVELS == 3
@@ -83,13 +85,35 @@ tl_ray_isa tl_ray_best_isa(void)
     return isa;
 }
 
-tl_ray_isa tl_ray_best_packet_isa(void)
+tl_ray_walk_fn *tl_ray_best_walk(void)
 {
+    return best_ray_walk();
+}
+
+tl_ray_walk_many_fn *tl_ray_best_walk_many(void)
+{
+#if TL_CPU_LEVELS == 3
+    return tl_ray_walk_many_for(tl_ray_best_isa());
+#elif TL_CPU_LEVELS == 1
+    return tl_ray_walk_many_vec128;
+#else
+    return tl_ray_walk_many_scalar;
+#endif
+}
+
+tl_ray_packets_fn *tl_ray_best_packets(void)
+{
+#if TL_CPU_LEVELS == 3
     tl_ray_isa isa = (tl_ray_isa)TL_CPU_LEVELS;
     while (tl_ray_packets_for(isa) == NULL) {
         isa--;
     }
-    return isa;
+    return tl_ray_packets_for(isa);
+#elif TL_CPU_LEVELS == 1
+    return tl_ray_packets_vec128;
+#else
+    return tl_ray_packets_scalar;
+#endif
 }
 
 bool tl_soup_cast_ray_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,
