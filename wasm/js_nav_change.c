@@ -7,9 +7,7 @@
 #include <string.h>
 
 // ---------------------------------------------------------------------------------------------------------
-// Off-mesh links. In the slot: start, end, radius, cost factor, fixed cost, flags, user, area, both ways.
-
-tl_nav_offmesh tl_js_offmesh(uint32_t at);
+// Off-mesh links.
 
 tl_nav_offmesh tl_js_offmesh(uint32_t at)
 {
@@ -24,6 +22,14 @@ tl_nav_offmesh tl_js_offmesh(uint32_t at)
     link.area = (uint8_t)tl_js_u32(at + 11);
     link.both_ways = tl_js_slot[at + 12] != 0.0;
     return link;
+}
+
+uint32_t tl_js_put_offmesh(uint32_t at, const tl_nav_offmesh *link)
+{
+    at = tl_js_put_vec3(tl_js_put_vec3(at, link->start), link->end);
+    at = tl_js_put(tl_js_put(at, (double)link->radius), (double)link->cost_factor);
+    at = tl_js_put_u64(tl_js_put_u64(tl_js_put(at, (double)link->fixed_cost), link->flags), link->user);
+    return tl_js_put(tl_js_put(at, link->area), link->both_ways);
 }
 
 /// Slot: the link; then its reference.
@@ -52,12 +58,7 @@ int32_t TL_JS_EXPORT(js_offmesh_next)(const tl_js_navmesh *self, uint32_t cursor
         tl_navmesh_offmesh_state(self->navmesh, ref, &state) != TL_OK) {
         return 0;
     }
-    const tl_nav_offmesh *link = &state.offmesh;
-    uint32_t at = tl_js_put_u64(tl_js_put(0, cursor), ref);
-    at = tl_js_put_vec3(tl_js_put_vec3(at, link->start), link->end);
-    at = tl_js_put(tl_js_put(at, (double)link->radius), (double)link->cost_factor);
-    at = tl_js_put_u64(tl_js_put_u64(tl_js_put(at, (double)link->fixed_cost), link->flags), link->user);
-    at = tl_js_put(tl_js_put(at, link->area), link->both_ways);
+    uint32_t at = tl_js_put_offmesh(tl_js_put_u64(tl_js_put(0, cursor), ref), &state.offmesh);
     at = tl_js_put(tl_js_put(tl_js_put(at, state.anchored), (double)state.length), (double)state.cost);
     for (uint32_t end = 0; end < 2; end++) {
         at = tl_js_put_vec3(tl_js_put_u64(at, state.ends[end].polygon), state.ends[end].point);

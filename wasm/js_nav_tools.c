@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-tl_nav_offmesh tl_js_offmesh(uint32_t at);
-
 // ---------------------------------------------------------------------------------------------------------
 // Jump links.
 

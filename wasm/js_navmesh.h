@@ -36,6 +36,11 @@ tl_result tl_js_navmesh_query(tl_js_navmesh *self, tl_nav_query **query_out);
 /// The smallest area by which it was pruned, square metres; 0: it was not.
 double tl_js_pruned_area(const tl_js_navmesh *self);
 
+/// An off-mesh link in the slot: start, end, radius, cost factor, fixed cost, flags, user, area, both ways.
+tl_nav_offmesh tl_js_offmesh(uint32_t at);
+/// Gives the entry behind it.
+uint32_t tl_js_put_offmesh(uint32_t at, const tl_nav_offmesh *link);
+
 /// Tiles in the order of a file: by z, x and layer. Slot numbers, tl_navmesh_tile_count of them; NULL: out of memory.
 /// Freed with free().
 uint32_t *tl_js_tile_order(const tl_navmesh *navmesh);

@@ -83,6 +83,32 @@ tl_result TL_JS_EXPORT(js_pack_pruning)(const void *bytes, uint32_t size, tl_js_
     return tl_pack_pruning_encode(&def, NULL, &self->pruning, &tl_js_report);
 }
 
+/// Slot: how many links set by hand there are.
+tl_result TL_JS_EXPORT(js_pack_offmesh)(const void *bytes, uint32_t size)
+{
+    const tl_result result = tl_pack_offmesh_check(bytes, size, &tl_js_report);
+    tl_js_put(0, result == TL_OK ? ((const tl_pack_offmesh *)bytes)->count : 0.0);
+    return result;
+}
+
+/// Slot: a link of checked ones.
+void TL_JS_EXPORT(js_pack_offmesh_at)(const tl_pack_offmesh *offmesh, uint32_t index)
+{
+    const tl_nav_offmesh link = tl_pack_offmesh_at(offmesh, index);
+    tl_js_put_offmesh(0, &link);
+}
+
+/// Slot: how many triangles have areas, and where.
+tl_result TL_JS_EXPORT(js_pack_areas)(const void *bytes, uint32_t size)
+{
+    const tl_result result = tl_pack_areas_check(bytes, size, &tl_js_report);
+    if (result == TL_OK) {
+        const tl_pack_areas *areas = bytes;
+        tl_js_put_pointer(tl_js_put(0, areas->count), tl_pack_areas_array(areas));
+    }
+    return result;
+}
+
 /// Slot: how many volumes there are.
 tl_result TL_JS_EXPORT(js_pack_volumes)(const void *bytes, uint32_t size)
 {
@@ -102,6 +128,24 @@ void TL_JS_EXPORT(js_pack_volume)(const tl_pack_volumes *volumes, uint32_t index
 
 // ---------------------------------------------------------------------------------------------------------
 // Writing.
+
+static tl_nav_offmesh *hand_links; // for the next file
+static uint32_t hand_link_count;
+
+/// Slot: a link set by hand, number `index` of `count`: the next file has them.
+tl_result TL_JS_EXPORT(js_pack_put_link)(uint32_t index, uint32_t count)
+{
+    if (hand_link_count != count) {
+        free(hand_links);
+        hand_links = malloc(count * sizeof *hand_links);
+        hand_link_count = hand_links != NULL ? count : 0;
+    }
+    if (index >= hand_link_count) {
+        return TL_ERR_MEMORY;
+    }
+    hand_links[index] = tl_js_offmesh(0);
+    return TL_OK;
+}
 
 static tl_result append_bytes(const void *bytes, size_t size, void *user)
 {
@@ -124,6 +168,8 @@ typedef struct pack_parts {
     const void *soup, *hull;
     const tl_js_navmesh *navmesh;
     tl_pack_navmesh *settings;
+    tl_pack_offmesh *offmesh;
+    tl_pack_areas *areas;
     tl_pack_volumes *volumes;
 } pack_parts;
 
@@ -151,7 +197,9 @@ static tl_result write_parts(const pack_parts *parts)
 {
     static const tl_js_navmesh none;
     const tl_js_navmesh *navmesh = parts->navmesh != NULL ? parts->navmesh : &none;
-    tl_pack_item *items = malloc((count_tiles(navmesh->navmesh) + count_tiles(navmesh->removed) + 8) * sizeof *items);
+    enum { OTHER_ITEMS = 9 };
+    const uint32_t tiles = count_tiles(navmesh->navmesh) + count_tiles(navmesh->removed);
+    tl_pack_item *items = malloc((tiles + OTHER_ITEMS) * sizeof *items);
     tl_result result = TL_ERR_MEMORY;
     uint32_t count = 0;
     if (items != NULL) {
@@ -162,6 +210,8 @@ static tl_result write_parts(const pack_parts *parts)
         add_item(items, &count, TL_PACK_NAVM, 0, parts->settings);
         const bool kept = add_tiles(items, &count, TL_PACK_NAVT, navmesh->navmesh);
         add_item(items, &count, TL_PACK_LINK, 0, navmesh->links);
+        add_item(items, &count, TL_PACK_OFFM, 0, parts->offmesh);
+        add_item(items, &count, TL_PACK_AREA, 0, parts->areas);
         add_item(items, &count, TL_PACK_MARK, 0, parts->volumes);
         add_item(items, &count, TL_PACK_PRUN, 0, navmesh->pruning);
         if (kept && add_tiles(items, &count, TL_PACK_PRUT, navmesh->removed)) {
@@ -195,21 +245,39 @@ static tl_result encode_origin(const char *name, pack_parts *parts)
     return result;
 }
 
-/// Slot: whether there is a meta chunk, its counts, bounds and up axis; whether there is a frame, its origin and axes.
+static tl_result encode_marks(const uint8_t *areas, uint32_t area_count, pack_parts *parts)
+{
+    tl_result result = TL_OK;
+    if (hand_link_count > 0) {
+        result = tl_pack_offmesh_encode(hand_links, hand_link_count, NULL, &parts->offmesh, &tl_js_report);
+    }
+    if (result == TL_OK && area_count > 0) {
+        result = tl_pack_areas_encode(areas, area_count, NULL, &parts->areas, &tl_js_report);
+    }
+    if (result == TL_OK && tl_js_input.volume_count > 0) {
+        result =
+            tl_pack_volumes_encode(tl_js_input.volumes, tl_js_input.volume_count, NULL, &parts->volumes, &tl_js_report);
+    }
+    return result;
+}
+
+/// Slot: whether there is a meta chunk, its counts, bounds and up axis; whether there is a frame, its origin and axes;
+/// how many triangles have areas, and where.
 /// `name` is zero-terminated. Volumes are the input's. Pointers may be NULL. Slot afterwards: how many bytes, and
 /// where.
 tl_result TL_JS_EXPORT(js_pack_write)(const char *name, const void *soup, const void *hull,
                                       const tl_js_navmesh *navmesh)
 {
-    pack_parts parts = { NULL, NULL, soup, hull, navmesh, NULL, NULL };
+    pack_parts parts = { NULL, NULL, soup, hull, navmesh, NULL, NULL, NULL, NULL };
+    const uint32_t area_count = tl_js_u32(15);
+    const uint8_t *areas = (const uint8_t *)(uintptr_t)tl_js_slot[16];
     tl_result result = encode_origin(name, &parts);
     if (result == TL_OK && navmesh != NULL) {
         result = tl_pack_navmesh_encode(&navmesh->def, navmesh->tiles_x, navmesh->tiles_z,
                                         tl_navmesh_tile_count(navmesh->navmesh), NULL, &parts.settings, &tl_js_report);
     }
-    if (result == TL_OK && tl_js_input.volume_count > 0) {
-        result =
-            tl_pack_volumes_encode(tl_js_input.volumes, tl_js_input.volume_count, NULL, &parts.volumes, &tl_js_report);
+    if (result == TL_OK) {
+        result = encode_marks(areas, area_count, &parts);
     }
     if (result == TL_OK) {
         result = write_parts(&parts);
@@ -217,6 +285,11 @@ tl_result TL_JS_EXPORT(js_pack_write)(const char *name, const void *soup, const 
     tl_blob_free(parts.meta);
     tl_blob_free(parts.frame);
     tl_blob_free(parts.settings);
+    tl_blob_free(parts.offmesh);
+    tl_blob_free(parts.areas);
     tl_blob_free(parts.volumes);
+    free(hand_links);
+    hand_links = NULL;
+    hand_link_count = 0;
     return result;
 }

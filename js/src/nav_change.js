@@ -22,6 +22,13 @@ export function putOffMeshLink(link) {
   F64[s + 12] = link.bothWays ? 1 : 0;
 }
 
+/** Reads what tl_js_put_offmesh wrote. */
+export function readOffMeshLink(at) {
+  const s = SLOT + at;
+  return { start: slotVec3(at), end: slotVec3(at + 3), radius: F64[s + 6], costFactor: F64[s + 7], fixedCost: F64[s + 8],
+           flags: U64[s + 9], user: U64[s + 10], area: F64[s + 11], bothWays: F64[s + 12] !== 0 };
+}
+
 const SHAPES = ['cylinder', 'box', 'prism'];
 
 /** Writes an obstacle in the order of obstacle_at. */
@@ -68,9 +75,7 @@ const methods = {
       const s = SLOT, anchored = F64[s + 15] !== 0;
       const ends = [18, 22].map((at) => (U64[s + at] === 0n ? null : readLocation(at)));
       cursor = F64[s];
-      links.push({ ref: U64[s + 1], start: slotVec3(2), end: slotVec3(5), radius: F64[s + 8], costFactor: F64[s + 9],
-                   fixedCost: F64[s + 10], flags: U64[s + 11], user: U64[s + 12], area: F64[s + 13], bothWays: F64[s + 14] !== 0,
-                   anchored, length: F64[s + 16], cost: F64[s + 17], ends });
+      links.push({ ref: U64[s + 1], ...readOffMeshLink(2), anchored, length: F64[s + 16], cost: F64[s + 17], ends });
     }
     return links;
   },

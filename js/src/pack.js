@@ -8,7 +8,7 @@ import { withInput } from './mesh.js';
 import { Navmesh } from './navmesh.js';
 import { VOLUME_KINDS } from './nav_options.js';
 import { readLinks } from './nav_tools.js';
-import { putOffMeshLink } from './nav_change.js';
+import { putOffMeshLink, readOffMeshLink } from './nav_change.js';
 import { Soup } from './soup.js';
 import { F64, SLOT, U8, check, copyIn, copyOut, putAabb, readString, ready, release, slotAabb, slotVec3, wasm } from './module.js';
 
@@ -71,9 +71,22 @@ function readVolumes(chunk) {
   });
 }
 
+function readHandLinks(chunk) {
+  check(wasm.js_pack_offmesh(chunk.address, chunk.size));
+  return Array.from({ length: F64[SLOT] }, (_, i) => {
+    wasm.js_pack_offmesh_at(chunk.address, i);
+    return readOffMeshLink(0);
+  });
+}
+
+function readAreas(chunk) {
+  check(wasm.js_pack_areas(chunk.address, chunk.size));
+  return copyOut(Uint8Array, F64[SLOT + 1], F64[SLOT]);
+}
+
 const bytesOf = (chunk) => U8.slice(chunk.address, chunk.address + chunk.size);
 
-function readNavmesh(settings, { tiles, links, rules, pruned }) {
+function readNavmesh(settings, { tiles, links, handLinks, rules, pruned }) {
   return Navmesh._create((navmesh) => {
     check(wasm.js_pack_navmesh(settings.address, settings.size, navmesh));
     for (const tile of tiles) check(wasm.js_navmesh_add_copy(navmesh, copyIn(bytesOf(tile)), tile.size, 0));
@@ -82,6 +95,10 @@ function readNavmesh(settings, { tiles, links, rules, pruned }) {
     if (links !== undefined) {
       putOffMeshLink({});
       check(wasm.js_links_add(navmesh, links.address, links.size));
+    }
+    for (const link of handLinks) {
+      putOffMeshLink(link);
+      check(wasm.js_offmesh_add(navmesh));
     }
   });
 }
@@ -98,16 +115,19 @@ export function loadPack(bytes) {
     check(wasm.js_pack_open(address, bytes.byteLength));
     const chunks = readChunks(F64[SLOT]);
     const of = (type) => chunks.find((chunk) => chunk.type === type);
-    const [meta, frame, soup, hull, settings, links, volumes, rules] =
-      ['META', 'FRAM', 'SOUP', 'HULL', 'NAVM', 'LINK', 'MARK', 'PRUN'].map(of);
+    const [meta, frame, soup, hull, settings, links, byHand, areas, volumes, rules] =
+      ['META', 'FRAM', 'SOUP', 'HULL', 'NAVM', 'LINK', 'OFFM', 'AREA', 'MARK', 'PRUN'].map(of);
+    const offMeshLinks = byHand ? readHandLinks(byHand) : [];
     const [tiles, pruned] = ['NAVT', 'PRUT'].map((type) => chunks.filter((chunk) => chunk.type === type));
     return {
       meta: meta ? readMeta(meta) : null,
       frame: frame ? readFrame(frame) : null,
       soup: soup ? keep(Soup.fromBytes(bytesOf(soup))) : null,
       hull: hull ? keep(Hull.fromBytes(bytesOf(hull))) : null,
-      navmesh: settings ? keep(readNavmesh(settings, { tiles, links, rules, pruned })) : null,
+      navmesh: settings ? keep(readNavmesh(settings, { tiles, links, handLinks: offMeshLinks, rules, pruned })) : null,
       links: links ? readLinks(links.address, links.size) : [],
+      offMeshLinks,
+      areas: areas ? readAreas(areas) : null,
       volumes: volumes ? readVolumes(volumes) : [],
       chunks: chunks.map(({ type, id, size }) => ({ type, id, size })),
     };
@@ -121,9 +141,15 @@ export function loadPack(bytes) {
 
 const addressOf = (part) => (part ? part._address : 0);
 
-export function savePack({ meta = null, frame = null, soup = null, hull = null, navmesh = null, volumes = null } = {}) {
+export function savePack({ meta = null, frame = null, soup = null, hull = null, navmesh = null, offMeshLinks = [], areas = null,
+                           volumes = null } = {}) {
   ready();
   return withInput(null, { volumes }, () => {
+    offMeshLinks.forEach((link, i) => {
+      putOffMeshLink(link);
+      check(wasm.js_pack_put_link(i, offMeshLinks.length));
+    });
+    const areasAt = areas === null || areas.length === 0 ? 0 : copyIn(Uint8Array.from(areas));
     const name = copyIn(new TextEncoder().encode(`${meta?.name ?? ''}\0`));
     try {
       if (meta !== null && !meta.bounds) throw argumentError('meta.bounds', 'give the box of the mesh');
@@ -137,11 +163,14 @@ export function savePack({ meta = null, frame = null, soup = null, hull = null, 
         turnOf(frame);
         F64.set([...frame.origin, AXES.indexOf(frame.axes)], SLOT + 11);
       }
+      F64[SLOT + 15] = areas?.length ?? 0;
+      F64[SLOT + 16] = areasAt;
       check(wasm.js_pack_write(name, addressOf(soup), addressOf(hull), addressOf(navmesh)));
       const [size, at] = F64.subarray(SLOT, SLOT + 2);
       return U8.slice(at, at + size);
     } finally {
       release(name);
+      release(areasAt);
       wasm.js_trim();
     }
   });

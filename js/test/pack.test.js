@@ -51,6 +51,22 @@ test('the coordinates of the level are kept', () => {
   assert.equal(errorOf(() => savePack({ soup, frame: { origin: [0, 0, 0], axes: 'x' } })).field, 'frame.axes');
 });
 
+test('links set by hand and areas of triangles are kept', () => {
+  const { mesh, soup } = courtyard(), navmesh = Navmesh.bake(mesh);
+  const offMeshLinks = [
+    { start: [2, 0, 20], end: [20, 5, 20], radius: 0.75, costFactor: 2, fixedCost: 3, flags: 5n, user: 7n, area: 9, bothWays: true },
+  ];
+  const areas = Uint8Array.from({ length: 100 }, (_, i) => i);
+  const bytes = savePack({ soup, navmesh, offMeshLinks, areas }), pack = loadPack(bytes);
+  assert.deepEqual(pack.offMeshLinks, offMeshLinks);
+  assert.deepEqual(pack.areas, areas);
+  const { start, end, area, user, bothWays } = pack.navmesh.offMeshLinks()[0];
+  assert.deepEqual({ start, end, area, user, bothWays }, { start: [2, 0, 20], end: [20, 5, 20], area: 9, user: 7n, bothWays: true });
+  assert.deepEqual(savePack(pack), bytes);
+  assert.deepEqual(loadPack(savePack({ soup })).offMeshLinks, []); // not those of the file before
+  assert.equal(errorOf(() => savePack({ offMeshLinks: [{ start: [0, 0, 0], end: [1, 0, 0], radius: -1 }] })).result, 'TL_ERR_ARGUMENT');
+});
+
 test('every damage is refused', () => {
   const bytes = savePack({ soup: courtyard().soup });
   assert.equal(errorOf(() => loadPack(new Uint8Array(64))).result, 'TL_ERR_MAGIC');

@@ -3,7 +3,7 @@
 import type { Aabb, Vec3, Vec3Like } from './base.js';
 import type { Hull } from './convex.js';
 import type { JumpLink } from './nav_tools.js';
-import type { Navmesh } from './navmesh.js';
+import type { Navmesh, OffMeshLink } from './navmesh.js';
 import type { NavVolume } from './nav_bake.js';
 import type { Soup } from './soup.js';
 
@@ -29,7 +29,7 @@ export interface PackFrame {
 }
 
 export interface PackChunk {
-  /** Four characters: META, FRAM, SOUP, HULL, NAVM, NAVT, LINK, MARK, PRUN, PRUT, or the user's own. */
+  /** Four characters: META, FRAM, SOUP, HULL, NAVM, NAVT, LINK, OFFM, AREA, MARK, PRUN, PRUT, or the user's own. */
   type: string;
   id: number;
   size: number;
@@ -43,7 +43,12 @@ export interface Pack {
   soup: Soup | null;
   hull: Hull | null;
   navmesh: Navmesh | null;
+  /** Found ones; they are in the navmesh. */
   links: JumpLink[];
+  /** Set by hand; they are in the navmesh. */
+  offMeshLinks: Required<OffMeshLink>[];
+  /** The areas that materials gave the source's triangles, which `audit` wants; null: all have 63. */
+  areas: Uint8Array | null;
   volumes: NavVolume[];
   chunks: PackChunk[];
 }
@@ -60,7 +65,12 @@ export function savePack(parts: {
   frame?: PackFrame | null;
   soup?: Soup | null;
   hull?: Hull | null;
+  /** With its jump links; not with others, see offMeshLinks. */
   navmesh?: Navmesh | null;
+  /** Set by hand, to be added to the navmesh when the file is read. */
+  offMeshLinks?: readonly OffMeshLink[];
+  /** Areas by the source's triangle. */
+  areas?: ArrayLike<number> | null;
   volumes?: readonly NavVolume[] | null;
 }): Uint8Array;
 
