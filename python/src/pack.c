@@ -16,7 +16,8 @@ typedef struct pack_writer {
     tl_pack_meta *meta;
     tl_pack_navmesh *navmesh;
     tl_pack_volumes *volumes;
-    char *at; // where the next bytes go
+    PyObject *kept; // list of (type, id, bytes): chunks of the file read, which Python has no objects for
+    char *at;       // where the next bytes go
 } pack_writer;
 
 static void add_item(pack_writer *writer, uint32_t type, uint32_t id, const void *blob)
@@ -25,6 +26,45 @@ static void add_item(pack_writer *writer, uint32_t type, uint32_t id, const void
         tl_pack_item item = { type, id, blob, ((const tl_blob *)blob)->size };
         writer->items[writer->count++] = item;
     }
+}
+
+// Chunks that a bake writes here and there; all others stand at the end.
+static int place_of_kept(unsigned long type)
+{
+    return type == TL_PACK_FRAM ? 0 : type == TL_PACK_OFFM || type == TL_PACK_AREA ? 1 : 2;
+}
+
+static void add_kept(pack_writer *writer, int place)
+{
+    for (Py_ssize_t i = 0; i < PyList_Size(writer->kept); i++) {
+        PyObject *chunk = PyList_GetItem(writer->kept, i);
+        const unsigned long type = PyLong_AsUnsignedLong(PyTuple_GetItem(chunk, 0));
+        PyObject *bytes = PyTuple_GetItem(chunk, 2);
+        if (place_of_kept(type) == place) {
+            const tl_pack_item item = { (uint32_t)type, (uint32_t)PyLong_AsUnsignedLong(PyTuple_GetItem(chunk, 1)),
+                                        PyBytes_AsString(bytes), (uint64_t)PyBytes_Size(bytes) };
+            writer->items[writer->count++] = item;
+        }
+    }
+}
+
+// Whether it is a list of (type, id, bytes).
+static bool check_kept(PyObject *kept)
+{
+    for (Py_ssize_t i = 0; i < PyList_Size(kept); i++) {
+        unsigned long type = 0;
+        unsigned long id = 0;
+        PyObject *bytes = NULL;
+        PyObject *chunk = PyList_GetItem(kept, i);
+        if (!PyTuple_Check(chunk)) {
+            PyErr_SetString(PyExc_TypeError, "a chunk is a tuple of type, id and bytes");
+            return false;
+        }
+        if (!PyArg_ParseTuple(chunk, "kkS", &type, &id, &bytes)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static tl_result copy_bytes(const void *bytes, size_t size, void *user)
@@ -77,27 +117,33 @@ static tl_result add_navmesh(pack_writer *writer, const binding_navmesh *held)
     return result;
 }
 
-static uint32_t item_limit(const binding_navmesh *held)
+static size_t item_limit(const binding_navmesh *held, PyObject *kept)
 {
-    uint32_t tiles = held == NULL ? 0 : tl_navmesh_tile_count(held->navmesh);
-    return 7 + tiles + (held != NULL && held->removed != NULL ? tl_navmesh_tile_count(held->removed) : 0);
+    size_t tiles = held == NULL ? 0 : tl_navmesh_tile_count(held->navmesh);
+    return 7 + (size_t)PyList_Size(kept) + tiles +
+           (held != NULL && held->removed != NULL ? tl_navmesh_tile_count(held->removed) : 0);
 }
 
 // What follows the tiles: links, volumes, and what was pruned.
 static tl_result add_rest(pack_writer *writer, const binding_navmesh *held)
 {
     add_item(writer, TL_PACK_LINK, 0, held != NULL ? held->links : NULL);
+    add_kept(writer, 1);
     add_item(writer, TL_PACK_MARK, 0, writer->volumes);
     add_item(writer, TL_PACK_PRUN, 0, held != NULL ? held->pruning : NULL);
-    return held != NULL && held->removed != NULL ? add_tiles(writer, TL_PACK_PRUT, held->removed) : TL_OK;
+    const tl_result result =
+        held != NULL && held->removed != NULL ? add_tiles(writer, TL_PACK_PRUT, held->removed) : TL_OK;
+    add_kept(writer, 2);
+    return result;
 }
 
-// pack_write(name, vertices, triangles, ((bounds)), soup or None, hull or None, navmesh or None, level or None) ->
-// bytes
+// pack_write(name, up, vertices, triangles, ((bounds)), soup or None, hull or None, navmesh or None, level or None,
+// kept) -> bytes
 static PyObject *pack_write(PyObject *self, PyObject *args)
 {
     (void)self;
     const char *name;
+    const char *up;
     unsigned long long vertices = 0;
     unsigned long long triangles = 0;
     tl_aabb bounds;
@@ -105,9 +151,11 @@ static PyObject *pack_write(PyObject *self, PyObject *args)
     PyObject *hull_capsule;
     PyObject *navmesh_capsule;
     PyObject *level_tuple;
-    if (!PyArg_ParseTuple(args, "sKK((fff)(fff))OOOO", &name, &vertices, &triangles, &bounds.min.x, &bounds.min.y,
-                          &bounds.min.z, &bounds.max.x, &bounds.max.y, &bounds.max.z, &soup_capsule, &hull_capsule,
-                          &navmesh_capsule, &level_tuple)) {
+    PyObject *kept;
+    if (!PyArg_ParseTuple(args, "ssKK((fff)(fff))OOOOO!", &name, &up, &vertices, &triangles, &bounds.min.x,
+                          &bounds.min.y, &bounds.min.z, &bounds.max.x, &bounds.max.y, &bounds.max.z, &soup_capsule,
+                          &hull_capsule, &navmesh_capsule, &level_tuple, &PyList_Type, &kept) ||
+        !check_kept(kept)) {
         return NULL;
     }
     const void *soup = soup_capsule != Py_None ? binding_blob_of(soup_capsule, BINDING_SOUP) : NULL;
@@ -121,14 +169,17 @@ static PyObject *pack_write(PyObject *self, PyObject *args)
     }
     pack_writer writer;
     memset(&writer, 0, sizeof(writer));
-    writer.items = calloc(item_limit(held), sizeof(*writer.items));
+    writer.kept = kept;
+    writer.items = calloc(item_limit(held, kept), sizeof(*writer.items));
     tl_result result = writer.items != NULL ? TL_OK : TL_ERR_MEMORY;
     tl_report report = { NULL, NULL, NULL, TL_NO_ELEMENT, NULL, 0 };
     if (result == TL_OK) {
         result = tl_pack_meta_encode(name, vertices, triangles, bounds, NULL, &writer.meta, &report);
     }
     if (result == TL_OK) {
+        writer.meta->source_up = strcmp(up, "z") == 0 ? TL_PACK_UP_Z : TL_PACK_UP_Y;
         add_item(&writer, TL_PACK_META, 0, writer.meta);
+        add_kept(&writer, 0);
         add_item(&writer, TL_PACK_SOUP, 0, soup);
         add_item(&writer, TL_PACK_HULL, 0, hull);
         result = held != NULL ? add_navmesh(&writer, held) : TL_OK;
@@ -345,12 +396,34 @@ static PyObject *pack_meta(PyObject *self, PyObject *capsule)
                                         box.max.x, box.max.y, box.max.z, meta->source_up == TL_PACK_UP_Z ? "z" : "y");
 }
 
+// pack_kept(pack) -> list of (type, id, bytes): the chunks that Python has no objects for
+static PyObject *pack_kept(PyObject *self, PyObject *capsule)
+{
+    (void)self;
+    static const uint32_t KNOWN[] = { TL_PACK_META, TL_PACK_SOUP, TL_PACK_HULL, TL_PACK_NAVM, TL_PACK_NAVT,
+                                      TL_PACK_LINK, TL_PACK_MARK, TL_PACK_PRUN, TL_PACK_PRUT };
+    const open_pack *held = PyCapsule_GetPointer(capsule, BINDING_PACK);
+    PyObject *list = held != NULL ? PyList_New(0) : NULL;
+    for (uint32_t i = 0; list != NULL && i < held->pack.chunk_count; i++) {
+        const tl_pack_chunk chunk = tl_pack_chunk_at(&held->pack, i);
+        bool known = false;
+        for (size_t k = 0; k < sizeof(KNOWN) / sizeof(KNOWN[0]); k++) {
+            known = known || chunk.type == KNOWN[k];
+        }
+        PyObject *entry = known ? NULL
+                                : Py_BuildValue("kky#", (unsigned long)chunk.type, (unsigned long)chunk.id, chunk.bytes,
+                                                (Py_ssize_t)chunk.size);
+        if (!known && (entry == NULL || PyList_Append(list, entry) != 0)) {
+            Py_CLEAR(list);
+        }
+        Py_XDECREF(entry);
+    }
+    return list;
+}
+
 PyMethodDef binding_pack_methods[] = {
-    { "pack_write", pack_write, METH_VARARGS, NULL },
-    { "pack_open", pack_open, METH_VARARGS, NULL },
-    { "pack_blob", pack_blob, METH_VARARGS, NULL },
-    { "pack_navmesh", pack_navmesh, METH_O, NULL },
-    { "pack_volumes", pack_volumes, METH_O, NULL },
-    { "pack_meta", pack_meta, METH_O, NULL },
-    { NULL, NULL, 0, NULL },
+    { "pack_write", pack_write, METH_VARARGS, NULL }, { "pack_open", pack_open, METH_VARARGS, NULL },
+    { "pack_blob", pack_blob, METH_VARARGS, NULL },   { "pack_navmesh", pack_navmesh, METH_O, NULL },
+    { "pack_volumes", pack_volumes, METH_O, NULL },   { "pack_meta", pack_meta, METH_O, NULL },
+    { "pack_kept", pack_kept, METH_O, NULL },         { NULL, NULL, 0, NULL },
 };

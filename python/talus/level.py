@@ -31,6 +31,9 @@ class Level:
     """``y``, or ``z`` where the source was z-up: what is baked is y-up, a point (x, y, z) was turned to (x, z, -y)."""
     source_vertices: int = field(default=0, repr=False)
     source_triangles: int = field(default=0, repr=False)
+    _kept: list[tuple[int, int, bytes]] = field(default_factory=list, repr=False)
+    """Chunks of the file read that stand for nothing here, for the next file: the level's own coordinates, links set by
+    hand (which are in the navmesh too), areas by materials, and users' own."""
 
     def to_bytes(self) -> bytes:
         """The file's bytes. The same parts give the same bytes as ``talus bake``."""
@@ -55,6 +58,7 @@ class Level:
         return bytes(
             _talus.pack_write(
                 self.name,
+                self.up,
                 self.source_vertices or len(points),
                 self.source_triangles or len(triangles),
                 bounds,
@@ -62,6 +66,7 @@ class Level:
                 self.hull._hull if self.hull is not None else None,
                 self.navmesh._navmesh if self.navmesh is not None else None,
                 level,
+                self._kept,
             )
         )
 
@@ -118,6 +123,7 @@ def load(source: str | os.PathLike[str] | bytes) -> Level:
     meta = _talus.pack_meta(pack)
     if meta is not None:
         level.name, level.source_vertices, level.source_triangles, _, level.up = meta
+    level._kept = _talus.pack_kept(pack)
     soup = _talus.pack_blob(pack, "soup")
     hull = _talus.pack_blob(pack, "hull")
     navmesh = _talus.pack_navmesh(pack)

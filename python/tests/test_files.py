@@ -94,6 +94,21 @@ def test_same_bytes_as_the_command(sample: str, pruned: bool, tmp_path: Path) ->
     assert mine == baked.read_bytes()
 
 
+@pytest.mark.skipif("TALUS_COMMAND" not in os.environ, reason="the talus command is not at hand (TALUS_COMMAND)")
+def test_what_has_no_object_is_kept(tmp_path: Path) -> None:
+    command = os.environ["TALUS_COMMAND"]
+    obj, baked = tmp_path / "yard.obj", tmp_path / "yard.talus"
+    subprocess.run([command, "sample", "courtyard", "-o", obj], check=True, capture_output=True)
+    words = ["--up", "z-left", "--origin", "1,-2,3", "--area", "*=9", "--link", "3,18,3,21,18,8"]
+    subprocess.run([command, "bake", obj, "-o", baked, *words], check=True, capture_output=True)
+    data = baked.read_bytes()
+    assert all(kind in data for kind in (b"FRAM", b"OFFM", b"AREA"))
+    assert talus.load(baked).to_bytes() == data
+    turned = tmp_path / "turned.talus"
+    subprocess.run([command, "bake", obj, "-o", turned, "--up", "z"], check=True, capture_output=True)
+    assert talus.load(turned).to_bytes() == turned.read_bytes()
+
+
 def test_adapters(hall: Mesh) -> None:
     class Trimesh:
         vertices, faces = hall
