@@ -308,6 +308,9 @@ static tl_result sort_levels(watershed *w, uint32_t first, uint32_t end)
         next[k] = position;
         position += w->level_size[k];
     }
+    if (position == begin) {
+        return TL_OK; // there may be no order yet to move within
+    }
     TL_TRY(reserve_spans(w, &w->order, position));
     uint32_t *order = w->order.floors;
     for (uint32_t i = 0; i < count; i++) {
