@@ -52,8 +52,14 @@ tl_result tl_json_load(tl_json_reader *json, const void *text, size_t length, tl
     json_error_t why;
     json_t *root = json_loadb(text, length, JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, &why);
     *root_out = (tl_json_place){ NULL, NULL, TL_JSON_NO_ITEM, root };
+    if (json_is_object(root)) {
+        return TL_OK;
+    }
     if (root != NULL) {
-        return json_is_object(root) ? TL_OK : tl_json_fail(json, TL_ERR_FORMAT, root_out, NULL, "is no object");
+        tl_json_fail(json, TL_ERR_FORMAT, root_out, NULL, "is no object");
+        json_decref(root);
+        root_out->value = NULL;
+        return json->result;
     }
     uint64_t line = why.line > 0 ? (uint64_t)why.line : 0;
     switch (json_error_code(&why)) {

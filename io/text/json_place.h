@@ -31,7 +31,8 @@ typedef struct tl_json_place {
 } tl_json_place;
 
 /// Reads the text; a key that stands twice in an object is an error. The document, an object, becomes `root_out`, which
-/// json_decref(root_out->value) gives back. TL_ERR_FORMAT with the line, TL_ERR_LIMIT (nested too deep), TL_ERR_MEMORY.
+/// json_decref(root_out->value) gives back; NULL on failure. TL_ERR_FORMAT with the line, TL_ERR_LIMIT (nested too
+/// deep), TL_ERR_MEMORY.
 tl_result tl_json_load(tl_json_reader *json, const void *text, size_t length, tl_json_place *root_out);
 
 /// "nodes[3].extensions: " and what is wrong with `key` there (NULL: with the place itself).
