@@ -7,6 +7,7 @@
 // Source: Intel 64 and IA-32 Architectures Software Developer's Manual, volume 2, CPUID, and volume 1, chapter 13.
 
 #include "base/cpu.h"
+#include "base/exact_floats.h"
 
 #if TL_CPU_LEVELS == 3
 

@@ -314,8 +314,8 @@ tl_result tl_floors_unpack(const tl_packed_floors *packed, tl_floors_scratch *sc
     uint8_t *at = scratch->block;
     *compact_out = packed->frame;
     void *links_out = take_bytes(&at, spans * link_size);
-    compact_out->step = packed->has_steps ? links_out : NULL;
-    compact_out->neighbour = packed->has_steps ? NULL : links_out;
+    compact_out->step = packed->has_steps ? (int16_t *)links_out : NULL;
+    compact_out->neighbour = packed->has_steps ? NULL : (uint32_t *)links_out;
     compact_out->first_span = take_bytes(&at, (columns + 1) * sizeof *compact_out->first_span);
     compact_out->floor = take_bytes(&at, spans * sizeof *compact_out->floor);
     uint16_t *counts = take_bytes(&at, columns * sizeof *counts);

@@ -104,11 +104,11 @@ tl_ray_walk_many_fn *tl_ray_best_walk_many(void)
 tl_ray_packets_fn *tl_ray_best_packets(void)
 {
 #if TL_CPU_LEVELS == 3
-    tl_ray_isa isa = (tl_ray_isa)TL_CPU_LEVELS;
-    while (tl_ray_packets_for(isa) == NULL) {
-        isa--;
+    int level = TL_CPU_LEVELS;
+    while (!tl_cpu_has_level(level)) {
+        level--;
     }
-    return tl_ray_packets_for(isa);
+    return tl_ray_packets_for((tl_ray_isa)level);
 #elif TL_CPU_LEVELS == 1
     return tl_ray_packets_vec128;
 #else
