@@ -164,12 +164,104 @@ static void random_tiles_keep_their_floor(void **state)
     TEST_CHECK(gone > 1000 && kept > 1000 && mixed > 1000);
 }
 
+static void bake_and_check(tl_contour_vertex *vertices, tl_contour *contours, uint32_t count, uint32_t merge_height,
+                           tl_polygon_report *report)
+{
+    tl_contour_set set;
+    memset(&set, 0, sizeof set);
+    set.vertices = vertices;
+    set.vertex_count = contours[count - 1].first_vertex + contours[count - 1].vertex_count;
+    set.contours = contours;
+    set.contour_count = count;
+    set.cell_size = set.cell_height = 1.0f;
+    set.width = set.height = 256;
+    tl_polygon_def def = tl_default_polygon_def();
+    def.merge_height = merge_height;
+    tl_polygon_mesh mesh;
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, report), TL_OK);
+    tl_polygon_check_report check;
+    const tl_result result = tl_polygon_mesh_check(&mesh, &set, NULL, &check);
+    // Contours that lie upon each other may claim an edge more than twice; one of the claims stays without a link.
+    const bool is_claimed_twice = report->non_manifold_edges > 0;
+    for (uint32_t fault = 0; fault < TL_POLYGON_FAULT_COUNT && result != TL_OK; fault++) {
+        TEST_CHECK(check.counts[fault] == 0 || (fault == TL_POLYGON_FAULT_LINK && is_claimed_twice));
+    }
+    tl_polygon_mesh_free(&mesh);
+}
+
+#define BORDER TL_CONTOUR_BORDER_VERTEX
+
+// One contour passes (221, 221) on two floors. The border vertex of the upper floor stands in a straight run, but
+// without it an edge would have the lower floor's vertex inside it.
+static void a_border_vertex_stays_at_a_place_of_two_floors(void **state)
+{
+    (void)state;
+    tl_contour_vertex vertices[] = {
+        { 252, 4, 252, BORDER }, { 252, 0, 6, 0 },      { 47, 0, 2, 0 },        { 0, 4, 0, BORDER },
+        { 221, 5, 221, BORDER }, { 221, 0, 160, 0 },    { 0, 5, 0, BORDER },    { 221, 0, 221, 0 },
+        { 0, 0, 0, 0 },          { 0, 4, 215, BORDER }, { 66, 5, 221, BORDER }, { 221, 5, 221, BORDER },
+    };
+    tl_contour contour = { 0, sizeof vertices / sizeof vertices[0], 1, 63 };
+    tl_polygon_report report;
+    bake_and_check(vertices, &contour, 1, 4, &report);
+    TEST_CHECK(report.kept_border_vertices > 0);
+}
+
+// The border vertex at the end of the run there and back is at the place of a vertex that the floor keeps.
+static void a_bridge_may_end_in_a_border_vertex(void **state)
+{
+    (void)state;
+    tl_contour_vertex vertices[] = {
+        { 255, 7, 255, BORDER }, { 255, 0, 0, 0 },   { 0, 0, 16, 0 },
+        { 16, 0, 16, 0 },        { 255, 0, 255, 0 }, { 0, 0, 16, 0 },
+    };
+    tl_contour contour = { 0, 6, 1, 63 };
+    tl_polygon_report report;
+    bake_and_check(vertices, &contour, 1, 0, &report);
+}
+
+// Contours of a few vertices on a small lattice: most touch or cross themselves and others, on any floor.
+static void border_flags_anywhere_leave_a_whole_mesh(void **state)
+{
+    (void)state;
+    enum { CONTOURS = 3, VERTICES = 9 };
+    test_random random = { 52 };
+    uint32_t gone = 0, kept = 0;
+    for (uint32_t round = 0; round < 40000; round++) {
+        tl_contour_vertex vertices[CONTOURS * VERTICES];
+        tl_contour contours[CONTOURS];
+        const uint32_t contour_count = 1 + test_random_below(&random, CONTOURS);
+        const uint32_t side = 2 + test_random_below(&random, 6);
+        uint32_t count = 0;
+        for (uint32_t c = 0; c < contour_count; c++) {
+            contours[c].first_vertex = count;
+            contours[c].vertex_count = 3 + test_random_below(&random, VERTICES - 2);
+            contours[c].region = c + 1;
+            contours[c].area = 63;
+            for (uint32_t k = 0; k < contours[c].vertex_count; k++, count++) {
+                vertices[count].x = (int32_t)test_random_below(&random, side);
+                vertices[count].y = (int32_t)test_random_below(&random, 8);
+                vertices[count].z = (int32_t)test_random_below(&random, side);
+                vertices[count].flags = test_random_below(&random, 2) == 0 ? BORDER : 0;
+            }
+        }
+        tl_polygon_report report;
+        bake_and_check(vertices, contours, contour_count, test_random_below(&random, 8), &report);
+        gone += report.removed_border_vertices;
+        kept += report.kept_border_vertices;
+    }
+    TEST_CHECK(gone > 1000 && kept > 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(border_vertices_go_where_the_border_is_straight),
         cmocka_unit_test(border_vertices_go_one_after_another),
         cmocka_unit_test(random_tiles_keep_their_floor),
+        cmocka_unit_test(a_border_vertex_stays_at_a_place_of_two_floors),
+        cmocka_unit_test(a_bridge_may_end_in_a_border_vertex),
+        cmocka_unit_test(border_flags_anywhere_leave_a_whole_mesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,6 +6,7 @@
 #define TALUS_SRC_POLYGON_POLYGON_CHECK_H
 
 #include "base/arena.h"
+#include "base/radix_sort.h"
 #include "polygon/outline/lattice_point.h"
 
 #include <talus/polygon.h>
@@ -35,6 +36,10 @@ static inline uint32_t tl_mesh_next(const tl_polygon_mesh *mesh, uint32_t polygo
 {
     return place + 1 < mesh->first[polygon + 1] ? place + 1 : mesh->first[polygon];
 }
+
+/// Whether the outline of `count` polygons (the values of the items), all of one contour, is the contour's.
+tl_result tl_polygon_check_outline(tl_polygon_checker *checker, const tl_sort_item *polygons, uint32_t count,
+                                   uint32_t contour);
 
 /// Overlaps, T-junctions, areas and outlines, contour by contour. The mesh's polygons are all convex.
 tl_result tl_polygon_check_cover(tl_polygon_checker *checker);

@@ -4,15 +4,14 @@
 //
 // Overlap: two convex polygons are apart when one of them has an edge with all of the other on its outer side (the
 // separating axis theorem in the plane). Covering: disjoint polygons inside an outline whose area is the outline's.
-// That they are inside follows from their common outline: edges that no other polygon of the contour runs back along
-// must be just the edges of the contour, less its bridges.
+// That they are inside follows from their common outline, which is the contour's: see outline_balance.c.
 
 #include "polygon/check/polygon_check.h"
 
 #include "base/assert.h"
 #include "base/disjoint_sets.h"
 #include "base/radix_sort.h"
-#include "polygon/outline/key_table.h"
+#include "polygon/outline/outline.h"
 
 #include <string.h>
 
@@ -233,7 +232,7 @@ static uint64_t *sum_contour_areas(tl_polygon_checker *checker, uint64_t *shared
 
 static int64_t contour_area2(const tl_contour_set *set, uint32_t index)
 {
-    const tl_contour_vertex *v = set->vertices + set->contours[index].first_vertex;
+    const tl_contour_vertex *v = tl_contour_begin(set, &set->contours[index]);
     uint64_t sum = 0;
     for (uint32_t k = 1; k + 1 < set->contours[index].vertex_count; k++) {
         tl_lattice_point a = { v[0].x, v[0].z }, b = { v[k].x, v[k].z }, d = { v[k + 1].x, v[k + 1].z };
@@ -278,147 +277,6 @@ static tl_result check_areas(tl_polygon_checker *checker, uint8_t *is_whole)
     return TL_OK;
 }
 
-// Undirected edges with how much more often they were run along forward than backward.
-typedef struct edge_sums {
-    tl_key_table places; // of points
-    tl_key_table edges;
-    int32_t *sums;
-    uint32_t point_count, edge_count;
-} edge_sums;
-
-static uint32_t contour_number(edge_sums *e, tl_lattice_point p)
-{
-    uint32_t *place = tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z));
-    if (*place == TL_NO_VALUE) {
-        *place = e->point_count++;
-    }
-    return *place;
-}
-
-static void add_cover_edge(edge_sums *e, tl_lattice_point from, tl_lattice_point to, int32_t times)
-{
-    uint32_t a = contour_number(e, from);
-    uint32_t b = contour_number(e, to);
-    if (a == b) { // a run to a vertex that was passed over, and back
-        return;
-    }
-    uint32_t *place = tl_key_table_at(&e->edges, a < b ? tl_pair_key(a, b) : tl_pair_key(b, a));
-    if (*place == TL_NO_VALUE) {
-        *place = e->edge_count;
-        e->sums[e->edge_count++] = 0;
-    }
-    e->sums[*place] += a < b ? times : -times;
-}
-
-// Whether a polygon has this edge: those of the contour are numbered behind the polygons'.
-static bool has_edge(edge_sums *e, uint32_t polygon_edges, tl_lattice_point from, tl_lattice_point to)
-{
-    uint32_t a = *tl_key_table_at(&e->places, tl_pair_key((uint32_t)from.x, (uint32_t)from.z));
-    uint32_t b = *tl_key_table_at(&e->places, tl_pair_key((uint32_t)to.x, (uint32_t)to.z));
-    if (a == TL_NO_VALUE || b == TL_NO_VALUE) {
-        return false;
-    }
-    uint32_t edge = *tl_key_table_at(&e->edges, a < b ? tl_pair_key(a, b) : tl_pair_key(b, a));
-    return edge < polygon_edges; // not TL_NO_VALUE either
-}
-
-static tl_lattice_point point_of(const tl_contour_vertex *vertex)
-{
-    tl_lattice_point p = { vertex->x, vertex->z };
-    return p;
-}
-
-static bool is_in_mesh(edge_sums *e, const tl_contour_vertex *vertex)
-{
-    tl_lattice_point p = point_of(vertex);
-    return *tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z)) != TL_NO_VALUE;
-}
-
-static bool may_be_removed(const tl_contour_vertex *vertex)
-{
-    return (vertex->flags & TL_CONTOUR_BORDER_VERTEX) != 0;
-}
-
-// A vertex that is surely there: no border vertex, or one that a polygon's edge comes to from the vertex before it that
-// the mesh has. `count` when there is none.
-static uint32_t surely_kept(edge_sums *e, uint32_t polygon_edges, const tl_contour_vertex *vertices, uint32_t count)
-{
-    uint32_t last = count;
-    for (uint32_t k = 0; k < count; k++) {
-        if (is_in_mesh(e, &vertices[k])) {
-            last = k;
-            if (!may_be_removed(&vertices[k])) {
-                return k;
-            }
-        }
-    }
-    for (uint32_t k = 0; k < count && last < count; k++) {
-        if (is_in_mesh(e, &vertices[k])) {
-            if (has_edge(e, polygon_edges, point_of(&vertices[last]), point_of(&vertices[k]))) {
-                return k;
-            }
-            last = k;
-        }
-    }
-    return count;
-}
-
-// The contour's edges, -1 times each. Vertices that no polygon has (border vertices, and those in straight runs) are
-// passed over: where their removal changed the outline, other edges will not cancel. Of a border vertex that is asked
-// by its edge, which is never a bridge: the contour may come by the same place again on another floor.
-static void add_contour_backward(edge_sums *e, const tl_contour_vertex *vertices, uint32_t count)
-{
-    const uint32_t polygon_edges = e->edge_count;
-    const uint32_t start = surely_kept(e, polygon_edges, vertices, count);
-    if (start == count) {
-        return;
-    }
-    const tl_lattice_point first = point_of(&vertices[start]);
-    tl_lattice_point last = first;
-    for (uint32_t i = 1; i < count; i++) {
-        const tl_contour_vertex *vertex = &vertices[(start + i) % count];
-        tl_lattice_point p = point_of(vertex);
-        if (is_in_mesh(e, vertex) && (!may_be_removed(vertex) || has_edge(e, polygon_edges, last, p))) {
-            add_cover_edge(e, last, p, -1);
-            last = p;
-        }
-    }
-    add_cover_edge(e, last, first, -1);
-}
-
-// The polygons' edges, and the contour's backward, must cancel.
-static tl_result check_outline(cover *c, uint32_t contour_index)
-{
-    const tl_polygon_mesh *mesh = c->checker->mesh;
-    const tl_contour_set *set = c->checker->contours;
-    tl_arena *arena = &c->checker->arena;
-    const tl_contour *contour = &set->contours[contour_index];
-    uint64_t edges = contour->vertex_count;
-    for (uint32_t i = c->first; i < c->end; i++) {
-        edges += mesh->first[c->order[i].value + 1] - mesh->first[c->order[i].value];
-    }
-    edge_sums e;
-    memset(&e, 0, sizeof e);
-    e.sums = TL_PUSH(arena, int32_t, edges);
-    if (e.sums == NULL || !tl_key_table_init(&e.places, arena, edges) || !tl_key_table_init(&e.edges, arena, edges)) {
-        return TL_ERR_MEMORY;
-    }
-    for (uint32_t i = c->first; i < c->end; i++) {
-        uint32_t p = c->order[i].value;
-        for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
-            add_cover_edge(&e, tl_mesh_corner(mesh, k), tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k)), 1);
-        }
-    }
-    add_contour_backward(&e, set->vertices + contour->first_vertex, contour->vertex_count);
-    for (uint32_t i = 0; i < e.edge_count; i++) {
-        if (e.sums[i] != 0) {
-            tl_polygon_checker_note(c->checker, TL_POLYGON_FAULT_OUTLINE, "contour", contour_index);
-            break;
-        }
-    }
-    return TL_OK;
-}
-
 tl_result tl_polygon_check_cover(tl_polygon_checker *checker)
 {
     cover c;
@@ -444,7 +302,7 @@ tl_result tl_polygon_check_cover(tl_polygon_checker *checker)
         check_t_junctions(&c);
         if (is_whole != NULL && contour != TL_SEVERAL_CONTOURS && is_whole[contour]) {
             tl_arena_mark mark = tl_arena_get_mark(&checker->arena);
-            TL_TRY(check_outline(&c, contour));
+            TL_TRY(tl_polygon_check_outline(checker, c.order + c.first, c.end - c.first, contour));
             tl_arena_rollback(&checker->arena, mark);
         }
     }

@@ -5,7 +5,9 @@
 //
 // The polygons around such a vertex form one fan from border to border. They are taken out, the hole is divided anew
 // without the vertex, and the parts are merged. The vertex stays where that would change the floor: when the border
-// bends in it, when the fan falls apart, or when its polygons differ in area type.
+// bends in it, when the fan falls apart, or when its polygons differ in area type. It also stays where its place is
+// that of another vertex too and the polygons of both are of one contour, or at one height: an edge that runs past the
+// place would have that vertex inside it.
 
 #include "polygon/mesh/polygon_store.h"
 
@@ -16,7 +18,7 @@
 
 #include <string.h>
 
-// A polygon at a border vertex; one list per vertex.
+// A polygon at a vertex of a border vertex's place; one list per vertex.
 typedef struct incidence {
     uint32_t polygon;
     uint32_t next;
@@ -26,7 +28,8 @@ typedef struct remover {
     tl_polygon_store *store;
     tl_arena *scratch;
     uint32_t max_corners;
-    uint32_t *first; // [vertex] list of polygons around it, newest first, or TL_NO_VALUE
+    uint32_t *first;    // [vertex] list of polygons around it, newest first, or TL_NO_VALUE
+    uint8_t *is_listed; // [vertex] a border vertex stands at its place
     incidence *incidences;
     uint32_t incidence_count, incidence_capacity;
 } remover;
@@ -43,7 +46,7 @@ static tl_result add_incidences(remover *r, uint32_t p)
     const tl_stored_polygon polygon = r->store->polygons[p];
     for (uint32_t k = 0; k < polygon.count; k++) {
         uint32_t v = r->store->indices[polygon.first + k];
-        if (!r->store->is_border[v]) {
+        if (!r->is_listed[v]) {
             continue;
         }
         if (r->incidence_count == r->incidence_capacity) {
@@ -63,6 +66,26 @@ static tl_result add_incidences(remover *r, uint32_t p)
 static uint32_t corner_at(const tl_polygon_store *store, const tl_stored_polygon *polygon, uint32_t k)
 {
     return store->indices[polygon->first + k % polygon->count];
+}
+
+// The lowest vertex of a place, from which next_above leads to the others.
+static uint32_t first_at_place(const tl_polygon_store *store, uint32_t vertex)
+{
+    const int32_t *v = store->vertices + 3 * (size_t)vertex;
+    tl_key_table places = store->places; // looked at only: the key is there
+    return *tl_key_table_at(&places, tl_pair_key((uint32_t)v[0], (uint32_t)v[2]));
+}
+
+static void list_places_of_border_vertices(remover *r)
+{
+    const tl_polygon_store *store = r->store;
+    for (uint32_t v = 0; v < store->vertex_count; v++) {
+        if (store->is_border[v]) {
+            for (uint32_t w = first_at_place(store, v); w != TL_NO_VALUE; w = store->next_above[w]) {
+                r->is_listed[w] = 1;
+            }
+        }
+    }
 }
 
 static uint32_t gather_blades(const remover *r, uint32_t vertex, fan_blade *blades)
@@ -157,6 +180,46 @@ static bool same_area(const tl_polygon_store *store, const fan_blade *blades, ui
     return true;
 }
 
+static bool has_fan_contour(const tl_polygon_store *store, const fan_blade *blades, uint32_t count, uint32_t contour)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (store->polygons[blades[i].polygon].contour == contour) {
+            return contour != TL_SEVERAL_CONTOURS;
+        }
+    }
+    return false;
+}
+
+static bool is_within_heights(const tl_polygon_store *store, const fan_blade *blades, uint32_t count, int32_t y)
+{
+    int32_t low = INT32_MAX, high = INT32_MIN;
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_stored_polygon *polygon = &store->polygons[blades[i].polygon];
+        for (uint32_t k = 0; k < polygon->count; k++) {
+            const int32_t corner_y = store->vertices[3 * (size_t)corner_at(store, polygon, k) + 1];
+            low = corner_y < low ? corner_y : low;
+            high = corner_y > high ? corner_y : high;
+        }
+    }
+    return low <= y && y <= high;
+}
+
+// Whether another vertex at the place must not lie inside an edge of the fan's polygons.
+static bool shares_place(const remover *r, uint32_t vertex, const fan_blade *blades, uint32_t count)
+{
+    const tl_polygon_store *store = r->store;
+    for (uint32_t w = first_at_place(store, vertex); w != TL_NO_VALUE; w = store->next_above[w]) {
+        for (uint32_t i = w == vertex ? TL_NO_VALUE : r->first[w]; i != TL_NO_VALUE; i = r->incidences[i].next) {
+            const tl_stored_polygon *polygon = &store->polygons[r->incidences[i].polygon];
+            if (polygon->count > 0 && (has_fan_contour(store, blades, count, polygon->contour) ||
+                                       is_within_heights(store, blades, count, store->vertices[3 * (size_t)w + 1]))) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 static tl_result refill(remover *r, const fan_blade *blades, uint32_t blade_count, const uint32_t *outline,
                         const tl_lattice_point *points, uint32_t count)
 {
@@ -190,7 +253,8 @@ static tl_result remove_vertex(remover *r, uint32_t vertex, bool *gone)
         return TL_ERR_MEMORY;
     }
     gather_blades(r, vertex, blades);
-    if (blade_count == 0 || !sort_fan(blades, blade_count) || !same_area(r->store, blades, blade_count)) {
+    if (blade_count == 0 || !sort_fan(blades, blade_count) || !same_area(r->store, blades, blade_count) ||
+        shares_place(r, vertex, blades, blade_count)) {
         return TL_OK;
     }
     tl_lattice_point p = tl_stored_point(r->store, vertex);
@@ -233,10 +297,12 @@ tl_result tl_remove_border_vertices(tl_polygon_store *store, tl_arena *scratch, 
     r.scratch = scratch;
     r.max_corners = max_corners;
     r.first = TL_PUSH(scratch, uint32_t, store->vertex_count);
-    if (r.first == NULL) {
+    r.is_listed = TL_PUSH_ZERO(scratch, uint8_t, store->vertex_count);
+    if (r.first == NULL || r.is_listed == NULL) {
         return TL_ERR_MEMORY;
     }
     memset(r.first, 0xff, store->vertex_count * sizeof *r.first);
+    list_places_of_border_vertices(&r);
     for (uint32_t p = 0; p < store->polygon_count; p++) {
         TL_TRY(add_incidences(&r, p));
     }

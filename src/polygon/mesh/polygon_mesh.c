@@ -161,7 +161,7 @@ static tl_result add_contour(polygon_mesh_builder *b, uint32_t index)
         TL_TRY(prepare_without_straight(b, contour, &outline, &is_prepared));
     }
     if (!is_prepared) {
-        TL_TRY(tl_outline_prepare(&b->scratch, b->contours->vertices + contour->first_vertex, contour->vertex_count,
+        TL_TRY(tl_outline_prepare(&b->scratch, tl_contour_begin(b->contours, contour), contour->vertex_count,
                                   b->def->merge_height, &outline));
     }
     if (outline.walk_count > 0) {

@@ -35,6 +35,13 @@ typedef struct tl_outline {
 
 #define TL_NO_EDGE_OF_CONTOUR UINT32_MAX
 
+/// The vertices of one contour. NULL in a set without vertices, whose contours are all empty: nothing may be added to a
+/// null pointer, not even 0.
+static inline const tl_contour_vertex *tl_contour_begin(const tl_contour_set *set, const tl_contour *contour)
+{
+    return set->vertices != NULL ? set->vertices + contour->first_vertex : NULL;
+}
+
 /// Fills `outline_out`, all in `arena`. Vertices at one place whose heights differ by more than `merge_height` are on
 /// different floors: a run there and back between them is a wall, not a bridge. TL_ERR_MEMORY is the only error: a
 /// contour beyond repair has no walks and the bit TL_CONTOUR_FAULT_REFUSED.

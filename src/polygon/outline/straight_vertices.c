@@ -8,7 +8,7 @@
 
 #include "polygon/outline/straight_vertices.h"
 
-#include "polygon/outline/lattice_point.h"
+#include "polygon/outline/outline.h"
 
 static uint64_t place_key(const tl_contour_vertex *v)
 {
@@ -49,7 +49,7 @@ static bool runs_straight(const tl_contour_vertex *a, const tl_contour_vertex *b
 uint32_t tl_drop_straight_vertices(tl_place_counts *counts, const tl_contour_set *contours, const tl_contour *contour,
                                    tl_contour_vertex *kept)
 {
-    const tl_contour_vertex *vertices = contours->vertices + contour->first_vertex;
+    const tl_contour_vertex *vertices = tl_contour_begin(contours, contour);
     uint32_t n = contour->vertex_count;
     uint32_t made = 0;
     for (uint32_t k = 0; k < n; k++) {
