@@ -30,7 +30,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench bench-simd bench-python sanitize tsan msan fuzz cross growth python-test docs amalgamation package rust-test format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
+.PHONY: all demo test benchmarks bench bench-simd bench-python sanitize tsan msan fuzz cross windows growth python-test docs amalgamation package rust-test format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
 
 all:
 	tools/setup tools
@@ -90,6 +90,10 @@ fuzz:
 	cmake -S . -B build/fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DTALUS_FUZZ=ON -DTALUS_TESTS=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo
 	cmake --build build/fuzz --parallel $(JOBS)
 	tools/fuzz build/fuzz/fuzz
+
+windows: all
+	tools/setup tools windows
+	JOBS=$(JOBS) tools/windows
 
 cross:
 	tools/setup tools cross

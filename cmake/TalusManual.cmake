@@ -1,6 +1,7 @@
-# Lets the program PROGRAM write its manual pages and completion into FOLDER; COMMANDS are its commands. For cmake -P.
+# Lets the program PROGRAM write its manual pages and completion into FOLDER; COMMANDS are its commands. EMULATOR runs it,
+# where it is another machine's. For cmake -P.
 function(talus_write file)
-    execute_process(COMMAND ${PROGRAM} help ${ARGN} OUTPUT_FILE ${FOLDER}/${file} RESULT_VARIABLE code)
+    execute_process(COMMAND ${EMULATOR} ${PROGRAM} help ${ARGN} OUTPUT_FILE ${FOLDER}/${file} RESULT_VARIABLE code)
     if(code)
         message(FATAL_ERROR "${PROGRAM} help ${ARGN} ends with ${code}")
     endif()

@@ -50,7 +50,7 @@ static tl_result fill_line_buffer(tl_line_input *input, tl_io_error *error_out)
     input->end -= input->begin;
     input->begin = 0;
     for (;;) {
-        ssize_t got = read(input->file, input->buffer + input->end, LINE_BUFFER_BYTES - input->end);
+        ssize_t got = read(input->file, input->buffer + input->end, (unsigned)(LINE_BUFFER_BYTES - input->end));
         if (got >= 0) {
             input->at_end = got == 0;
             input->end += (size_t)got;

@@ -31,7 +31,9 @@ typedef struct tl_io_error {
     char message[TL_IO_MESSAGE_BYTES]; ///< what is wrong, without path, line and full stop
 } tl_io_error;
 
-#if defined(__GNUC__)
+#if defined(__MINGW32__)
+#define TL_IO_PRINTF(format_index, first) __attribute__((format(gnu_printf, format_index, first)))
+#elif defined(__GNUC__)
 #define TL_IO_PRINTF(format_index, first) __attribute__((format(printf, format_index, first)))
 #else
 #define TL_IO_PRINTF(format_index, first)
