@@ -278,6 +278,58 @@ static inline void turn_at_limit(wedge_search *s, const step_from *from, const t
     }
 }
 
+// The ends of the edge by which a wedge entered its polygon. Looking in, the edge starts at its left end.
+typedef struct entry_ends {
+    const tl_nav_ring_edge *left, *right;
+    seen_edge at;               // from the root
+    bool sees_left, sees_right; // the wedge reaches to that end
+} entry_ends;
+
+static inline entry_ends ends_of_entry(const step_from *from, const tl_nav_wedge *wedge)
+{
+    const tl_nav_ring_edge *left = &from->ring[wedge->edge];
+    const tl_nav_ring_edge *right = &from->ring[vertex_behind(wedge->edge, from->count)];
+    const double x = (double)wedge->root_x, z = (double)wedge->root_z;
+    const seen_edge at = { { (double)right->x - x, (double)right->z - z },
+                           { (double)left->x - x, (double)left->z - z } };
+    const bool left_is_end = (wedge->left.x == at.left.x) & (wedge->left.z == at.left.z);
+    const bool right_is_end = (wedge->right.x == at.right.x) & (wedge->right.z == at.right.z);
+    const entry_ends ends = { left, right, at, left_is_end, right_is_end };
+    return ends;
+}
+
+// Whether paths by way of `from`, an end of the edge of entry at which some path has turned at that cost, are shorter
+// to all that a wedge sees of the edge. `to`: what it sees of it that is the farthest from there. Directions are from
+// the root.
+static inline bool is_outrun_from(const tl_nav_wedge *wedge, double cost, tl_nav_direction from, tl_nav_direction to)
+{
+    const tl_nav_direction along = { to.x - from.x, to.z - from.z };
+    const double slack = 1.0 + 2.0 * (double)TL_FLOAT_ROUNDING; // far more than is rounded here
+    return (cost + length_of(along)) * slack < wedge->cost + length_of(to);
+}
+
+// Whether shorter paths lead to all of the edge of entry that a wedge sees: c(v) + |v b| < cost + |root b| for an end v
+// of the edge and the point b that the wedge sees of it the farthest from v. Then the same holds for any x before b, as
+// |root b| <= |root x| + |x b| and |v b| = |v x| + |x b|, and no shortest path leads through the wedge. So where two
+// paths lead around an obstacle, the search behind the longer one ends soon after they have met. Else it would go over
+// all that lies behind the obstacle once more; roots alone do not tell, as what a wedge sees has none.
+// Source: Xin, Wang, Improving Chen and Han's Algorithm on the Discrete Geodesic Problem, ACM ToG 2009: the filtering
+// of windows, of surfaces of triangles there.
+static inline bool is_outrun(const wedge_search *s, const tl_nav_wedge *wedge, const entry_ends *ends)
+{
+    const tl_nav_direction left = ends->at.left, right = ends->at.right;
+    const double none = (double)INFINITY;
+    const double by_left = ends->left->turn != 0 ? tl_nav_known_root_cost(s->query, ends->left->turn) : none;
+    const double by_right = ends->right->turn != 0 ? tl_nav_known_root_cost(s->query, ends->right->turn) : none;
+    // No end helps that the root is as near to in a straight line.
+    if (by_left < none && by_left < wedge->cost + length_of(left) &&
+        is_outrun_from(wedge, by_left, left, ends->sees_right ? right : meet_edge_line(wedge->right, right, left))) {
+        return true;
+    }
+    return by_right < none && by_right < wedge->cost + length_of(right) &&
+           is_outrun_from(wedge, by_right, right, ends->sees_left ? left : meet_edge_line(wedge->left, right, left));
+}
+
 // Goes around the ring from the right end of the edge of entry to its left end, which is from right to left as it is
 // seen from the root. Edges right of the wedge are reached by turning right, those left of it by turning left.
 static inline void expand_wedge(wedge_search *s, uint32_t index)
@@ -285,11 +337,16 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
     const tl_nav_wedge wedge = s->query->wedges[index];
     const wedge_origin root = { wedge.root_x, wedge.root_z, wedge.cost };
     const wedge_view view = make_view(&wedge);
+    step_from from = { index, wedge.slot, wedge.polygon, NULL, 0 };
+    from.ring = tl_nav_ring_at(s->navmesh, wedge.slot, wedge.polygon, &from.count);
+    const entry_ends ends = ends_of_entry(&from, &wedge);
+    // With a filter a vertex's number says nothing of its walls.
+    if (s->in->filter == NULL && s->sight == NULL && is_outrun(s, &wedge, &ends)) {
+        return;
+    }
     if (s->navmesh->slots[wedge.slot].anchor_count > 0) {
         cross_wedge_links(s, index);
     }
-    step_from from = { index, wedge.slot, wedge.polygon, NULL, 0 };
-    from.ring = tl_nav_ring_at(s->navmesh, wedge.slot, wedge.polygon, &from.count);
     uint32_t first_seen = from.count; // the first way that ends left of the wedge's right side
     uint32_t last_seen = 1;           // the last one that begins right of its left side
     uint32_t i = wedge.edge;
@@ -324,15 +381,10 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
             add_edge_on(s, &from, i, root, &edge);
         }
     }
-    // Looking in, the edge of entry starts at its left end.
-    const tl_nav_ring_edge *entry_left = &from.ring[wedge.edge];
-    const tl_nav_ring_edge *entry_right = &from.ring[vertex_behind(wedge.edge, from.count)];
-    if (!view.left_open & (wedge.left.x == (double)entry_left->x - view.root_x) &
-        (wedge.left.z == (double)entry_left->z - view.root_z)) {
+    if (!view.left_open & ends.sees_left) {
         turn_at_limit(s, &from, &wedge, 1, last_seen, from.count);
     }
-    if (!view.right_open & (wedge.right.x == (double)entry_right->x - view.root_x) &
-        (wedge.right.z == (double)entry_right->z - view.root_z)) {
+    if (!view.right_open & ends.sees_right) {
         turn_at_limit(s, &from, &wedge, -1, 1, first_seen < from.count ? first_seen + 1 : from.count);
     }
 }

@@ -11,6 +11,8 @@
 #include "math/tolerance.h"
 #include "nav_query/search/query.h"
 
+#include <math.h>
+
 struct tl_nav_root {
     uint64_t number;
     uint32_t generation; ///< of the search that wrote the entry
@@ -86,6 +88,14 @@ static inline tl_nav_root_rank tl_nav_root_rank_of(tl_nav_query *query, uint64_t
     bool is_as_cheap = found && cost >= (double)root->cost * (1.0 - slack);
     root->cost = found && root->cost < (float)cost ? root->cost : (float)cost;
     return is_as_cheap ? TL_NAV_ROOT_AS_CHEAP : TL_NAV_ROOT_CHEAPEST;
+}
+
+/// What the cheapest way known costs that has turned at the vertex of this number, rounded up. INFINITY: none has.
+static inline double tl_nav_known_root_cost(const tl_nav_query *query, uint64_t number)
+{
+    bool found = false;
+    const tl_nav_root *root = tl_nav_probe_roots(query, number, &found);
+    return found ? (double)root->cost * (1.0 + 2.0 * (double)TL_FLOAT_ROUNDING) : (double)INFINITY;
 }
 
 /// Whether no way as cheap, within that rounding, has come to this number yet. False, and `*full_out` is set, when the
