@@ -27,6 +27,7 @@ void tl_nav_pool_reset(tl_nav_query *query)
     }
     query->node_count = 0;
     query->heap_count = 0;
+    query->at_hand = TL_NAV_NONE_AT_HAND;
     query->pool_generation++;
 }
 

@@ -8,8 +8,12 @@
 #include "nav_query/search/query.h"
 
 // Values of tl_nav_node.heap_at beside places in the heap.
-#define TL_NAV_NODE_NEW    UINT32_MAX
-#define TL_NAV_NODE_CLOSED (UINT32_MAX - 1u)
+#define TL_NAV_NODE_NEW     UINT32_MAX
+#define TL_NAV_NODE_CLOSED  (UINT32_MAX - 1u)
+#define TL_NAV_NODE_AT_HAND (UINT32_MAX - 2u)
+
+/// The value of tl_nav_query.at_hand when no node is: it comes after all of them.
+#define TL_NAV_NONE_AT_HAND UINT64_MAX
 
 /// A way into a polygon.
 struct tl_nav_node {
@@ -59,7 +63,8 @@ static inline tl_nav_node *tl_nav_pool_relax(tl_nav_query *query, tl_nav_way_in 
     return node;
 }
 
-/// Puts a node into the heap, or moves it up after its total has fallen.
+/// Puts a node into the heap, or moves it after its total has changed. A cheaper way may raise it: where it enters the
+/// polygon at another point, from which the goal is farther than what the way is cheaper by.
 void tl_nav_heap_improve(tl_nav_query *query, uint32_t node);
 /// Takes out the node of the lowest total, ties to the lower index, and marks it closed. TL_NAV_NO_NODE: it is empty.
 uint32_t tl_nav_heap_pop(tl_nav_query *query);

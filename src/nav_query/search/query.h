@@ -50,6 +50,7 @@ struct tl_nav_query {
     uint32_t node_count;
     uint32_t bucket_count;
     uint32_t heap_count;
+    uint64_t at_hand;         ///< an item of the heap that is kept beside it, or TL_NAV_NONE_AT_HAND
     uint64_t pool_generation; ///< counts resets
 
     /// [max_nodes] items as large as a wedge.
