@@ -159,8 +159,58 @@ static void test_plain(void **state)
     TEST_CHECK(!tl_nav_filter_costs(&filter, &least, &is_uniform));
 }
 
+// Impassable in the middle, from x = 24 metres to 28.
+static float cost_around_the_middle(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 from, tl_vec3 to, float cost,
+                                    void *user)
+{
+    (void)tile;
+    (void)polygon;
+    (void)user;
+    return from.x < 24.5f && to.x > 24.5f ? INFINITY : cost;
+}
+
+// A street two polygons wide, with dead ends on one side: paths along it leave them out, those into them do not, and
+// where the street is closed the end of a dead end may be the place nearest to the goal.
+static void test_dead_ends(void **state)
+{
+    (void)state;
+    const char *const rows[2][6] = {
+        { "0000000000000", "0000000000000", "#0#0#0#0#0#0#", "#0#0#0#0#0#0#", "#0#0#0#0#0#0#", "#0#0#0#0#0#0#" },
+        { "0000000000000", "0000000000000", "#############", "#############", "#############", "#############" }
+    };
+    tl_nav_query *query = fixture_query(1024);
+    tl_nav_filter filter = tl_default_nav_filter();
+    filter.area_cost[1] = 0.01f; // of no polygon: A* with an estimate that tells little, so it looks everywhere
+    tl_nav_path path[2];
+    for (int k = 0; k < 2; k++) {
+        const fixture_level level = fixture_make(rows[k], 6);
+        tl_navmesh *navmesh = fixture_build(&level, NULL);
+        const tl_vec3 half = { 1, 1, 1 }, left = { 2, 0, 2 }, right = { 50, 0, 2 }, end = { 30, 0, 22 };
+        tl_nav_path_request request = { &filter, { 0 }, { 0 } };
+        TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, left, half, &request.start), TL_OK);
+        TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, right, half, &request.goal), TL_OK);
+        TEST_RESULT(tl_nav_query_find_path(query, navmesh, &request, NULL, 0, &path[k]), TL_INCOMPLETE);
+        TEST_CHECK(path[k].status == TL_NAV_PATH_COMPLETE);
+        if (k == 0) {
+            tl_nav_path into;
+            TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, end, half, &request.goal), TL_OK);
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &request, NULL, 0, &into), TL_INCOMPLETE);
+            TEST_CHECK(into.status == TL_NAV_PATH_COMPLETE && into.cost > 40.0f);
+            filter.cost = cost_around_the_middle;
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &request, NULL, 0, &into), TL_INCOMPLETE);
+            TEST_CHECK(into.status == TL_NAV_PATH_UNREACHABLE);
+            TEST_CHECK(into.end.point.x == 24.0f && into.end.point.z == 22.0f);
+            filter.cost = NULL;
+        }
+        tl_navmesh_destroy(navmesh);
+    }
+    TEST_CHECK(path[0].cost == path[1].cost && path[0].node_count == path[1].node_count);
+    tl_nav_query_destroy(query);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_functions), cmocka_unit_test(test_plain) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_functions), cmocka_unit_test(test_plain),
+                                        cmocka_unit_test(test_dead_ends) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

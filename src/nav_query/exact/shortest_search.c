@@ -147,8 +147,6 @@ static wedge_search take_up(tl_nav_shortest_search *search)
                        (double)search->goal.z,
                        0.0,
                        (double)INFINITY,
-                       { navmesh->slots[search->goal_slot].rings.cells[search->goal_polygon].dead_end,
-                         navmesh->slots[search->start_slot].rings.cells[search->start_polygon].dead_end },
                        TL_NAV_SEARCH_FOUND,
                        search->only,
                        { search->only_right, search->only_left },

@@ -19,7 +19,6 @@ typedef struct wedge_search {
     double goal_x, goal_z;
     double rounding;           // metres
     double detour;             // metres at least from the end of a short cut to the goal; INFINITY: there is none
-    uint32_t dead_ends[2];     // that may be entered: of the goal's slot, of the start's
     tl_nav_search_end trouble; // FOUND: none
     uint32_t only;             // wedge of the current step, while it is the only one
     seen_edge only_edge;       // that it looks through
@@ -34,12 +33,8 @@ static inline bool may_enter(const wedge_search *s, uint32_t slot, uint32_t poly
     if (s->sight != NULL) {
         return true;
     }
-    uint32_t dead_end = s->navmesh->slots[slot].rings.cells[polygon].dead_end;
-    if (dead_end != 0 && !(slot == in->goal_slot && dead_end == s->dead_ends[0]) &&
-        !(slot == in->start_slot && dead_end == s->dead_ends[1]) && s->navmesh->slots[slot].anchor_count == 0) {
-        return false;
-    }
-    return in->filter == NULL || tl_nav_passes(in->filter, s->navmesh->slots[slot].tile, polygon);
+    return !tl_nav_is_dead_end(in, slot, polygon) &&
+           (in->filter == NULL || tl_nav_passes(in->filter, s->navmesh->slots[slot].tile, polygon));
 }
 
 static inline uint32_t new_wedge(wedge_search *s)

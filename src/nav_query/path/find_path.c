@@ -125,6 +125,7 @@ static void expand_way(tl_nav_way_search *search, uint32_t index)
         }
         const tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, node.slot, ring[i].to);
         if ((to.polygon == before.polygon && to.slot == before.slot) ||
+            (search->ends != NULL && tl_nav_is_dead_end(search->ends, to.slot, to.polygon)) ||
             !tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
             continue;
         }
@@ -155,11 +156,12 @@ static tl_nav_path_status step_by_ways(tl_nav_way_search *search, uint64_t *step
     return TL_NAV_PATH_UNFINISHED;
 }
 
-static void begin_by_ways(tl_nav_path_run *run)
+static void begin_by_ways(tl_nav_path_run *run, bool leaves_out_dead_ends)
 {
     tl_nav_way_search *search = &run->ways;
     search->detour = min_shortcut_distance(search);
     search->out_of_nodes = false;
+    search->ends = leaves_out_dead_ends ? &run->exact : NULL;
     tl_nav_pool_reset(search->query);
     relax_way(search, PATH_START_KEY, run->exact.start_slot, run->exact.start_polygon, run->start.point, 0.0f,
               TL_NAV_NO_NODE);
@@ -314,14 +316,17 @@ static void note_exact_end(tl_nav_path_run *run, tl_nav_search_end end)
     if (end == TL_NAV_SEARCH_FOUND) {
         run->status = TL_NAV_PATH_COMPLETE;
     } else if (end != TL_NAV_SEARCH_PAUSED) {
-        begin_by_ways(run);
+        begin_by_ways(run, false);
     }
 }
 
 static void note_ways_end(tl_nav_path_run *run, tl_nav_path_status end)
 {
+    const bool leaves_out_dead_ends = run->ways.ends != NULL;
     if (end == TL_NAV_PATH_OUT_OF_NODES && tl_nav_query_grow(run->ways.query)) {
-        begin_by_ways(run);
+        begin_by_ways(run, leaves_out_dead_ends);
+    } else if (end == TL_NAV_PATH_UNREACHABLE && leaves_out_dead_ends) {
+        begin_by_ways(run, false); // how far it can be gone, into dead ends too
     } else {
         run->status = end;
     }
@@ -339,8 +344,8 @@ static tl_result set_up(tl_nav_query *query, const tl_navmesh *navmesh, const tl
         return TL_ERR_ARGUMENT;
     }
     tl_nav_way_search ways = {
-        query,    navmesh, filter,        least, run->exact.goal_slot, run->exact.goal_polygon, request->goal.point,
-        INFINITY, false,   TL_NAV_NO_NODE
+        query,    navmesh, filter,         least, run->exact.goal_slot, run->exact.goal_polygon, request->goal.point,
+        INFINITY, false,   TL_NAV_NO_NODE, NULL
     };
     run->ways = ways;
     run->start = request->start;
@@ -359,7 +364,7 @@ static void begin_run(tl_nav_path_run *run, bool is_uniform)
         run->stage = TL_NAV_RUN_EXACT;
         note_exact_end(run, tl_nav_begin_shortest(&run->exact));
     } else {
-        begin_by_ways(run);
+        begin_by_ways(run, true);
     }
 }
 
