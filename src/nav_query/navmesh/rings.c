@@ -15,16 +15,27 @@ static bool is_same_vertex(const tl_nav_ring_edge *edge, tl_vec3 point)
     return edge->x == point.x && edge->z == point.z;
 }
 
-// Appends edges; the last one's end is where the next one starts.
+// Appends edges; the last one's end is where the next one starts. With rings that have no arrays yet it counts.
 typedef struct ring_writer {
     tl_nav_rings *rings;
-    uint32_t edge_count, seam_count;
+    uint64_t edge_count, seam_count;
 } ring_writer;
 
 static void add_ring_edge(ring_writer *writer, tl_vec3 start, uint32_t to)
 {
-    tl_nav_ring_edge edge = { start.x, start.y, start.z, to, 0, 0 };
-    writer->rings->edges[writer->edge_count++] = edge;
+    if (writer->rings->edges != NULL) {
+        tl_nav_ring_edge edge = { start.x, start.y, start.z, to, 0, 0 };
+        writer->rings->edges[writer->edge_count] = edge;
+    }
+    writer->edge_count++;
+}
+
+static uint32_t add_ring_seam(ring_writer *writer, tl_nav_ring_seam seam)
+{
+    if (writer->rings->seams != NULL) {
+        writer->rings->seams[writer->seam_count] = seam;
+    }
+    return TL_NAV_RING_SEAM | (uint32_t)writer->seam_count++;
 }
 
 // An edge without a way from `at` to `point`, unless they are one. `ahead` is the edge's direction.
@@ -47,10 +58,9 @@ static void add_seam_edge(ring_writer *writer, tl_vec3 start, tl_vec3 end, const
     tl_vec3 at = start;
     for (uint32_t i = 0; i < count; i++) {
         const tl_nav_seam_link *link = &side->links[begin + (rising ? i : count - 1 - i)];
-        tl_nav_ring_seam seam = { link->slot, link->polygon };
+        const tl_nav_ring_seam seam = { link->slot, link->polygon };
         add_gap(writer, at, link->right, ahead);
-        add_ring_edge(writer, link->right, TL_NAV_RING_SEAM | writer->seam_count);
-        writer->rings->seams[writer->seam_count++] = seam;
+        add_ring_edge(writer, link->right, add_ring_seam(writer, seam));
         at = link->left;
     }
     add_gap(writer, at, end, ahead);
@@ -84,7 +94,7 @@ static void copy_turns(ring_writer *writer, const tl_nav_rings *old, uint32_t po
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_of(old, polygon, &count);
     tl_nav_rings *rings = writer->rings;
-    for (uint32_t k = rings->cells[polygon].first; k < writer->edge_count; k++) {
+    for (uint64_t k = rings->cells[polygon].first; k < writer->edge_count; k++) {
         for (uint32_t i = 0; i < count; i++) {
             if (is_same_vertex(&ring[i], tl_vec3_make(rings->edges[k].x, 0.0f, rings->edges[k].z))) {
                 rings->edges[k].turn = ring[i].turn;
@@ -100,15 +110,20 @@ static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t pol
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_of(old, polygon, &count);
     tl_nav_rings *rings = writer->rings;
-    memcpy(rings->walls + writer->edge_count, old->walls + (ring - old->edges), count * sizeof *rings->walls);
+    const uint64_t first = writer->edge_count;
     for (uint32_t i = 0; i < count; i++) {
         tl_nav_ring_edge edge = ring[i];
         if (tl_nav_ring_is_open(&edge) && (edge.to & TL_NAV_RING_SEAM) != 0) {
-            rings->seams[writer->seam_count] = old->seams[edge.to & ~TL_NAV_RING_SEAM];
-            edge.to = TL_NAV_RING_SEAM | writer->seam_count++;
+            edge.to = add_ring_seam(writer, old->seams[edge.to & ~TL_NAV_RING_SEAM]);
         }
         rings->has_back = rings->has_back || edge.to == TL_NAV_RING_BACK;
-        rings->edges[writer->edge_count++] = edge;
+        if (rings->edges != NULL) {
+            rings->edges[writer->edge_count] = edge;
+        }
+        writer->edge_count++;
+    }
+    if (rings->walls != NULL) {
+        memcpy(rings->walls + first, old->walls + (ring - old->edges), count * sizeof *rings->walls);
     }
 }
 
@@ -222,22 +237,32 @@ static void mark_changed(const tl_nav_tile *tile, uint32_t side, const tl_nav_ri
     }
 }
 
+// The changed polygons' rings anew, all others' as they were. `writer`: to write, or to count.
+static void write_rings(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
+                        const uint32_t *is_changed, const tl_nav_rings *old)
+{
+    tl_nav_rings *rings = writer->rings;
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        if (rings->cells != NULL) {
+            rings->cells[p].first = (uint32_t)writer->edge_count;
+        }
+        if (!is_changed[p]) {
+            copy_ring(writer, old, p);
+            continue;
+        }
+        add_ring(writer, tile, sides, p);
+        if (old != NULL && rings->edges != NULL) {
+            copy_turns(writer, old, p);
+        }
+    }
+}
+
 static void fill_rings(const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
                        const uint32_t *is_changed, const tl_nav_rings *old, tl_nav_rings *rings)
 {
     ring_writer writer = { rings, 0, 0 };
-    for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        rings->cells[p].first = writer.edge_count;
-        if (is_changed[p]) {
-            add_ring(&writer, tile, sides, p);
-            if (old != NULL) {
-                copy_turns(&writer, old, p);
-            }
-        } else {
-            copy_ring(&writer, old, p);
-        }
-    }
-    rings->cells[tile->polygon_count].first = writer.edge_count;
+    write_rings(&writer, tile, sides, is_changed, old);
+    rings->cells[tile->polygon_count].first = (uint32_t)writer.edge_count;
     rings->cells[tile->polygon_count].dead_end = 0;
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         if (is_changed[p]) {
@@ -261,27 +286,25 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
                             uint32_t changed_side, tl_nav_rings *rings_out)
 {
     memset(rings_out, 0, sizeof *rings_out);
-    uint64_t seams = 0;
-    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
-        seams += sides[side]->link_count;
-    }
-    // A link adds itself and a gap before it. Edges that are copied keep the cuts of links that are gone.
-    uint64_t edges = (old != NULL ? old->cells[old->polygon_count].first : tile->corner_count) + 2 * seams;
-    if (edges > UINT32_MAX || seams >= TL_NAV_RING_BACK - TL_NAV_RING_SEAM) {
-        return TL_ERR_LIMIT;
-    }
     tl_nav_rings rings;
     memset(&rings, 0, sizeof rings);
     uint32_t *scratch = tl_allocate_array(allocator, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
-    if (scratch == NULL || !allocate_rings(allocator, tile, edges, seams, &rings)) {
-        tl_release_array(allocator, scratch, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
+    if (scratch == NULL) {
         return TL_ERR_MEMORY;
+    }
+    mark_changed(tile, changed_side, old, scratch);
+    ring_writer counted = { &rings, 0, 0 };
+    write_rings(&counted, tile, sides, scratch, old);
+    const uint64_t edges = counted.edge_count, seams = counted.seam_count;
+    const bool fits = edges <= UINT32_MAX && seams < TL_NAV_RING_BACK - TL_NAV_RING_SEAM;
+    if (!fits || !allocate_rings(allocator, tile, edges, seams, &rings)) {
+        tl_release_array(allocator, scratch, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
+        return fits ? TL_ERR_MEMORY : TL_ERR_LIMIT;
     }
     rings.polygon_count = tile->polygon_count;
     memset(rings.walls, 0, edges * sizeof *rings.walls);
-    mark_changed(tile, changed_side, old, scratch);
     fill_rings(tile, sides, scratch, old, &rings);
-    TL_ASSERT(rings.cells[tile->polygon_count].first <= edges);
+    TL_ASSERT(rings.cells[tile->polygon_count].first == edges);
     if (old != NULL) {
         copy_components(old, tile->node_count, &rings);
     } else {
