@@ -6,6 +6,8 @@
 
 #include "nav_fixture.h"
 
+#include "nav_query/navmesh/navmesh.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -227,10 +229,62 @@ static void test_cut_off(void **state)
     tl_navmesh_destroy(navmesh);
 }
 
+// The nearest point of an island against all its polygons: in one tile of few, of some and of hundreds of components,
+// and in tiles.
+static void nearest_reachable_is_that_of_all_polygons(void **state)
+{
+    (void)state;
+    test_random random = { 9 };
+    uint32_t most_components = 0, elsewhere = 0;
+    for (uint32_t i = 0; i < 12; i++) {
+        fixture_level level = fixture_make((const char *const[]){ "0" }, 1);
+        level.width = level.height = 12 + 16 * (i % 4);
+        level.tile_cells = i < 6 ? 0 : 9;
+        for (uint32_t k = 0; k < level.width * level.height; k++) {
+            level.cells[k / level.width][k % level.width] = test_random_below(&random, 100) < 58 ? '#' : '0';
+        }
+        tl_navmesh *navmesh = fixture_build(&level, NULL);
+        fixture_refs all = fixture_all_refs(navmesh);
+        for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
+            const uint32_t count = navmesh->slots[slot].rings.component_count;
+            most_components = count > most_components ? count : most_components;
+        }
+        for (uint32_t k = 0; k < 40; k++) {
+            const tl_nav_location from = fixture_random_location(navmesh, &all, &random);
+            tl_vec3 point = fixture_random_location(navmesh, &all, &random).point;
+            point.x += k % 5 == 0 ? 1000.0f : 0.0f; // outside of all tiles
+            tl_nav_location found;
+            TEST_RESULT(tl_navmesh_find_nearest_reachable(navmesh, NULL, from.polygon, point, &found), TL_OK);
+            uint32_t island = 0;
+            TEST_RESULT(tl_navmesh_island(navmesh, from.polygon, &island), TL_OK);
+            float best = INFINITY;
+            for (uint32_t p = 0; p < all.count; p++) {
+                uint32_t of_polygon = 0;
+                TEST_RESULT(tl_navmesh_island(navmesh, all.refs[p], &of_polygon), TL_OK);
+                if (of_polygon == island) {
+                    tl_vec3 closest;
+                    TEST_RESULT(tl_navmesh_closest_point(navmesh, all.refs[p], point, &closest, NULL), TL_OK);
+                    const float distance = tl_distance_sq(closest, point);
+                    best = distance < best ? distance : best;
+                }
+            }
+            uint32_t of_found = 0;
+            TEST_RESULT(tl_navmesh_island(navmesh, found.polygon, &of_found), TL_OK);
+            TEST_CHECK(of_found == island && tl_distance_sq(found.point, point) == best);
+            elsewhere += best > 0.0f;
+        }
+        free(all.refs);
+        tl_navmesh_destroy(navmesh);
+    }
+    print_message("up to %u components a tile, %u of 480 points elsewhere\n", most_components, elsewhere);
+    TEST_CHECK(most_components > 256 && elsewhere > 240);
+}
+
 int main(int argc, char **argv)
 {
     times = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 1;
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_edits), cmocka_unit_test(test_edits_with_links),
-                                        cmocka_unit_test(test_cut_off) };
+                                        cmocka_unit_test(test_cut_off),
+                                        cmocka_unit_test(nearest_reachable_is_that_of_all_polygons) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -130,14 +130,37 @@ static float gap_sq_to_box(tl_vec3 c, const tl_aabb *box)
     return dx * dx + dz * dz + dy * dy;
 }
 
+// More components than this are not asked one by one: there are some in each bit.
+enum { MAX_MASKED_COMPONENTS = 256 };
+
+static bool is_component_on_island(const nearest_search *search, const tl_nav_rings *rings, uint32_t component)
+{
+    const tl_nav_islands *islands = &search->navmesh->islands;
+    const uint32_t label = islands->nodes[rings->island[component]].labels[TL_NAV_ISLANDS];
+    return tl_nav_label_root(islands->labels[TL_NAV_ISLANDS], label) == search->island;
+}
+
+// The bits of a tile's components that are on the island. 0: none is.
+static uint32_t bits_on_island(const nearest_search *search, const tl_nav_rings *rings)
+{
+    uint32_t bits = rings->component_count > MAX_MASKED_COMPONENTS ? UINT32_MAX : 0;
+    for (uint32_t i = 0; i < rings->component_count && bits != UINT32_MAX; i++) {
+        bits |= is_component_on_island(search, rings, i) ? tl_nav_component_bit(i) : 0;
+    }
+    return bits & ~TL_NAV_MIXED_COMPONENTS;
+}
+
 // The same for the nearest polygon of an island: all polygons around a point that cannot be reached are of others, so
-// what holds one component alone, of another island, is left out as a whole.
+// what holds only components of other islands is left out as a whole.
 static void search_tile_on_island(nearest_search *search, uint32_t slot)
 {
     const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
     const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
     const tl_nav_rings *rings = &search->navmesh->slots[slot].rings;
-    const tl_nav_island_label *labels = search->navmesh->islands.labels[TL_NAV_ISLANDS];
+    const uint32_t bits = bits_on_island(search, rings);
+    if (bits == 0) {
+        return;
+    }
     pending_tile_node stack[TL_NAV_MAX_TILE_DEPTH + 1];
     uint32_t depth = 0;
     pending_tile_node at = { 0, gap_sq_to_box(search->center, &nodes[0].box) };
@@ -146,12 +169,11 @@ static void search_tile_on_island(nearest_search *search, uint32_t slot)
     for (;;) {
         const uint32_t component = rings->node_component[at.node];
         bool is_on = at.bound <= search->best;
-        if (is_on && component != TL_NAV_MIXED_COMPONENTS) {
-            if (component != known) {
-                const uint32_t label = search->navmesh->islands.nodes[rings->island[component]].labels[TL_NAV_ISLANDS];
-                known = component;
-                known_is_on = tl_nav_label_root(labels, label) == search->island;
-            }
+        if (is_on && (component & TL_NAV_MIXED_COMPONENTS) != 0) {
+            is_on = (component & bits) != 0;
+        } else if (is_on) {
+            known_is_on = component == known ? known_is_on : is_component_on_island(search, rings, component);
+            known = component;
             is_on = known_is_on;
         }
         if (is_on && nodes[at.node].polygon == TL_NO_POLYGON) {
@@ -276,6 +298,29 @@ tl_result tl_nav_find_nearest_of_any_flags(const tl_navmesh *navmesh, tl_vec3 ce
     return write_nearest(&search, location_out);
 }
 
+// All tiles, those at the point's own place first: what they hold is most often near, and then most others are done
+// with by their first box.
+static void search_island(nearest_search *search)
+{
+    const tl_navmesh *navmesh = search->navmesh;
+    const double size = (double)navmesh->cell_size * (double)navmesh->tile_size;
+    const double x = floor(((double)search->center.x - (double)navmesh->origin.x) / size);
+    const double z = floor(((double)search->center.z - (double)navmesh->origin.z) / size);
+    const bool has_home = fabs(x) < 2147483647.0 && fabs(z) < 2147483647.0; // false: one tile, which has no size
+    const int64_t home_x = has_home ? (int64_t)x : 0;
+    const int64_t home_z = has_home ? (int64_t)z : 0;
+    for (uint32_t slot = has_home ? tl_nav_find_slot(navmesh, home_x, home_z) : TL_NAV_NO_SLOT; slot != TL_NAV_NO_SLOT;
+         slot = tl_nav_next_slot(navmesh, slot)) {
+        search_tile_on_island(search, slot);
+    }
+    for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
+        const tl_nav_tile *tile = navmesh->slots[slot].tile;
+        if (tile != NULL && !(has_home && tile->tile_x == home_x && tile->tile_z == home_z)) {
+            search_tile_on_island(search, slot);
+        }
+    }
+}
+
 tl_result tl_navmesh_find_nearest_reachable(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref from,
                                             tl_vec3 point, tl_nav_location *location_out)
 {
@@ -301,10 +346,6 @@ tl_result tl_navmesh_find_nearest_reachable(const tl_navmesh *navmesh, const tl_
         true,    0,      false
     };
     search.island = tl_nav_island_of(navmesh, slot, polygon);
-    for (slot = 0; slot < navmesh->slot_count; slot++) {
-        if (navmesh->slots[slot].tile != NULL) {
-            search_tile_on_island(&search, slot);
-        }
-    }
+    search_island(&search);
     return write_nearest(&search, location_out);
 }

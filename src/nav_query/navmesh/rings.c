@@ -181,6 +181,11 @@ static void label_components(tl_nav_rings *rings, uint32_t *stack)
     }
 }
 
+static uint32_t component_bits(uint32_t of_node)
+{
+    return (of_node & TL_NAV_MIXED_COMPONENTS) != 0 ? of_node : tl_nav_component_bit(of_node);
+}
+
 // From the leaves up: a node's children stand behind it.
 static void label_tree_nodes(const tl_nav_tile *tile, tl_nav_rings *rings)
 {
@@ -192,7 +197,8 @@ static void label_tree_nodes(const tl_nav_tile *tile, tl_nav_rings *rings)
         } else {
             const uint32_t first = rings->node_component[node + 1];
             const uint32_t second = rings->node_component[nodes[node + 1].skip];
-            rings->node_component[node] = first == second ? first : TL_NAV_MIXED_COMPONENTS;
+            rings->node_component[node] =
+                first == second ? first : TL_NAV_MIXED_COMPONENTS | component_bits(first) | component_bits(second);
         }
     }
 }

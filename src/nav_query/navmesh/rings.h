@@ -36,7 +36,13 @@ typedef struct tl_nav_ring_walls {
     float last_x, last_z;
 } tl_nav_ring_walls;
 
-#define TL_NAV_MIXED_COMPONENTS UINT32_MAX
+/// Set in a value of tl_nav_rings.node_component: several components, with a bit for each number modulo 31.
+#define TL_NAV_MIXED_COMPONENTS 0x80000000u
+
+static inline uint32_t tl_nav_component_bit(uint32_t component)
+{
+    return (uint32_t)1 << component % 31;
+}
 
 typedef struct tl_nav_ring_cell {
     uint32_t first;    ///< of the polygon's edges; they end where the next cell's begin
@@ -51,7 +57,7 @@ typedef struct tl_nav_rings {
     uint32_t *component;   ///< by polygon: its connected component within the tile, from 0
     uint32_t *island;      ///< by component: a node of the navmesh's islands (islands.c)
     uint32_t *next_member; ///< by polygon: the next one of its component, around
-    /// By node of the tile's box tree: the component of all polygons below it, or TL_NAV_MIXED_COMPONENTS.
+    /// By node of the tile's box tree: the component of all polygons below it, or TL_NAV_MIXED_COMPONENTS | their bits.
     uint32_t *node_component;
     uint32_t polygon_count, component_count;
     bool has_back; ///< some edge is a TL_NAV_RING_BACK
