@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A city that changes: a box of it baked again, and obstacles that come, move and go. Talus alone: Detour's tile cache
-// is not in Debian's library with the means to compare (it needs the caller's own compressor and mesh processing).
+// A city that changes: a box of it baked again, and obstacles that come, move and go, beside DetourTileCache where it
+// is installed: the same cylinders in the same tiles, both sides in turn, each until its navmesh is right.
 //
 //   bench_obstacles [--triangles N (1000000)] [--json FILE]
 
@@ -10,6 +10,7 @@
 #include "cli/sample/sample_level.h"
 #include "measure.h"
 #include "report.h"
+#include "tile_cache_peer.h"
 
 #include <talus/nav_obstacles.h>
 
@@ -83,6 +84,53 @@ static void make_tiles(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, edit_ti
     }
 }
 
+// From the call until the navmesh is right, both sides in turn.
+typedef struct whole_edits {
+    double ours[2 * EDITS], theirs[2 * EDITS];
+    size_t count;
+} whole_edits;
+
+#ifdef TALUS_HAVE_TILE_CACHE
+static void measure_peer(bench_tile_cache *peer, const tl_nav_obstacle *crate, bool moves, whole_edits *whole)
+{
+    double began = bench_process_seconds();
+    if (!bench_tile_cache_place(peer, crate->base, crate->radius, crate->height, moves)) {
+        fprintf(stderr, "DetourTileCache refused an obstacle\n");
+        exit(1);
+    }
+    whole->theirs[whole->count] = (bench_process_seconds() - began) * 1e6;
+}
+
+static bench_tile_cache *make_peer(const tl_nav_def *def, const tl_nav_input *input)
+{
+    bench_tile_cache *peer = bench_tile_cache_make(def, &input->mesh);
+    if (peer == NULL) {
+        fprintf(stderr, "DetourTileCache could not be filled\n");
+        exit(1);
+    }
+    return peer;
+}
+
+static void compare_with_peer(bench_tile_cache *peer, const char *name, const whole_edits *whole, double bytes,
+                              bench_report *report)
+{
+    static double sorted[2 * EDITS];
+    memcpy(sorted, whole->ours, sizeof sorted);
+    const double ours = bench_quantile(sorted, whole->count, 0.5);
+    memcpy(sorted, whole->theirs, sizeof sorted);
+    const double theirs = bench_quantile(sorted, whole->count, 0.5);
+    printf("%s: an obstacle added or moved until the navmesh is right: median %.0f us, DetourTileCache %.0f us; kept "
+           "of the tiles %.1f MB, its layers, not compressed, %.1f MB\n",
+           name, ours, theirs, bytes * 1e-6, bench_tile_cache_bytes(peer) * 1e-6);
+    char claim[128];
+    snprintf(claim, sizeof claim, "an obstacle's edit to DetourTileCache's time (%s)", name);
+    bench_report_at_most(report, claim, ours / theirs, 1.0);
+    snprintf(claim, sizeof claim, "kept of the tiles to its layers' bytes (%s)", name);
+    bench_report_at_most(report, claim, bytes / bench_tile_cache_bytes(peer), 1.5);
+    bench_tile_cache_free(peer);
+}
+#endif
+
 static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_partition partition, uint32_t tile_size,
                               bench_report *report)
 {
@@ -101,7 +149,12 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_
     const double bare_bytes = (double)tl_nav_obstacles_bytes(obstacles);
     static double add[EDITS];
     static edit_times times;
+    static whole_edits whole;
     memset(&times, 0, sizeof times);
+    memset(&whole, 0, sizeof whole);
+#ifdef TALUS_HAVE_TILE_CACHE
+    bench_tile_cache *peer = make_peer(&def, input);
+#endif
     for (int i = 0; i < EDITS; i++) {
         tl_nav_obstacle crate;
         memset(&crate, 0, sizeof crate);
@@ -114,11 +167,20 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_
         began = bench_process_seconds();
         must(tl_nav_obstacles_add(obstacles, &crate, &id, NULL), "add");
         add[i] = (bench_process_seconds() - began) * 1e6;
-        make_tiles(obstacles, navmesh, &times);
-        crate.base.x += 0.4f; // it is pushed on
-        crate.base.z -= 0.3f;
-        must(tl_nav_obstacles_move(obstacles, id, &crate, NULL), "move");
-        make_tiles(obstacles, navmesh, &times);
+        for (int moves = 0; moves < 2; moves++) {
+            if (moves == 1) {
+                crate.base.x += 0.4f; // it is pushed on
+                crate.base.z -= 0.3f;
+                began = bench_process_seconds();
+                must(tl_nav_obstacles_move(obstacles, id, &crate, NULL), "move");
+            }
+            make_tiles(obstacles, navmesh, &times);
+            whole.ours[whole.count] = (bench_process_seconds() - began) * 1e6;
+#ifdef TALUS_HAVE_TILE_CACHE
+            measure_peer(peer, &crate, moves == 1, &whole);
+#endif
+            whole.count++;
+        }
     }
     double add_median = bench_quantile(add, EDITS, 0.5),
            first_median = bench_quantile(times.first, times.first_count, 0.5);
@@ -134,6 +196,9 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_
         bench_quantile(times.first, times.first_count, 0.99), again_median,
         bench_quantile(times.again, times.again_count, 0.9), bench_quantile(times.again, times.again_count, 0.99),
         swap_median);
+#ifdef TALUS_HAVE_TILE_CACHE
+    compare_with_peer(peer, name, &whole, bare_bytes + memo_bytes, report);
+#endif
     char claim[128];
     snprintf(claim, sizeof claim, "a cylinder added (%s), us", name);
     bench_report_at_most(report, claim, add_median, 100.0);
