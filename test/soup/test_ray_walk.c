@@ -296,6 +296,73 @@ static void test_scales(void **state)
     TEST_CHECK(seen.cut_segments > 5000 && seen.cut_segments < seen.rays / 10 * 9);
 }
 
+static bool accepts_high(uint32_t triangle, uint16_t material, void *user)
+{
+    (void)material;
+    return triangle >= *(const uint32_t *)user;
+}
+
+// Segments to the surface itself, to before it and beyond it; with a filter that leaves only the copies.
+static void check_segments(const model *m, const tl_soup *plain, const tl_soup *soup, regimes *seen)
+{
+    test_random random = { 11 };
+    tl_aabb bounds = tl_soup_bounds(soup);
+    uint32_t originals = m->triangle_count / 2;
+    tl_ray_filter filters[2];
+    memset(filters, 0, sizeof filters);
+    filters[1].accept = accepts_high;
+    filters[1].accept_user = &originals;
+    for (uint32_t i = 0; i < 1500; i++) {
+        const uint32_t *corner = m->indices + 3 * (size_t)test_random_below(&random, m->triangle_count);
+        tl_vec3 a = test_random_point(&random, bounds.min, bounds.max);
+        tl_vec3 b = tl_lerp(m->vertices[corner[0]], m->vertices[corner[i % 3]], test_random_unit(&random));
+        b = i % 2 == 0 ? b : tl_lerp(a, b, test_random_unit(&random) * 2.0f);
+        const tl_ray_filter *filter = i % 4 < 2 ? NULL : &filters[1];
+        tl_ray_job job;
+        job.filter = NULL;
+        bool cut = search_without_tree(plain, a, b, true, 1.0f, &job);
+        tl_ray_hit first = { 0 };
+        bool met = tl_soup_cast_segment_with(tl_ray_walk_scalar, soup, a, b, filter, &first);
+        TEST_CHECK(filter != NULL || met == cut);
+        TEST_CHECK(filter != NULL || !cut || (first.t == job.t && first.triangle == job.triangle));
+        TEST_CHECK(filter == NULL || !met || (cut && first.triangle >= originals && first.t >= job.t));
+        for (tl_ray_isa isa = TL_RAY_SCALAR; isa < TL_RAY_ISA_COUNT; isa++) {
+            tl_ray_walk_fn *walk = tl_ray_walk_for(isa);
+            tl_ray_hit hit = { 0 };
+            TEST_CHECK(walk == NULL || tl_soup_cast_segment_with(walk, soup, a, b, filter, &hit) == met);
+            TEST_CHECK(walk == NULL || !met || memcmp(&hit, &first, sizeof hit) == 0);
+            TEST_CHECK(walk == NULL || tl_soup_line_of_sight_with(walk, soup, a, b, filter) == !met);
+        }
+        TEST_CHECK(tl_soup_line_of_sight(soup, a, b, filter) == !met);
+        seen->cut_segments += cut;
+        seen->saturated += cut && job.t == 1.0f;
+    }
+}
+
+// Coincident triangles, as two-sided walls and decals have: which of them is hit is decided by t and index alone.
+static void test_coincident_triangles(void **state)
+{
+    (void)state;
+    regimes seen = { 0 };
+    model models[] = { model_terrain(24, 2, vec(0, 0, 0), 7), model_ball(4, 5, 0.2f, vec(900, 3, -20), 8),
+                       model_random(300, 10, 4, 9) };
+    for (uint32_t i = 0; i < sizeof models / sizeof models[0]; i++) {
+        model_repeat_triangles(&models[i]);
+        check_model(&models[i], rays_asked != 0 ? rays_asked : 2000, 50 + i, &seen);
+        tl_soup *soup = model_soup(&models[i], NULL);
+        tl_soup_def def = model_soup_def(MODEL_COMPACT);
+        tl_soup *compact = model_soup(&models[i], &def);
+        check_segments(&models[i], soup, soup, &seen);
+        check_segments(&models[i], soup, compact, &seen);
+        tl_blob_free(soup);
+        tl_blob_free(compact);
+        model_free(&models[i]);
+    }
+    print_message("rays %u, hits %u, segments that hit %u, at their end %u\n", seen.rays, seen.hit, seen.cut_segments,
+                  seen.saturated);
+    TEST_CHECK(seen.hit > 2000 && seen.cut_segments > 3000 && seen.saturated > 100);
+}
+
 static void test_levels(void **state)
 {
     (void)state;
@@ -319,6 +386,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_generated_models),
         cmocka_unit_test(test_scales),
+        cmocka_unit_test(test_coincident_triangles),
         cmocka_unit_test(test_levels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -196,19 +196,6 @@ static void scale_model(model *m, float scale, tl_vec3 move)
     }
 }
 
-// Each triangle twice or three times: which of them a ray hits is decided by their index.
-static void repeat_triangles(model *m)
-{
-    uint32_t count = m->triangle_count;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t a = m->indices[3 * i], b = m->indices[3 * i + 1], c = m->indices[3 * i + 2];
-        model_triangle(m, b, c, a);
-        if (i % 3 == 0) {
-            model_triangle(m, c, b, a);
-        }
-    }
-}
-
 static void check_model(const model *m, uint64_t seed)
 {
     static packet_rays all;
@@ -229,7 +216,7 @@ static void test_same_bits(void **state)
     (void)state;
     model models[] = { model_terrain(40, 4, vec(0, 0, 0), 1), model_ball(4, 5, 0.2f, vec(90, 3, -20), 2),
                        model_random(2000, 10, 2, 3), model_terrain(12, 3, vec(0, 0, 0), 4) };
-    repeat_triangles(&models[3]);
+    model_repeat_triangles(&models[3]);
     for (uint32_t i = 0; i < sizeof models / sizeof models[0]; i++) {
         check_model(&models[i], 10 * i);
         scale_model(&models[i], 1e-5f, vec(0, 0, 0));

@@ -49,6 +49,19 @@ static inline void model_triangle(model *m, uint32_t a, uint32_t b, uint32_t c)
     corner[2] = c;
 }
 
+/// Each triangle twice or three times, in other orders and windings.
+static inline void model_repeat_triangles(model *m)
+{
+    uint32_t count = m->triangle_count;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t a = m->indices[3 * i], b = m->indices[3 * i + 1], c = m->indices[3 * i + 2];
+        model_triangle(m, b, c, a);
+        if (i % 3 == 0) {
+            model_triangle(m, c, b, a);
+        }
+    }
+}
+
 static inline tl_mesh_view model_view(const model *m)
 {
     tl_mesh_view view = { m->vertices, m->vertex_count, m->indices, m->triangle_count, NULL };

@@ -91,11 +91,18 @@ static inline void tl_ray_keep_inside(float *u, float *v)
     *v = *v < 1.0f - *u ? *v : 1.0f - *u;
 }
 
-// Describes the pending triangle, which the filters have proven to be hit: the first or second of pair (bit & 3) of a
-// leaf of n. False, and nothing done, when its t must be computed exactly. Bounds of the whole leaf bound this
-// triangle's coordinates from above.
-static TL_ALWAYS_INLINE bool tl_ray_measure(const tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit,
-                                            tl_ray_hit *hit)
+/// A triangle that the filters have proven to be hit, and where.
+typedef struct tl_ray_place {
+    tl_f64x4 normal; ///< n
+    float t, u, v;
+    uint32_t triangle;
+    bool back;
+} tl_ray_place;
+
+/// Where the ray meets the first or second triangle of pair (bit & 3) of a leaf of n, which it surely meets in front of
+/// its origin. False when t must be computed exactly. Bounds of the whole leaf bound this triangle's coordinates.
+static TL_ALWAYS_INLINE bool tl_ray_find_place(const tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n,
+                                               uint32_t bit, tl_ray_place *out)
 {
     uint32_t pair = bit & 3u, second = bit >> 2;
     const uint32_t *ids = (const uint32_t *)(const void *)(leaf + 1);
@@ -118,16 +125,32 @@ static TL_ALWAYS_INLINE bool tl_ray_measure(const tl_ray_job *job, const tl_soup
     if (!(place[1] < TL_RAY_T_MAX)) {
         return false;
     }
-    uint32_t triangle = id & TL_ID_INDEX;
+    out->normal = crossing.normal;
+    out->t = place[1];
+    out->u = place[2];
+    out->v = -place[3];
+    tl_ray_keep_inside(&out->u, &out->v);
+    out->triangle = id & TL_ID_INDEX;
+    out->back = along > 0.0;
+    return true;
+}
+
+/// Describes the pending triangle. False, and nothing done, when its t must be computed exactly.
+static TL_ALWAYS_INLINE bool tl_ray_measure(const tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit,
+                                            tl_ray_hit *hit)
+{
+    tl_ray_place place;
+    if (!tl_ray_find_place(job, leaf, n, bit, &place)) {
+        return false;
+    }
     memset(hit, 0, sizeof *hit);
-    hit->t = place[1];
-    hit->triangle = triangle;
-    hit->u = place[2];
-    hit->v = -place[3];
-    tl_ray_keep_inside(&hit->u, &hit->v);
-    hit->normal = tl_ray_unit_normal(crossing.normal);
-    hit->material = tl_soup_material(job->soup, triangle);
-    hit->back = along > 0.0;
+    hit->t = place.t;
+    hit->triangle = place.triangle;
+    hit->u = place.u;
+    hit->v = place.v;
+    hit->normal = tl_ray_unit_normal(place.normal);
+    hit->material = tl_soup_material(job->soup, place.triangle);
+    hit->back = place.back;
     return true;
 }
 

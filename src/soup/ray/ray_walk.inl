@@ -299,10 +299,38 @@ static inline const tl_soup_leaf *leaf_of(const tl_ray_job *job, uint32_t child,
                                 : tl_open_leaf(job->soup, child, &job->buffers[buffer]);
 }
 
-// Decides a lane. An expanded leaf is kept as long as its triangle is the best.
-static inline void decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
+// A triangle that is surely hit needs no test, only its t: the better of it and the best so far stays. False when it
+// must be decided exactly, as at a segment's end.
+static TL_ALWAYS_INLINE bool compare_met(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit,
+                                         bool *better_out)
 {
-    if (tl_ray_decide(job, leaf, lane) && job->buffers != NULL) {
+    tl_ray_place place;
+    if (!tl_ray_find_place(job, leaf, n, bit, &place) || (job->is_segment && !(place.t < 1.0f))) {
+        return false;
+    }
+    *better_out = place.t < job->t || (place.t == job->t && place.triangle < job->triangle);
+    if (*better_out) {
+        job->t = place.t;
+        job->box_limit = tl_ray_box_limit(job, place.t);
+        job->triangle = place.triangle;
+        job->leaf = leaf;
+        job->lane = lane_of_bit(bit, n);
+        job->back = place.back;
+        job->u = place.u;
+        job->v = place.v;
+    }
+    return true;
+}
+
+// Decides a lane; `met`: it is surely hit, and not ignored. An expanded leaf is kept as long as its triangle is the
+// best.
+static TL_ALWAYS_INLINE void decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit, bool met)
+{
+    bool better;
+    if (!met || !compare_met(job, leaf, n, bit, &better)) {
+        better = tl_ray_decide(job, leaf, lane_of_bit(bit, n));
+    }
+    if (better && job->buffers != NULL) {
         memcpy(&job->buffers[BUFFER_DECIDED], leaf, sizeof *job->buffers);
         job->leaf = &job->buffers[BUFFER_DECIDED].head;
     }
@@ -310,7 +338,7 @@ static inline void decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t la
 
 static inline void decide_pending(tl_ray_job *job, const walk_best *best)
 {
-    decide(job, leaf_of(job, best->child, BUFFER_PENDING), lane_of_bit(best->bit, tl_child_pair_count(best->child)));
+    decide(job, leaf_of(job, best->child, BUFFER_PENDING), tl_child_pair_count(best->child), best->bit, true);
 }
 
 // The lanes of a leaf that may be hit, as far as the float filters tell.
@@ -343,7 +371,7 @@ static TL_NOINLINE walk_best settle_each(tl_ray_job *job, const walk_lanes *lane
             decide_pending(job, &best);
             best.child = 0;
         }
-        decide(job, leaf, lane);
+        decide(job, leaf, n, bit, (lanes->sure >> bit & 1u) != 0);
         best.limit = job->box_limit;
         best.ahead = job->t * job->box_scale * (1.0f - T_MARGIN);
     }
