@@ -50,6 +50,13 @@ static inline tl_box4 tl_box4_union(tl_box4 a, tl_box4 b)
     return r;
 }
 
+/// What both hold; inside out where that is nothing.
+static inline tl_box4 tl_box4_intersection(tl_box4 a, tl_box4 b)
+{
+    tl_box4 r = { _mm_max_ps(a.min, b.min), _mm_min_ps(a.max, b.max) };
+    return r;
+}
+
 /// The doubled middle, as a box.
 static inline tl_box4 tl_box4_middle(tl_box4 a)
 {
@@ -117,6 +124,12 @@ static inline tl_box4 tl_box4_union(tl_box4 a, tl_box4 b)
     return r;
 }
 
+static inline tl_box4 tl_box4_intersection(tl_box4 a, tl_box4 b)
+{
+    tl_box4 r = { tl_f32x4_max(a.min, b.min), tl_f32x4_min(a.max, b.max) };
+    return r;
+}
+
 static inline tl_box4 tl_box4_middle(tl_box4 a)
 {
     tl_f32x4 middle = tl_f32x4_add(a.min, a.max);
@@ -170,6 +183,12 @@ static inline tl_box4 tl_box4_empty(void)
 static inline tl_box4 tl_box4_union(tl_box4 a, tl_box4 b)
 {
     tl_box4 r = { tl_aabb_union(a.box, b.box) };
+    return r;
+}
+
+static inline tl_box4 tl_box4_intersection(tl_box4 a, tl_box4 b)
+{
+    tl_box4 r = { tl_aabb_intersection(a.box, b.box) };
     return r;
 }
 

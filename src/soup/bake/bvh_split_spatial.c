@@ -15,17 +15,22 @@
 // Twice as many bins found no better planes.
 enum { SPATIAL_BINS = 8 };
 
-// Where the children of an object split overlap by less than this share of the root, clipping gains little. With this
-// instead of 1e-5, rays visited as many nodes, and a bake took half the time.
-#define WORTHWHILE_OVERLAP 1e-3f
+// Where the children of an object split overlap by less than this share of the root, or references are few, clipping
+// gains little. With this instead of 1e-5, and any number, rays visited as many nodes, and a bake took a third of the
+// time.
+#define WORTHWHILE_OVERLAP 4e-3f
+enum { MIN_SPATIAL_REFS = 32 };
 
 // Below this depth references are only sorted.
 enum { MAX_SPATIAL_DEPTH = 40 };
 
+// Bins of one axis, and the space of each.
 typedef struct spatial_bins {
-    tl_aabb box[SPATIAL_BINS];
+    tl_box4 slab[SPATIAL_BINS];
+    tl_box4 box[SPATIAL_BINS];
     uint32_t begin[SPATIAL_BINS]; // references whose first bin this is
     uint32_t end[SPATIAL_BINS];   // references whose last bin this is
+    float base, width;            // width 0: no bins along this axis
 } spatial_bins;
 
 static inline float bound_below(double value)
@@ -92,68 +97,88 @@ static inline float plane_at(float base, float width, uint32_t bin)
     return base + width * (float)bin;
 }
 
-static inline uint32_t spatial_bin(float place, float base, float per_metre)
+static void begin_bins(const tl_bvh_range *range, uint32_t axis, spatial_bins *bins)
 {
-    float bin = (place - base) * per_metre;
-    return bin <= 0.0f ? 0 : bin >= (float)(SPATIAL_BINS - 1) ? SPATIAL_BINS - 1 : (uint32_t)bin;
-}
-
-static void fill_spatial_bins(const tl_bvh_splitter *splitter, const tl_bvh_range *range, uint32_t axis, float base,
-                              float width, spatial_bins *bins)
-{
+    bins->base = tl_component(range->box.min, axis);
+    bins->width = (tl_component(range->box.max, axis) - bins->base) / (float)SPATIAL_BINS;
+    // Bins must be wider than the rounding of their planes.
+    if (!(bins->width > 4.0f * FLT_EPSILON * fabsf(bins->base) && bins->width > FLT_MIN &&
+          1.0f / bins->width < FLT_MAX)) {
+        bins->width = 0.0f;
+        return;
+    }
     for (uint32_t bin = 0; bin < SPATIAL_BINS; bin++) {
-        bins->box[bin] = tl_aabb_empty();
+        tl_aabb slab = range->box;
+        tl_set_component(&slab.min, axis, plane_at(bins->base, bins->width, bin));
+        tl_set_component(&slab.max, axis, plane_at(bins->base, bins->width, bin + 1));
+        bins->slab[bin] = tl_box4_of(slab);
+        bins->box[bin] = tl_box4_empty();
         bins->begin[bin] = 0;
         bins->end[bin] = 0;
     }
+}
+
+// The boxes of references are cut by the planes, not the triangles: that finds the same planes, in a quarter of the
+// time. The triangles are clipped where a plane is applied.
+static void fill_spatial_bins(const tl_bvh_splitter *splitter, const tl_bvh_range *range, spatial_bins bins[3])
+{
+    float base[4] = { 0 }, per_metre[4] = { 0 };
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        begin_bins(range, axis, &bins[axis]);
+        base[axis] = bins[axis].base;
+        per_metre[axis] = bins[axis].width > 0.0f ? 1.0f / bins[axis].width : 0.0f;
+    }
     for (uint32_t i = 0; i < range->count; i++) {
-        tl_bvh_ref rest = splitter->refs[range->first + i];
-        uint32_t first = spatial_bin(tl_component(rest.min, axis), base, 1.0f / width);
-        uint32_t last = spatial_bin(tl_component(rest.max, axis), base, 1.0f / width);
-        bins->begin[first]++;
-        bins->end[last]++;
-        for (uint32_t bin = first; bin < last; bin++) {
-            tl_aabb left, right;
-            tl_bvh_clip_reference(splitter, &rest, axis, plane_at(base, width, bin + 1), &left, &right);
-            bins->box[bin] = tl_aabb_union(bins->box[bin], left);
-            rest.min = right.min;
-            rest.max = right.max;
+        const float *row = (const float *)(const void *)&splitter->refs[range->first + i];
+        tl_box4 box = tl_box4_load(row, row + 4);
+        int32_t first[4], last[4];
+        tl_box4_cells(box, base, per_metre, (float)(SPATIAL_BINS - 1), first);
+        tl_box4_cells(tl_box4_load(row + 4, row + 4), base, per_metre, (float)(SPATIAL_BINS - 1), last);
+        for (uint32_t axis = 0; axis < 3; axis++) {
+            spatial_bins *along = &bins[axis];
+            along->begin[first[axis]]++;
+            along->end[last[axis]]++;
+            if (first[axis] == last[axis]) {
+                along->box[first[axis]] = tl_box4_union(along->box[first[axis]], box);
+                continue;
+            }
+            for (int32_t bin = first[axis]; bin <= last[axis]; bin++) {
+                tl_box4 part = tl_box4_intersection(box, along->slab[bin]);
+                along->box[bin] = tl_box4_union(along->box[bin], part);
+            }
         }
-        tl_aabb box = { rest.min, rest.max };
-        bins->box[last] = tl_aabb_union(bins->box[last], box);
     }
 }
 
-static float side_cost(tl_aabb box, uint32_t count)
+static float side_cost(tl_box4 box, uint32_t count)
 {
-    return tl_aabb_is_empty(box) ? 0.0f : tl_aabb_half_area(box) * tl_bvh_blocks(count);
+    return count > 0 ? tl_box4_half_area(box) * tl_bvh_blocks(count) : 0.0f;
 }
 
 // Costs of all planes between bins; the cheapest that fits the spare capacity goes to `best`.
-static void evaluate_bins(const spatial_bins *bins, const tl_bvh_range *range, uint32_t axis, float base, float width,
-                          tl_bvh_split *best)
+static void evaluate_bins(const spatial_bins *bins, const tl_bvh_range *range, uint32_t axis, tl_bvh_split *best)
 {
     float right_cost[SPATIAL_BINS];
     uint32_t right_count[SPATIAL_BINS];
-    tl_aabb box = tl_aabb_empty();
+    tl_box4 box = tl_box4_empty();
     uint32_t count = 0;
     for (uint32_t bin = SPATIAL_BINS - 1; bin > 0; bin--) {
-        box = tl_aabb_union(box, bins->box[bin]);
+        box = tl_box4_union(box, bins->box[bin]);
         count += bins->end[bin];
         right_cost[bin] = side_cost(box, count);
         right_count[bin] = count;
     }
-    box = tl_aabb_empty();
+    box = tl_box4_empty();
     count = 0;
     for (uint32_t bin = 1; bin < SPATIAL_BINS; bin++) {
-        box = tl_aabb_union(box, bins->box[bin - 1]);
+        box = tl_box4_union(box, bins->box[bin - 1]);
         count += bins->begin[bin - 1];
         float cost = side_cost(box, count) + right_cost[bin];
         bool parts = count > 0 && right_count[bin] > 0 && count < range->count && right_count[bin] < range->count;
         if (parts && count + right_count[bin] <= range->capacity && cost < best->cost) {
             best->spatial = true;
             best->axis = axis;
-            best->position = plane_at(base, width, bin);
+            best->position = plane_at(bins->base, bins->width, bin);
             best->cost = cost;
         }
     }
@@ -161,7 +186,8 @@ static void evaluate_bins(const spatial_bins *bins, const tl_bvh_range *range, u
 
 void tl_bvh_improve_by_spatial_split(const tl_bvh_splitter *splitter, const tl_bvh_range *range, tl_bvh_split *split)
 {
-    if (!split->found || range->capacity == range->count || range->depth > MAX_SPATIAL_DEPTH) {
+    if (!split->found || range->capacity == range->count || range->count < MIN_SPATIAL_REFS ||
+        range->depth > MAX_SPATIAL_DEPTH) {
         return;
     }
     tl_aabb shared = tl_aabb_intersection(tl_box4_to_aabb(split->box[0]), tl_box4_to_aabb(split->box[1]));
@@ -169,14 +195,11 @@ void tl_bvh_improve_by_spatial_split(const tl_bvh_splitter *splitter, const tl_b
     if (overlap <= splitter->root_half_area * WORTHWHILE_OVERLAP) {
         return;
     }
+    spatial_bins bins[3];
+    fill_spatial_bins(splitter, range, bins);
     for (uint32_t axis = 0; axis < 3; axis++) {
-        float base = tl_component(range->box.min, axis);
-        float width = (tl_component(range->box.max, axis) - base) / (float)SPATIAL_BINS;
-        // Bins must be wider than the rounding of their planes.
-        if (width > 4.0f * FLT_EPSILON * fabsf(base) && width > FLT_MIN && 1.0f / width < FLT_MAX) {
-            spatial_bins bins;
-            fill_spatial_bins(splitter, range, axis, base, width, &bins);
-            evaluate_bins(&bins, range, axis, base, width, split);
+        if (bins[axis].width > 0.0f) {
+            evaluate_bins(&bins[axis], range, axis, split);
         }
     }
 }
