@@ -209,7 +209,7 @@ class Soup:
             faces: (T, 3) indices into vertices, counter-clockwise seen from the front.
             materials: (T,) numbers from 0 to 65535 that queries can ignore and return.
             layout: ``compact`` takes half the memory of ``fast``, gives the same answers, and cannot be refitted.
-            split_budget: share of extra references, 0 to 1, that spatial splits may add.
+            split_budget: share of extra references, 0 to 1, that spatial splits add; 0: up to a fifth, where they pay.
             pair_triangles: False keeps triangles single, to measure what pairs are worth.
             threads: threads of the bake; None is all.
             progress: called with stage, steps done and steps in all; returning False cancels.

@@ -58,6 +58,7 @@ tl_result tl_solids_init(const tl_mesh_view *mesh, const tl_host *host, tl_solid
     memset(s->winding, 0, s->parts.part_count * sizeof *s->winding);
     const tl_mesh_view closed = { mesh->vertices, mesh->vertex_count, s->indices, s->index_count / 3, NULL };
     tl_soup_def def = tl_default_soup_def();
+    def.quality = TL_SOUP_QUALITY_FAST; // few queries
     def.host = *host;
     tl_soup_report soup_report;
     const tl_result result = tl_soup_bake(&closed, &def, &s->soup, &soup_report);

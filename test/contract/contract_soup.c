@@ -65,6 +65,7 @@ static tl_result bake(contract_run *run)
         def.split_budget = run->variant == 0 ? -0.5f : 0.0f;
         def.partition = (tl_soup_partition)(run->variant == 1 ? 7 : 0);
         def.layout = (tl_soup_layout)(run->variant == 2 ? 7 : 0);
+        def.quality = (tl_soup_quality)(run->variant == 3 ? 7 : 0);
     }
     def.host = *run->host;
     tl_soup *soup = NULL;
@@ -315,7 +316,7 @@ static tl_result check_closed(contract_run *run)
     return result;
 }
 
-static const char *const SOUP_FIELDS[] = { "split_budget", "partition", "layout", NULL };
+static const char *const SOUP_FIELDS[] = { "split_budget", "partition", "layout", "quality", NULL };
 
 enum {
     FILTERED = CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_DEF) | CONTRACT_BIT(ZEROED_FILTER),

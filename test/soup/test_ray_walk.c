@@ -184,7 +184,8 @@ static void check_model(const model *m, uint32_t ray_count, uint64_t seed, regim
         seen->miss += !found;
         seen->axis_parallel += i % 4 == 2;
     }
-    seen->cut += tl_soup_get_stats(others[2 * MODEL_SPLITS]).reference_count > tl_soup_get_stats(soup).reference_count;
+    seen->cut += tl_soup_get_stats(others[2 * MODEL_SPLITS]).reference_count >
+                 tl_soup_get_stats(others[2 * MODEL_BOXES]).reference_count;
     tl_blob_free(soup);
     for (uint32_t k = 0; k < OTHERS; k++) {
         tl_blob_free(others[k]);
@@ -214,8 +215,8 @@ static void test_generated_models(void **state)
     m = model_terrain(24, 0, vec(0, 0, 0), 6); // flat ground: everything in one plane but the boxes
     check_model(&m, rays, 6, &seen);
     model_free(&m);
-    for (uint32_t count = 1; count <= 40; count++) { // every shape of small tree
-        m = model_random(count, 3, 2, 100 + count);
+    for (uint32_t count = 1; count <= 400; count += count < 20 ? 1 : 10) { // every shape of small tree
+        m = model_random(count, 3, count < 20 ? 2.0f : 0.7f, 100 + count);
         check_model(&m, 200, count, &seen);
         model_free(&m);
     }

@@ -53,6 +53,10 @@ static void test_bad_input_is_named(void **state)
     def.partition = (tl_soup_partition)2;
     TEST_RESULT(build(&view, &def, &report), TL_ERR_ARGUMENT);
     TEST_CHECK(strcmp(report.base.field, "partition") == 0);
+    def = tl_default_soup_def();
+    def.quality = (tl_soup_quality)3;
+    TEST_RESULT(build(&view, &def, &report), TL_ERR_ARGUMENT);
+    TEST_CHECK(strcmp(report.base.field, "quality") == 0);
     model_free(&m);
 }
 

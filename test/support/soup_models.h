@@ -81,6 +81,7 @@ typedef enum model_storage {
 static inline tl_soup_def model_soup_def(model_storage storage)
 {
     tl_soup_def def = tl_default_soup_def();
+    def.quality = TL_SOUP_QUALITY_FAST;
     def.split_budget = storage == MODEL_SPLITS || storage == MODEL_COMPACT_SPLITS ? 0.5f : 0.0f;
     def.partition = storage == MODEL_KD ? TL_SOUP_KD_TREE : TL_SOUP_BVH;
     def.layout = storage >= MODEL_COMPACT ? TL_SOUP_COMPACT : TL_SOUP_FAST;

@@ -91,6 +91,10 @@ pub const TL_SOUP_KD_TREE: tl_soup_partition = 1;
 pub type tl_soup_layout = c_int;
 pub const TL_SOUP_FAST: tl_soup_layout = 0;
 pub const TL_SOUP_COMPACT: tl_soup_layout = 1;
+pub type tl_soup_quality = c_int;
+pub const TL_SOUP_QUALITY_DEFAULT: tl_soup_quality = 0;
+pub const TL_SOUP_QUALITY_FAST: tl_soup_quality = 1;
+pub const TL_SOUP_QUALITY_HIGH: tl_soup_quality = 2;
 pub type tl_ray_cull = c_int;
 pub const TL_RAY_CULL_NONE: tl_ray_cull = 0;
 pub const TL_RAY_CULL_BACK: tl_ray_cull = 1;
@@ -1304,6 +1308,7 @@ pub struct tl_soup_def {
     pub pair_triangles: bool,
     pub partition: tl_soup_partition,
     pub layout: tl_soup_layout,
+    pub quality: tl_soup_quality,
     pub split_budget: f32,
     pub host: tl_host,
     pub cookie: u32,
@@ -4321,13 +4326,14 @@ mod layout {
             core::mem::offset_of!(tl_nav_prune_report, changed_tiles),
             132
         );
-        assert_eq!(core::mem::size_of::<tl_soup_def>(), 48);
+        assert_eq!(core::mem::size_of::<tl_soup_def>(), 56);
         assert_eq!(core::mem::offset_of!(tl_soup_def, pair_triangles), 0);
         assert_eq!(core::mem::offset_of!(tl_soup_def, partition), 4);
         assert_eq!(core::mem::offset_of!(tl_soup_def, layout), 8);
-        assert_eq!(core::mem::offset_of!(tl_soup_def, split_budget), 12);
-        assert_eq!(core::mem::offset_of!(tl_soup_def, host), 16);
-        assert_eq!(core::mem::offset_of!(tl_soup_def, cookie), 40);
+        assert_eq!(core::mem::offset_of!(tl_soup_def, quality), 12);
+        assert_eq!(core::mem::offset_of!(tl_soup_def, split_budget), 16);
+        assert_eq!(core::mem::offset_of!(tl_soup_def, host), 24);
+        assert_eq!(core::mem::offset_of!(tl_soup_def, cookie), 48);
         assert_eq!(core::mem::size_of::<tl_soup_report>(), 64);
         assert_eq!(core::mem::offset_of!(tl_soup_report, base), 0);
         assert_eq!(core::mem::offset_of!(tl_soup_report, triangle_count), 48);

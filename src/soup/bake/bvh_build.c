@@ -197,10 +197,14 @@ static uint32_t place_top(const subtree_tasks *tasks)
 }
 
 // Sums are added up in an order that depends on the mesh alone.
-static tl_result sum_leaf_surface(const subtree_tasks *tasks, tl_stage *stage, double *sum_out)
+static tl_result sum_surfaces(const subtree_tasks *tasks, tl_stage *stage, tl_bvh *tree)
 {
     const tl_bvh_top *top = tasks->top;
     double sum = 0.0, part = 0.0;
+    tree->inner_surface = 0.0;
+    for (uint32_t i = 0; i < top->node_count; i++) {
+        tree->inner_surface += (double)tl_aabb_half_area(top->nodes[i].box);
+    }
     for (uint32_t i = 0; i < top->subtree_count; i++) {
         const built_subtree *built = &tasks->built[i];
         if (i > 0 && top->subtrees[i].sum != top->subtrees[i - 1].sum) {
@@ -209,12 +213,15 @@ static tl_result sum_leaf_surface(const subtree_tasks *tasks, tl_stage *stage, d
         }
         TL_TRY(tl_stage_tick(stage, TL_STAGE_STEP / 16 * (uint64_t)i + TL_STAGE_STEP - 1));
         for (uint32_t k = built->place; k < built->place + built->count; k++) {
+            double surface = (double)tl_aabb_half_area(tasks->nodes[k].box);
             if (tl_bvh_leaf_count(&tasks->nodes[k]) > 0) {
-                part += (double)tl_aabb_half_area(tasks->nodes[k].box);
+                part += surface;
+            } else {
+                tree->inner_surface += surface;
             }
         }
     }
-    *sum_out = sum + part;
+    tree->leaf_surface = sum + part;
     return TL_OK;
 }
 
@@ -247,7 +254,7 @@ static tl_result join_subtrees(subtree_tasks *tasks, tl_stage *stage, tl_arena *
     }
     tree->parts = parts;
     tree->part_count = count;
-    return sum_leaf_surface(tasks, stage, &tree->leaf_surface);
+    return sum_surfaces(tasks, stage, tree);
 }
 
 static tl_result build_subtrees(subtree_tasks *tasks, const tl_bvh_input *input, tl_stage *stage, tl_arena *scratch)

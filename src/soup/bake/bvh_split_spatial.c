@@ -18,7 +18,7 @@ enum { SPATIAL_BINS = 8 };
 // Where the children of an object split overlap by less than this share of the root, or references are few, clipping
 // gains little. With this instead of 1e-5, and any number, rays visited as many nodes, and a bake took a third of the
 // time.
-#define WORTHWHILE_OVERLAP 4e-3f
+#define WORTHWHILE_OVERLAP 8e-3f
 enum { MIN_SPATIAL_REFS = 32 };
 
 // Below this depth references are only sorted.

@@ -440,6 +440,7 @@ static tl_result copy_to_arena(kd_builder *b, tl_arena *arena, tl_bvh *tree)
     tree->part_count = 0;
     tree->ref_count = (uint32_t)b->out.count;
     tree->leaf_surface = 0.0;
+    tree->inner_surface = 0.0;
     for (uint32_t i = 0; i < tree->node_count; i++) {
         if (tl_bvh_leaf_count(&tree->nodes[i]) > 0) {
             tree->leaf_surface += (double)tl_aabb_half_area(tree->nodes[i].box);

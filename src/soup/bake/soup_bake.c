@@ -13,7 +13,8 @@
 
 tl_soup_def tl_default_soup_def(void)
 {
-    tl_soup_def def = { true, TL_SOUP_BVH, TL_SOUP_FAST, 0.0f, { NULL, NULL, NULL }, TL_DEF_COOKIE };
+    tl_soup_def def = { true, TL_SOUP_BVH,          TL_SOUP_FAST, TL_SOUP_QUALITY_DEFAULT,
+                        0.0f, { NULL, NULL, NULL }, TL_DEF_COOKIE };
     return def;
 }
 
@@ -31,6 +32,10 @@ static tl_result check_input(const tl_mesh_view *view, const tl_soup_def *def, t
     }
     if (def->layout != TL_SOUP_FAST && def->layout != TL_SOUP_COMPACT) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "layout", "make it TL_SOUP_FAST or TL_SOUP_COMPACT");
+    }
+    if (def->quality != TL_SOUP_QUALITY_DEFAULT && def->quality != TL_SOUP_QUALITY_FAST &&
+        def->quality != TL_SOUP_QUALITY_HIGH) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "quality", "make it one of tl_soup_quality");
     }
     if (view->triangle_count > TL_MAX_SOUP_TRIANGLES) {
         return tl_report_fail(report, TL_ERR_LIMIT, "triangle", TL_MAX_SOUP_TRIANGLES,
@@ -76,15 +81,45 @@ static tl_result keep_vertices(tl_mesh *mesh, tl_stage *stage)
     return result;
 }
 
+// The share of references that spatial splits may add, where they pay.
+static float split_budget_of(tl_soup_quality quality)
+{
+    return quality == TL_SOUP_QUALITY_HIGH ? 0.5f : 0.2f;
+}
+
+// Arenas for what is needed to the end, and for two trees, of which one is thrown away.
+typedef struct bake_arenas {
+    tl_arena main, tree[2];
+} bake_arenas;
+
+static tl_result build_soup_tree(const tl_soup_def *def, tl_bvh_input *input, const tl_host *host, bake_arenas *arenas,
+                                 tl_bvh *tree)
+{
+    const bool chooses = def->quality != TL_SOUP_QUALITY_FAST && def->split_budget == 0.0f;
+    tl_stage stage;
+    if (def->partition == TL_SOUP_KD_TREE || !chooses) {
+        input->split_budget = def->split_budget;
+        TL_TRY(tl_stage_begin(&stage, host, "build BVH", 2 * (uint64_t)input->pair_count));
+        TL_TRY(def->partition == TL_SOUP_KD_TREE ? tl_kd_build(input, &stage, &arenas->main, tree)
+                                                 : tl_bvh_build(input, &stage, &arenas->main, tree));
+    } else {
+        input->split_budget = split_budget_of(def->quality);
+        TL_TRY(tl_stage_begin(&stage, host, "build BVH", 4 * (uint64_t)input->pair_count));
+        TL_TRY(tl_bvh_build_better(input, &stage, arenas->tree, tree));
+    }
+    return tl_stage_end(&stage);
+}
+
 // The mesh is left as its vertices.
 static tl_result bake_welded(const tl_mesh_view *view, tl_mesh *mesh, const tl_soup_def *def, const tl_host *host,
-                             tl_arena *arena, tl_soup **soup_out, tl_soup_report *report)
+                             bake_arenas *arenas, tl_soup **soup_out, tl_soup_report *report)
 {
+    tl_arena *arena = &arenas->main;
     const uint64_t triangles = mesh->triangle_count;
     tl_stage stage;
     report->base.stage = "pair triangles";
     TL_TRY(tl_stage_begin(&stage, host, "pair triangles", triangles));
-    tl_bvh_input input = { mesh, NULL, 0, def->split_budget };
+    tl_bvh_input input = { mesh, NULL, 0, 0.0f };
     tl_triangle_pair *pairs = NULL;
     TL_TRY(tl_pair_triangles(mesh, def->pair_triangles, &stage, arena, &pairs, &input.pair_count));
     TL_TRY(keep_vertices(mesh, &stage));
@@ -92,11 +127,8 @@ static tl_result bake_welded(const tl_mesh_view *view, tl_mesh *mesh, const tl_s
     input.pairs = pairs;
 
     report->base.stage = "build BVH";
-    TL_TRY(tl_stage_begin(&stage, host, "build BVH", 2 * (uint64_t)input.pair_count));
     tl_bvh tree;
-    TL_TRY(def->partition == TL_SOUP_KD_TREE ? tl_kd_build(&input, &stage, arena, &tree)
-                                             : tl_bvh_build(&input, &stage, arena, &tree));
-    TL_TRY(tl_stage_end(&stage));
+    TL_TRY(build_soup_tree(def, &input, host, arenas, &tree));
 
     report->base.stage = "bake soup";
     TL_TRY(tl_stage_begin(&stage, host, "bake soup", triangles));
@@ -120,10 +152,14 @@ static tl_result bake_checked(const tl_mesh_view *view, const tl_soup_def *def, 
     memset(&mesh, 0, sizeof mesh);
     tl_result result = weld(view, &host, &mesh, report);
     if (result == TL_OK) {
-        tl_arena arena;
-        tl_arena_init(&arena, host.allocator);
-        result = bake_welded(view, &mesh, def, &host, &arena, soup_out, report);
-        tl_arena_free(&arena);
+        bake_arenas arenas;
+        tl_arena_init(&arenas.main, host.allocator);
+        tl_arena_init(&arenas.tree[0], host.allocator);
+        tl_arena_init(&arenas.tree[1], host.allocator);
+        result = bake_welded(view, &mesh, def, &host, &arenas, soup_out, report);
+        tl_arena_free(&arenas.main);
+        tl_arena_free(&arenas.tree[0]);
+        tl_arena_free(&arenas.tree[1]);
     }
     tl_mesh_free(&mesh);
     report->base.peak_bytes = tl_memory_meter_peak(&meter);

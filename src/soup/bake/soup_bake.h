@@ -71,6 +71,7 @@ typedef struct tl_bvh {
     uint32_t node_count;
     uint32_t ref_count;       ///< in leaves
     double leaf_surface;      ///< sum of half areas of leaves
+    double inner_surface;     ///< and of inner nodes; of a BVH only
     const tl_bvh_part *parts; ///< from left to right; no part holds another
     uint32_t part_count;
 } tl_bvh;
@@ -86,6 +87,10 @@ typedef struct tl_bvh_input {
 /// Builds the binary BVH that the wide one is collapsed from. Leaves hold 1 .. TL_SOUP_LEAF_PAIRS references. NULL
 /// stage: silent, one thread.
 tl_result tl_bvh_build(const tl_bvh_input *input, tl_stage *stage, tl_arena *arena, tl_bvh *tree_out);
+
+/// The better of two trees by the surface area heuristic: with spatial splits within the input's budget, and without.
+/// Each is built in an arena of its own; that of the other is freed.
+tl_result tl_bvh_build_better(const tl_bvh_input *input, tl_stage *stage, tl_arena arenas[2], tl_bvh *tree_out);
 
 /// The same tree by planes that part space (TL_SOUP_KD_TREE): leaves may share pairs, and no two nodes' boxes overlap
 /// but where pairs lie in too many planes to be parted.
