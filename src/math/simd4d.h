@@ -79,6 +79,11 @@ static inline double tl_f64x4_get_y(tl_f64x4 a)
     return _mm_cvtsd_f64(_mm_unpackhi_pd(_mm256_castpd256_pd128(a), _mm256_castpd256_pd128(a)));
 }
 
+static inline tl_f64x4 tl_f64x4_load(const double *four)
+{
+    return _mm256_loadu_pd(four);
+}
+
 static inline void tl_f64x4_store(double *four, tl_f64x4 a)
 {
     _mm256_storeu_pd(four, a);
@@ -158,6 +163,12 @@ static inline double tl_f64x4_get_x(tl_f64x4 a)
 static inline double tl_f64x4_get_y(tl_f64x4 a)
 {
     return tl_f64x2_get_y(a.low);
+}
+
+static inline tl_f64x4 tl_f64x4_load(const double *four)
+{
+    tl_f64x4 r = { tl_f64x2_load(four), tl_f64x2_load(four + 2) };
+    return r;
 }
 
 static inline void tl_f64x4_store(double *four, tl_f64x4 a)
@@ -244,6 +255,13 @@ static inline double tl_f64x4_get_x(tl_f64x4 a)
 static inline double tl_f64x4_get_y(tl_f64x4 a)
 {
     return a.v[1];
+}
+
+static inline tl_f64x4 tl_f64x4_load(const double *four)
+{
+    tl_f64x4 r;
+    memcpy(r.v, four, sizeof r.v);
+    return r;
 }
 
 static inline void tl_f64x4_store(double *four, tl_f64x4 a)

@@ -217,5 +217,6 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
     job->back = back;
     job->u = u;
     job->v = v;
+    job->has_normal = false;
     return true;
 }

@@ -67,6 +67,8 @@ typedef struct tl_ray_job {
     uint32_t lane;
     float u, v;
     bool back;
+    bool has_normal;  ///< `normal` is filled
+    double normal[4]; ///< of no particular length
 } tl_ray_job;
 
 /// The box t beyond which no hit is reported at `t` or before. A saturated t says nothing about where the hit is.

@@ -318,6 +318,8 @@ static TL_ALWAYS_INLINE bool compare_met(tl_ray_job *job, const tl_soup_leaf *le
         job->back = place.back;
         job->u = place.u;
         job->v = place.v;
+        job->has_normal = true;
+        tl_f64x4_store(job->normal, place.normal);
     }
     return true;
 }
