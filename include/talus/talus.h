@@ -6,6 +6,7 @@
 #define TALUS_TALUS_H
 
 #include <talus/base.h>
+#include <talus/character.h>
 #include <talus/convex.h>
 #include <talus/halfedge.h>
 #include <talus/hull.h>

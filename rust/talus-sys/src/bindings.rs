@@ -47,6 +47,40 @@ pub const TL_CONVEX_CONVERGED: tl_convex_status = 0;
 pub const TL_CONVEX_ITERATIONS: tl_convex_status = 1;
 pub const TL_CONVEX_DEGENERATE: tl_convex_status = 2;
 pub const TL_CONVEX_NOT_FINITE: tl_convex_status = 3;
+pub type tl_soup_partition = c_int;
+pub const TL_SOUP_BVH: tl_soup_partition = 0;
+pub const TL_SOUP_KD_TREE: tl_soup_partition = 1;
+pub type tl_soup_layout = c_int;
+pub const TL_SOUP_FAST: tl_soup_layout = 0;
+pub const TL_SOUP_COMPACT: tl_soup_layout = 1;
+pub type tl_soup_quality = c_int;
+pub const TL_SOUP_QUALITY_DEFAULT: tl_soup_quality = 0;
+pub const TL_SOUP_QUALITY_FAST: tl_soup_quality = 1;
+pub const TL_SOUP_QUALITY_HIGH: tl_soup_quality = 2;
+pub type tl_ray_cull = c_int;
+pub const TL_RAY_CULL_NONE: tl_ray_cull = 0;
+pub const TL_RAY_CULL_BACK: tl_ray_cull = 1;
+pub const TL_RAY_CULL_FRONT: tl_ray_cull = 2;
+pub type tl_hit_rule = c_int;
+pub const TL_HITS_TOUCHED: tl_hit_rule = 0;
+pub const TL_HITS_CROSSED: tl_hit_rule = 1;
+pub type tl_triangle_feature = c_int;
+pub const TL_TRIANGLE_FACE: tl_triangle_feature = 0;
+pub const TL_TRIANGLE_EDGE_0: tl_triangle_feature = 1;
+pub const TL_TRIANGLE_EDGE_1: tl_triangle_feature = 2;
+pub const TL_TRIANGLE_EDGE_2: tl_triangle_feature = 3;
+pub const TL_TRIANGLE_CORNER_0: tl_triangle_feature = 4;
+pub const TL_TRIANGLE_CORNER_1: tl_triangle_feature = 5;
+pub const TL_TRIANGLE_CORNER_2: tl_triangle_feature = 6;
+pub type tl_soup_side = c_int;
+pub const TL_SOUP_OUTSIDE: tl_soup_side = 0;
+pub const TL_SOUP_INSIDE: tl_soup_side = 1;
+pub const TL_SOUP_ON_SURFACE: tl_soup_side = 2;
+pub type tl_character_surface = c_int;
+pub const TL_CHARACTER_GROUND: tl_character_surface = 0;
+pub const TL_CHARACTER_SLOPE: tl_character_surface = 1;
+pub const TL_CHARACTER_WALL: tl_character_surface = 2;
+pub const TL_CHARACTER_CEILING: tl_character_surface = 3;
 pub type tl_partition_method = c_int;
 pub const TL_PARTITION_CLASSIC: tl_partition_method = 0;
 pub const TL_PARTITION_OPTIMAL: tl_partition_method = 1;
@@ -85,35 +119,6 @@ pub type tl_nav_volume_kind = c_int;
 pub const TL_NAV_VOLUME_BOX: tl_nav_volume_kind = 0;
 pub const TL_NAV_VOLUME_POLYGON: tl_nav_volume_kind = 1;
 pub const TL_NAV_VOLUME_CYLINDER: tl_nav_volume_kind = 2;
-pub type tl_soup_partition = c_int;
-pub const TL_SOUP_BVH: tl_soup_partition = 0;
-pub const TL_SOUP_KD_TREE: tl_soup_partition = 1;
-pub type tl_soup_layout = c_int;
-pub const TL_SOUP_FAST: tl_soup_layout = 0;
-pub const TL_SOUP_COMPACT: tl_soup_layout = 1;
-pub type tl_soup_quality = c_int;
-pub const TL_SOUP_QUALITY_DEFAULT: tl_soup_quality = 0;
-pub const TL_SOUP_QUALITY_FAST: tl_soup_quality = 1;
-pub const TL_SOUP_QUALITY_HIGH: tl_soup_quality = 2;
-pub type tl_ray_cull = c_int;
-pub const TL_RAY_CULL_NONE: tl_ray_cull = 0;
-pub const TL_RAY_CULL_BACK: tl_ray_cull = 1;
-pub const TL_RAY_CULL_FRONT: tl_ray_cull = 2;
-pub type tl_hit_rule = c_int;
-pub const TL_HITS_TOUCHED: tl_hit_rule = 0;
-pub const TL_HITS_CROSSED: tl_hit_rule = 1;
-pub type tl_triangle_feature = c_int;
-pub const TL_TRIANGLE_FACE: tl_triangle_feature = 0;
-pub const TL_TRIANGLE_EDGE_0: tl_triangle_feature = 1;
-pub const TL_TRIANGLE_EDGE_1: tl_triangle_feature = 2;
-pub const TL_TRIANGLE_EDGE_2: tl_triangle_feature = 3;
-pub const TL_TRIANGLE_CORNER_0: tl_triangle_feature = 4;
-pub const TL_TRIANGLE_CORNER_1: tl_triangle_feature = 5;
-pub const TL_TRIANGLE_CORNER_2: tl_triangle_feature = 6;
-pub type tl_soup_side = c_int;
-pub const TL_SOUP_OUTSIDE: tl_soup_side = 0;
-pub const TL_SOUP_INSIDE: tl_soup_side = 1;
-pub const TL_SOUP_ON_SURFACE: tl_soup_side = 2;
 pub type tl_nav_finding_kind = c_int;
 pub const TL_NAV_FINDING_BLOCKED: tl_nav_finding_kind = 0;
 pub const TL_NAV_FINDING_STEP: tl_nav_finding_kind = 1;
@@ -165,17 +170,17 @@ pub const TL_PACK_AXES_Y_UP_LEFT: tl_pack_axes = 2;
 pub const TL_PACK_AXES_Z_UP_LEFT: tl_pack_axes = 3;
 pub type tl_task_fn = unsafe extern "C" fn(u32, u32, *mut c_void);
 pub type tl_convex_support_fn = unsafe extern "C" fn(tl_vec3, *mut c_void) -> tl_vec3;
+pub type tl_triangle_filter_fn = unsafe extern "C" fn(u32, u16, *mut c_void) -> bool;
+pub type tl_soup_triangle_fn = unsafe extern "C" fn(*const tl_soup_triangle, *mut c_void) -> bool;
+pub type tl_soup_bvh_box_fn = unsafe extern "C" fn(tl_aabb, u32, bool, *mut c_void) -> bool;
+pub type tl_instance_filter_fn = unsafe extern "C" fn(u32, *mut c_void) -> bool;
+pub type tl_scene_instance_fn = unsafe extern "C" fn(u32, *mut c_void) -> bool;
 pub type tl_nav_ref = u64;
 pub type tl_nav_pass_fn = unsafe extern "C" fn(*const tl_nav_tile, u32, *mut c_void) -> bool;
 pub type tl_nav_cost_fn =
     unsafe extern "C" fn(*const tl_nav_tile, u32, tl_vec3, tl_vec3, f32, *mut c_void) -> f32;
-pub type tl_triangle_filter_fn = unsafe extern "C" fn(u32, u16, *mut c_void) -> bool;
-pub type tl_soup_triangle_fn = unsafe extern "C" fn(*const tl_soup_triangle, *mut c_void) -> bool;
-pub type tl_soup_bvh_box_fn = unsafe extern "C" fn(tl_aabb, u32, bool, *mut c_void) -> bool;
 pub type tl_nav_obstacle_id = u64;
 pub type tl_write_fn = unsafe extern "C" fn(*const c_void, usize, *mut c_void) -> tl_result;
-pub type tl_instance_filter_fn = unsafe extern "C" fn(u32, *mut c_void) -> bool;
-pub type tl_scene_instance_fn = unsafe extern "C" fn(u32, *mut c_void) -> bool;
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct tl_allocator {
@@ -542,6 +547,277 @@ pub struct tl_closed_parts {
     pub open_part_count: u32,
     pub triangle_count: u32,
     pub allocator: tl_allocator,
+}
+#[repr(C)]
+pub struct tl_soup {
+    _private: [u8; 0],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_soup_def {
+    pub pair_triangles: bool,
+    pub partition: tl_soup_partition,
+    pub layout: tl_soup_layout,
+    pub quality: tl_soup_quality,
+    pub split_budget: f32,
+    pub host: tl_host,
+    pub cookie: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_soup_report {
+    pub base: tl_report,
+    pub triangle_count: u32,
+    pub degenerate_triangles: u32,
+    pub pair_count: u32,
+    pub single_count: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_soup_stats {
+    pub size: u64,
+    pub source_triangle_count: u32,
+    pub triangle_count: u32,
+    pub pair_count: u32,
+    pub single_count: u32,
+    pub reference_count: u32,
+    pub leaf_count: u32,
+    pub node_count: u32,
+    pub layout: tl_soup_layout,
+    pub depth: u32,
+    pub node_bytes: u64,
+    pub leaf_bytes: u64,
+    pub vertex_bytes: u64,
+    pub material_bytes: u64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_ray {
+    pub origin: tl_vec3,
+    pub direction: tl_vec3,
+    pub tmax: f32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_ray_filter {
+    pub cull: tl_ray_cull,
+    pub ignored_materials: u64,
+    pub accept: Option<tl_triangle_filter_fn>,
+    pub accept_user: *mut c_void,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_ray_hit {
+    pub t: f32,
+    pub triangle: u32,
+    pub u: f32,
+    pub v: f32,
+    pub normal: tl_vec3,
+    pub material: u16,
+    pub back: bool,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_segment {
+    pub a: tl_vec3,
+    pub b: tl_vec3,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_soup_point {
+    pub point: tl_vec3,
+    pub distance: f32,
+    pub normal: tl_vec3,
+    pub triangle: u32,
+    pub material: u16,
+    pub back: bool,
+    pub feature: tl_triangle_feature,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_shape_hit {
+    pub t: f32,
+    pub initial_overlap: bool,
+    pub back: bool,
+    pub material: u16,
+    pub triangle: u32,
+    pub depth: f32,
+    pub point: tl_vec3,
+    pub normal: tl_vec3,
+    pub face_normal: tl_vec3,
+    pub status: tl_convex_status,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_soup_contact_query {
+    pub shape: *const tl_convex,
+    pub pose: tl_transform,
+    pub limits: tl_contact_limits,
+    pub filter: *const tl_ray_filter,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_soup_contact {
+    pub triangle: u32,
+    pub material: u16,
+    pub is_face: bool,
+    pub manifold: tl_contact_manifold,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_soup_location {
+    pub side: tl_soup_side,
+    pub winding: i32,
+    pub triangle: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_soup_triangle {
+    pub corners: [tl_vec3; 3],
+    pub triangle: u32,
+    pub material: u16,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_soup_pair {
+    pub corners: [tl_vec3; 4],
+    pub triangles: [u32; 2],
+}
+#[repr(C)]
+pub struct tl_scene {
+    _private: [u8; 0],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_instance {
+    pub soup: *const tl_soup,
+    pub shape: *const tl_convex,
+    pub pose: tl_transform,
+    pub mask: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_stats {
+    pub size: u64,
+    pub instance_count: u32,
+    pub node_count: u32,
+    pub depth: u32,
+    pub cost: f64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_filter {
+    pub ignored_mask: u32,
+    pub first_ignored: u32,
+    pub ignored_count: u32,
+    pub accept: Option<tl_instance_filter_fn>,
+    pub accept_user: *mut c_void,
+    pub triangles: *const tl_ray_filter,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_hit {
+    pub hit: tl_ray_hit,
+    pub instance: u32,
+    pub inside: bool,
+    pub status: tl_convex_status,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_shape_hit {
+    pub hit: tl_shape_hit,
+    pub instance: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_overlap_query {
+    pub shape: *const tl_convex,
+    pub pose: tl_transform,
+    pub filter: *const tl_scene_filter,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_overlap {
+    pub instance: u32,
+    pub triangle: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_point {
+    pub point: tl_soup_point,
+    pub instance: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_character_def {
+    pub radius: f32,
+    pub height: f32,
+    pub step_height: f32,
+    pub max_slope: f32,
+    pub gap: f32,
+    pub max_triangles: u32,
+    pub allocator: *const tl_allocator,
+    pub cookie: u32,
+}
+#[repr(C)]
+pub struct tl_character_mover {
+    _private: [u8; 0],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_character {
+    pub position: tl_vec3,
+    pub velocity: tl_vec3,
+    pub ground_normal: tl_vec3,
+    pub ground_point: tl_vec3,
+    pub grounded: u32,
+    pub ground_triangle: u32,
+    pub ground_instance: u32,
+    pub ground_pose: tl_transform,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_character_level {
+    pub soup: *const tl_soup,
+    pub soup_filter: *const tl_ray_filter,
+    pub scene: *const tl_scene,
+    pub instances: *const tl_scene_instance,
+    pub scene_filter: *const tl_scene_filter,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_character_step {
+    pub velocity: tl_vec3,
+    pub seconds: f32,
+    pub leave_ground: bool,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_character_hit {
+    pub point: tl_vec3,
+    pub normal: tl_vec3,
+    pub instance: u32,
+    pub triangle: u32,
+    pub material: u16,
+    pub surface: tl_character_surface,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_character_report {
+    pub base: tl_report,
+    pub landed: bool,
+    pub left_ground: bool,
+    pub blocked: bool,
+    pub hit_ceiling: bool,
+    pub stuck: bool,
+    pub stepped_up: f32,
+    pub pushed: f32,
+    pub carried: tl_vec3,
+    pub turned: tl_quat,
+    pub ground_velocity: tl_vec3,
+    pub sweeps: u32,
+    pub hit_count: u32,
+    pub hits: [tl_character_hit; 8],
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1299,141 +1575,6 @@ pub struct tl_nav_prune_report {
     pub changed_tiles: u32,
 }
 #[repr(C)]
-pub struct tl_soup {
-    _private: [u8; 0],
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_soup_def {
-    pub pair_triangles: bool,
-    pub partition: tl_soup_partition,
-    pub layout: tl_soup_layout,
-    pub quality: tl_soup_quality,
-    pub split_budget: f32,
-    pub host: tl_host,
-    pub cookie: u32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_soup_report {
-    pub base: tl_report,
-    pub triangle_count: u32,
-    pub degenerate_triangles: u32,
-    pub pair_count: u32,
-    pub single_count: u32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_soup_stats {
-    pub size: u64,
-    pub source_triangle_count: u32,
-    pub triangle_count: u32,
-    pub pair_count: u32,
-    pub single_count: u32,
-    pub reference_count: u32,
-    pub leaf_count: u32,
-    pub node_count: u32,
-    pub layout: tl_soup_layout,
-    pub depth: u32,
-    pub node_bytes: u64,
-    pub leaf_bytes: u64,
-    pub vertex_bytes: u64,
-    pub material_bytes: u64,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_ray {
-    pub origin: tl_vec3,
-    pub direction: tl_vec3,
-    pub tmax: f32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_ray_filter {
-    pub cull: tl_ray_cull,
-    pub ignored_materials: u64,
-    pub accept: Option<tl_triangle_filter_fn>,
-    pub accept_user: *mut c_void,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_ray_hit {
-    pub t: f32,
-    pub triangle: u32,
-    pub u: f32,
-    pub v: f32,
-    pub normal: tl_vec3,
-    pub material: u16,
-    pub back: bool,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_segment {
-    pub a: tl_vec3,
-    pub b: tl_vec3,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_soup_point {
-    pub point: tl_vec3,
-    pub distance: f32,
-    pub normal: tl_vec3,
-    pub triangle: u32,
-    pub material: u16,
-    pub back: bool,
-    pub feature: tl_triangle_feature,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_shape_hit {
-    pub t: f32,
-    pub initial_overlap: bool,
-    pub back: bool,
-    pub material: u16,
-    pub triangle: u32,
-    pub depth: f32,
-    pub point: tl_vec3,
-    pub normal: tl_vec3,
-    pub face_normal: tl_vec3,
-    pub status: tl_convex_status,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_soup_contact_query {
-    pub shape: *const tl_convex,
-    pub pose: tl_transform,
-    pub limits: tl_contact_limits,
-    pub filter: *const tl_ray_filter,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_soup_contact {
-    pub triangle: u32,
-    pub material: u16,
-    pub is_face: bool,
-    pub manifold: tl_contact_manifold,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_soup_location {
-    pub side: tl_soup_side,
-    pub winding: i32,
-    pub triangle: u32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_soup_triangle {
-    pub corners: [tl_vec3; 3],
-    pub triangle: u32,
-    pub material: u16,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_soup_pair {
-    pub corners: [tl_vec3; 4],
-    pub triangles: [u32; 2],
-}
-#[repr(C)]
 #[derive(Clone, Copy)]
 pub struct tl_nav_probe {
     pub radius: f32,
@@ -1886,70 +2027,6 @@ pub struct tl_pack_areas {
     pub count: u32,
     pub reserved: [u32; 11],
 }
-#[repr(C)]
-pub struct tl_scene {
-    _private: [u8; 0],
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_scene_instance {
-    pub soup: *const tl_soup,
-    pub shape: *const tl_convex,
-    pub pose: tl_transform,
-    pub mask: u32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_scene_stats {
-    pub size: u64,
-    pub instance_count: u32,
-    pub node_count: u32,
-    pub depth: u32,
-    pub cost: f64,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_scene_filter {
-    pub ignored_mask: u32,
-    pub first_ignored: u32,
-    pub ignored_count: u32,
-    pub accept: Option<tl_instance_filter_fn>,
-    pub accept_user: *mut c_void,
-    pub triangles: *const tl_ray_filter,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_scene_hit {
-    pub hit: tl_ray_hit,
-    pub instance: u32,
-    pub inside: bool,
-    pub status: tl_convex_status,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_scene_shape_hit {
-    pub hit: tl_shape_hit,
-    pub instance: u32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_scene_overlap_query {
-    pub shape: *const tl_convex,
-    pub pose: tl_transform,
-    pub filter: *const tl_scene_filter,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_scene_overlap {
-    pub instance: u32,
-    pub triangle: u32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_scene_point {
-    pub point: tl_soup_point,
-    pub instance: u32,
-}
 extern "C" {
     pub fn tl_result_name(result: tl_result) -> *const c_char;
     pub fn tl_result_text(result: tl_result) -> *const c_char;
@@ -2158,6 +2235,245 @@ extern "C" {
         report_out: *mut tl_report,
     ) -> tl_result;
     pub fn tl_closed_parts_free(parts: *mut tl_closed_parts);
+    pub fn tl_default_soup_def() -> tl_soup_def;
+    pub fn tl_soup_bake(
+        view: *const tl_mesh_view,
+        def: *const tl_soup_def,
+        soup_out: *mut *mut tl_soup,
+        report_out: *mut tl_soup_report,
+    ) -> tl_result;
+    pub fn tl_soup_refit(
+        soup: *mut tl_soup,
+        moved: *const tl_mesh_view,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_soup_check(bytes: *const c_void, size: u64, report_out: *mut tl_report) -> tl_result;
+    pub fn tl_soup_size(soup: *const tl_soup) -> u64;
+    pub fn tl_soup_bounds(soup: *const tl_soup) -> tl_aabb;
+    pub fn tl_soup_get_stats(soup: *const tl_soup) -> tl_soup_stats;
+    pub fn tl_soup_cast_ray(
+        soup: *const tl_soup,
+        ray: *const tl_ray,
+        filter: *const tl_ray_filter,
+        hit_out: *mut tl_ray_hit,
+    ) -> bool;
+    pub fn tl_soup_occluded(
+        soup: *const tl_soup,
+        ray: *const tl_ray,
+        filter: *const tl_ray_filter,
+    ) -> bool;
+    pub fn tl_soup_cast_segment(
+        soup: *const tl_soup,
+        a: tl_vec3,
+        b: tl_vec3,
+        filter: *const tl_ray_filter,
+        hit_out: *mut tl_ray_hit,
+    ) -> bool;
+    pub fn tl_soup_line_of_sight(
+        soup: *const tl_soup,
+        a: tl_vec3,
+        b: tl_vec3,
+        filter: *const tl_ray_filter,
+    ) -> bool;
+    pub fn tl_soup_cast_rays(
+        soup: *const tl_soup,
+        rays: *const tl_ray,
+        count: u32,
+        filter: *const tl_ray_filter,
+        host: *const tl_host,
+        hits_out: *mut tl_ray_hit,
+    );
+    pub fn tl_soup_cast_segments(
+        soup: *const tl_soup,
+        segments: *const tl_segment,
+        count: u32,
+        filter: *const tl_ray_filter,
+        host: *const tl_host,
+        hits_out: *mut tl_ray_hit,
+    );
+    pub fn tl_soup_occluded_rays(
+        soup: *const tl_soup,
+        rays: *const tl_ray,
+        count: u32,
+        filter: *const tl_ray_filter,
+        host: *const tl_host,
+        occluded_out: *mut bool,
+    );
+    pub fn tl_soup_lines_of_sight(
+        soup: *const tl_soup,
+        segments: *const tl_segment,
+        count: u32,
+        filter: *const tl_ray_filter,
+        host: *const tl_host,
+        clear_out: *mut bool,
+    );
+    pub fn tl_soup_cast_ray_all(
+        soup: *const tl_soup,
+        ray: *const tl_ray,
+        rule: tl_hit_rule,
+        filter: *const tl_ray_filter,
+        hits_out: *mut tl_ray_hit,
+        capacity: u32,
+        count_out: *mut u32,
+    ) -> tl_result;
+    pub fn tl_soup_nearest(
+        soup: *const tl_soup,
+        point: tl_vec3,
+        max_distance: f32,
+        filter: *const tl_ray_filter,
+        nearest_out: *mut tl_soup_point,
+    ) -> tl_result;
+    pub fn tl_soup_overlaps(
+        soup: *const tl_soup,
+        shape: *const tl_convex,
+        pose: tl_transform,
+        filter: *const tl_ray_filter,
+        overlaps_out: *mut bool,
+    ) -> tl_result;
+    pub fn tl_soup_find_overlaps(
+        soup: *const tl_soup,
+        shape: *const tl_convex,
+        pose: tl_transform,
+        filter: *const tl_ray_filter,
+        triangles_out: *mut u32,
+        capacity: u32,
+        count_out: *mut u32,
+    ) -> tl_result;
+    pub fn tl_soup_cast_shape(
+        soup: *const tl_soup,
+        shape: *const tl_convex,
+        pose: tl_transform,
+        motion: tl_vec3,
+        filter: *const tl_ray_filter,
+        hit_out: *mut tl_shape_hit,
+    ) -> tl_result;
+    pub fn tl_soup_find_contacts(
+        soup: *const tl_soup,
+        query: *const tl_soup_contact_query,
+        contacts_out: *mut tl_soup_contact,
+        capacity: u32,
+        count_out: *mut u32,
+    ) -> tl_result;
+    pub fn tl_soup_locate(
+        soup: *const tl_soup,
+        point: tl_vec3,
+        location_out: *mut tl_soup_location,
+    ) -> tl_result;
+    pub fn tl_soup_check_closed(
+        soup: *const tl_soup,
+        host: *const tl_host,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_soup_next_triangle(
+        soup: *const tl_soup,
+        cursor: *mut u64,
+        triangle_out: *mut tl_soup_triangle,
+    ) -> bool;
+    pub fn tl_soup_next_pair(
+        soup: *const tl_soup,
+        cursor: *mut u64,
+        pair_out: *mut tl_soup_pair,
+    ) -> bool;
+    pub fn tl_soup_triangles_in_box(
+        soup: *const tl_soup,
+        r#box: tl_aabb,
+        found: Option<tl_soup_triangle_fn>,
+        user: *mut c_void,
+    ) -> bool;
+    pub fn tl_soup_bvh_boxes(
+        soup: *const tl_soup,
+        max_depth: u32,
+        visit: Option<tl_soup_bvh_box_fn>,
+        user: *mut c_void,
+    ) -> bool;
+    pub fn tl_scene_bake(
+        instances: *const tl_scene_instance,
+        count: u32,
+        host: *const tl_host,
+        scene_out: *mut *mut tl_scene,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_scene_refit(
+        scene: *mut tl_scene,
+        instances: *const tl_scene_instance,
+        count: u32,
+        growth_out: *mut f32,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_scene_bounds(scene: *const tl_scene) -> tl_aabb;
+    pub fn tl_scene_get_stats(scene: *const tl_scene) -> tl_scene_stats;
+    pub fn tl_scene_cast_ray(
+        scene: *const tl_scene,
+        instances: *const tl_scene_instance,
+        ray: *const tl_ray,
+        filter: *const tl_scene_filter,
+        hit_out: *mut tl_scene_hit,
+    ) -> bool;
+    pub fn tl_scene_occluded(
+        scene: *const tl_scene,
+        instances: *const tl_scene_instance,
+        ray: *const tl_ray,
+        filter: *const tl_scene_filter,
+    ) -> bool;
+    pub fn tl_scene_line_of_sight(
+        scene: *const tl_scene,
+        instances: *const tl_scene_instance,
+        a: tl_vec3,
+        b: tl_vec3,
+        filter: *const tl_scene_filter,
+    ) -> bool;
+    pub fn tl_scene_cast_shape(
+        scene: *const tl_scene,
+        instances: *const tl_scene_instance,
+        shape: *const tl_convex,
+        pose: tl_transform,
+        motion: tl_vec3,
+        filter: *const tl_scene_filter,
+        hit_out: *mut tl_scene_shape_hit,
+    ) -> tl_result;
+    pub fn tl_scene_overlaps(
+        scene: *const tl_scene,
+        instances: *const tl_scene_instance,
+        query: *const tl_scene_overlap_query,
+        overlaps_out: *mut bool,
+    ) -> tl_result;
+    pub fn tl_scene_find_overlaps(
+        scene: *const tl_scene,
+        instances: *const tl_scene_instance,
+        query: *const tl_scene_overlap_query,
+        overlaps_out: *mut tl_scene_overlap,
+        capacity: u32,
+        count_out: *mut u32,
+    ) -> tl_result;
+    pub fn tl_scene_nearest(
+        scene: *const tl_scene,
+        instances: *const tl_scene_instance,
+        point: tl_vec3,
+        max_distance: f32,
+        filter: *const tl_scene_filter,
+        nearest_out: *mut tl_scene_point,
+    ) -> tl_result;
+    pub fn tl_scene_instances_in_box(
+        scene: *const tl_scene,
+        r#box: tl_aabb,
+        filter: *const tl_scene_filter,
+        found: Option<tl_scene_instance_fn>,
+        user: *mut c_void,
+    ) -> bool;
+    pub fn tl_default_character_def() -> tl_character_def;
+    pub fn tl_character_mover_create(
+        def: *const tl_character_def,
+        mover_out: *mut *mut tl_character_mover,
+        report: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_character_mover_destroy(mover: *mut tl_character_mover);
+    pub fn tl_character_move(
+        mover: *mut tl_character_mover,
+        level: *const tl_character_level,
+        step: *const tl_character_step,
+        character: *mut tl_character,
+        report_out: *mut tl_character_report,
+    ) -> tl_result;
     pub fn tl_default_polygon_def() -> tl_polygon_def;
     pub fn tl_polygon_mesh_bake(
         contours: *const tl_contour_set,
@@ -2668,157 +2984,6 @@ extern "C" {
         removed_out: *mut tl_nav_tiles,
         report_out: *mut tl_nav_prune_report,
     ) -> tl_result;
-    pub fn tl_default_soup_def() -> tl_soup_def;
-    pub fn tl_soup_bake(
-        view: *const tl_mesh_view,
-        def: *const tl_soup_def,
-        soup_out: *mut *mut tl_soup,
-        report_out: *mut tl_soup_report,
-    ) -> tl_result;
-    pub fn tl_soup_refit(
-        soup: *mut tl_soup,
-        moved: *const tl_mesh_view,
-        report_out: *mut tl_report,
-    ) -> tl_result;
-    pub fn tl_soup_check(bytes: *const c_void, size: u64, report_out: *mut tl_report) -> tl_result;
-    pub fn tl_soup_size(soup: *const tl_soup) -> u64;
-    pub fn tl_soup_bounds(soup: *const tl_soup) -> tl_aabb;
-    pub fn tl_soup_get_stats(soup: *const tl_soup) -> tl_soup_stats;
-    pub fn tl_soup_cast_ray(
-        soup: *const tl_soup,
-        ray: *const tl_ray,
-        filter: *const tl_ray_filter,
-        hit_out: *mut tl_ray_hit,
-    ) -> bool;
-    pub fn tl_soup_occluded(
-        soup: *const tl_soup,
-        ray: *const tl_ray,
-        filter: *const tl_ray_filter,
-    ) -> bool;
-    pub fn tl_soup_cast_segment(
-        soup: *const tl_soup,
-        a: tl_vec3,
-        b: tl_vec3,
-        filter: *const tl_ray_filter,
-        hit_out: *mut tl_ray_hit,
-    ) -> bool;
-    pub fn tl_soup_line_of_sight(
-        soup: *const tl_soup,
-        a: tl_vec3,
-        b: tl_vec3,
-        filter: *const tl_ray_filter,
-    ) -> bool;
-    pub fn tl_soup_cast_rays(
-        soup: *const tl_soup,
-        rays: *const tl_ray,
-        count: u32,
-        filter: *const tl_ray_filter,
-        host: *const tl_host,
-        hits_out: *mut tl_ray_hit,
-    );
-    pub fn tl_soup_cast_segments(
-        soup: *const tl_soup,
-        segments: *const tl_segment,
-        count: u32,
-        filter: *const tl_ray_filter,
-        host: *const tl_host,
-        hits_out: *mut tl_ray_hit,
-    );
-    pub fn tl_soup_occluded_rays(
-        soup: *const tl_soup,
-        rays: *const tl_ray,
-        count: u32,
-        filter: *const tl_ray_filter,
-        host: *const tl_host,
-        occluded_out: *mut bool,
-    );
-    pub fn tl_soup_lines_of_sight(
-        soup: *const tl_soup,
-        segments: *const tl_segment,
-        count: u32,
-        filter: *const tl_ray_filter,
-        host: *const tl_host,
-        clear_out: *mut bool,
-    );
-    pub fn tl_soup_cast_ray_all(
-        soup: *const tl_soup,
-        ray: *const tl_ray,
-        rule: tl_hit_rule,
-        filter: *const tl_ray_filter,
-        hits_out: *mut tl_ray_hit,
-        capacity: u32,
-        count_out: *mut u32,
-    ) -> tl_result;
-    pub fn tl_soup_nearest(
-        soup: *const tl_soup,
-        point: tl_vec3,
-        max_distance: f32,
-        filter: *const tl_ray_filter,
-        nearest_out: *mut tl_soup_point,
-    ) -> tl_result;
-    pub fn tl_soup_overlaps(
-        soup: *const tl_soup,
-        shape: *const tl_convex,
-        pose: tl_transform,
-        filter: *const tl_ray_filter,
-        overlaps_out: *mut bool,
-    ) -> tl_result;
-    pub fn tl_soup_find_overlaps(
-        soup: *const tl_soup,
-        shape: *const tl_convex,
-        pose: tl_transform,
-        filter: *const tl_ray_filter,
-        triangles_out: *mut u32,
-        capacity: u32,
-        count_out: *mut u32,
-    ) -> tl_result;
-    pub fn tl_soup_cast_shape(
-        soup: *const tl_soup,
-        shape: *const tl_convex,
-        pose: tl_transform,
-        motion: tl_vec3,
-        filter: *const tl_ray_filter,
-        hit_out: *mut tl_shape_hit,
-    ) -> tl_result;
-    pub fn tl_soup_find_contacts(
-        soup: *const tl_soup,
-        query: *const tl_soup_contact_query,
-        contacts_out: *mut tl_soup_contact,
-        capacity: u32,
-        count_out: *mut u32,
-    ) -> tl_result;
-    pub fn tl_soup_locate(
-        soup: *const tl_soup,
-        point: tl_vec3,
-        location_out: *mut tl_soup_location,
-    ) -> tl_result;
-    pub fn tl_soup_check_closed(
-        soup: *const tl_soup,
-        host: *const tl_host,
-        report_out: *mut tl_report,
-    ) -> tl_result;
-    pub fn tl_soup_next_triangle(
-        soup: *const tl_soup,
-        cursor: *mut u64,
-        triangle_out: *mut tl_soup_triangle,
-    ) -> bool;
-    pub fn tl_soup_next_pair(
-        soup: *const tl_soup,
-        cursor: *mut u64,
-        pair_out: *mut tl_soup_pair,
-    ) -> bool;
-    pub fn tl_soup_triangles_in_box(
-        soup: *const tl_soup,
-        r#box: tl_aabb,
-        found: Option<tl_soup_triangle_fn>,
-        user: *mut c_void,
-    ) -> bool;
-    pub fn tl_soup_bvh_boxes(
-        soup: *const tl_soup,
-        max_depth: u32,
-        visit: Option<tl_soup_bvh_box_fn>,
-        user: *mut c_void,
-    ) -> bool;
     pub fn tl_nav_probe_from_config(config: *const tl_nav_config) -> tl_nav_probe;
     pub fn tl_default_nav_audit_def() -> tl_nav_audit_def;
     pub fn tl_nav_finding_name(kind: tl_nav_finding_kind) -> *const c_char;
@@ -3306,80 +3471,6 @@ extern "C" {
         navmesh_out: *mut *mut tl_navmesh,
         report_out: *mut tl_report,
     ) -> tl_result;
-    pub fn tl_scene_bake(
-        instances: *const tl_scene_instance,
-        count: u32,
-        host: *const tl_host,
-        scene_out: *mut *mut tl_scene,
-        report_out: *mut tl_report,
-    ) -> tl_result;
-    pub fn tl_scene_refit(
-        scene: *mut tl_scene,
-        instances: *const tl_scene_instance,
-        count: u32,
-        growth_out: *mut f32,
-        report_out: *mut tl_report,
-    ) -> tl_result;
-    pub fn tl_scene_bounds(scene: *const tl_scene) -> tl_aabb;
-    pub fn tl_scene_get_stats(scene: *const tl_scene) -> tl_scene_stats;
-    pub fn tl_scene_cast_ray(
-        scene: *const tl_scene,
-        instances: *const tl_scene_instance,
-        ray: *const tl_ray,
-        filter: *const tl_scene_filter,
-        hit_out: *mut tl_scene_hit,
-    ) -> bool;
-    pub fn tl_scene_occluded(
-        scene: *const tl_scene,
-        instances: *const tl_scene_instance,
-        ray: *const tl_ray,
-        filter: *const tl_scene_filter,
-    ) -> bool;
-    pub fn tl_scene_line_of_sight(
-        scene: *const tl_scene,
-        instances: *const tl_scene_instance,
-        a: tl_vec3,
-        b: tl_vec3,
-        filter: *const tl_scene_filter,
-    ) -> bool;
-    pub fn tl_scene_cast_shape(
-        scene: *const tl_scene,
-        instances: *const tl_scene_instance,
-        shape: *const tl_convex,
-        pose: tl_transform,
-        motion: tl_vec3,
-        filter: *const tl_scene_filter,
-        hit_out: *mut tl_scene_shape_hit,
-    ) -> tl_result;
-    pub fn tl_scene_overlaps(
-        scene: *const tl_scene,
-        instances: *const tl_scene_instance,
-        query: *const tl_scene_overlap_query,
-        overlaps_out: *mut bool,
-    ) -> tl_result;
-    pub fn tl_scene_find_overlaps(
-        scene: *const tl_scene,
-        instances: *const tl_scene_instance,
-        query: *const tl_scene_overlap_query,
-        overlaps_out: *mut tl_scene_overlap,
-        capacity: u32,
-        count_out: *mut u32,
-    ) -> tl_result;
-    pub fn tl_scene_nearest(
-        scene: *const tl_scene,
-        instances: *const tl_scene_instance,
-        point: tl_vec3,
-        max_distance: f32,
-        filter: *const tl_scene_filter,
-        nearest_out: *mut tl_scene_point,
-    ) -> tl_result;
-    pub fn tl_scene_instances_in_box(
-        scene: *const tl_scene,
-        r#box: tl_aabb,
-        filter: *const tl_scene_filter,
-        found: Option<tl_scene_instance_fn>,
-        user: *mut c_void,
-    ) -> bool;
 }
 
 #[cfg(all(test, target_pointer_width = "64"))]
@@ -3643,6 +3734,190 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_closed_parts, open_part_count), 20);
         assert_eq!(core::mem::offset_of!(tl_closed_parts, triangle_count), 24);
         assert_eq!(core::mem::offset_of!(tl_closed_parts, allocator), 32);
+        assert_eq!(core::mem::size_of::<tl_soup_def>(), 56);
+        assert_eq!(core::mem::offset_of!(tl_soup_def, pair_triangles), 0);
+        assert_eq!(core::mem::offset_of!(tl_soup_def, partition), 4);
+        assert_eq!(core::mem::offset_of!(tl_soup_def, layout), 8);
+        assert_eq!(core::mem::offset_of!(tl_soup_def, quality), 12);
+        assert_eq!(core::mem::offset_of!(tl_soup_def, split_budget), 16);
+        assert_eq!(core::mem::offset_of!(tl_soup_def, host), 24);
+        assert_eq!(core::mem::offset_of!(tl_soup_def, cookie), 48);
+        assert_eq!(core::mem::size_of::<tl_soup_report>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_soup_report, base), 0);
+        assert_eq!(core::mem::offset_of!(tl_soup_report, triangle_count), 48);
+        assert_eq!(
+            core::mem::offset_of!(tl_soup_report, degenerate_triangles),
+            52
+        );
+        assert_eq!(core::mem::offset_of!(tl_soup_report, pair_count), 56);
+        assert_eq!(core::mem::offset_of!(tl_soup_report, single_count), 60);
+        assert_eq!(core::mem::size_of::<tl_soup_stats>(), 80);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, size), 0);
+        assert_eq!(
+            core::mem::offset_of!(tl_soup_stats, source_triangle_count),
+            8
+        );
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, triangle_count), 12);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, pair_count), 16);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, single_count), 20);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, reference_count), 24);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, leaf_count), 28);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, node_count), 32);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, layout), 36);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, depth), 40);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, node_bytes), 48);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, leaf_bytes), 56);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, vertex_bytes), 64);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, material_bytes), 72);
+        assert_eq!(core::mem::size_of::<tl_ray>(), 28);
+        assert_eq!(core::mem::offset_of!(tl_ray, origin), 0);
+        assert_eq!(core::mem::offset_of!(tl_ray, direction), 12);
+        assert_eq!(core::mem::offset_of!(tl_ray, tmax), 24);
+        assert_eq!(core::mem::size_of::<tl_ray_filter>(), 32);
+        assert_eq!(core::mem::offset_of!(tl_ray_filter, cull), 0);
+        assert_eq!(core::mem::offset_of!(tl_ray_filter, ignored_materials), 8);
+        assert_eq!(core::mem::offset_of!(tl_ray_filter, accept), 16);
+        assert_eq!(core::mem::offset_of!(tl_ray_filter, accept_user), 24);
+        assert_eq!(core::mem::size_of::<tl_ray_hit>(), 32);
+        assert_eq!(core::mem::offset_of!(tl_ray_hit, t), 0);
+        assert_eq!(core::mem::offset_of!(tl_ray_hit, triangle), 4);
+        assert_eq!(core::mem::offset_of!(tl_ray_hit, u), 8);
+        assert_eq!(core::mem::offset_of!(tl_ray_hit, v), 12);
+        assert_eq!(core::mem::offset_of!(tl_ray_hit, normal), 16);
+        assert_eq!(core::mem::offset_of!(tl_ray_hit, material), 28);
+        assert_eq!(core::mem::offset_of!(tl_ray_hit, back), 30);
+        assert_eq!(core::mem::size_of::<tl_segment>(), 24);
+        assert_eq!(core::mem::offset_of!(tl_segment, a), 0);
+        assert_eq!(core::mem::offset_of!(tl_segment, b), 12);
+        assert_eq!(core::mem::size_of::<tl_soup_point>(), 40);
+        assert_eq!(core::mem::offset_of!(tl_soup_point, point), 0);
+        assert_eq!(core::mem::offset_of!(tl_soup_point, distance), 12);
+        assert_eq!(core::mem::offset_of!(tl_soup_point, normal), 16);
+        assert_eq!(core::mem::offset_of!(tl_soup_point, triangle), 28);
+        assert_eq!(core::mem::offset_of!(tl_soup_point, material), 32);
+        assert_eq!(core::mem::offset_of!(tl_soup_point, back), 34);
+        assert_eq!(core::mem::offset_of!(tl_soup_point, feature), 36);
+        assert_eq!(core::mem::size_of::<tl_shape_hit>(), 56);
+        assert_eq!(core::mem::offset_of!(tl_shape_hit, t), 0);
+        assert_eq!(core::mem::offset_of!(tl_shape_hit, initial_overlap), 4);
+        assert_eq!(core::mem::offset_of!(tl_shape_hit, back), 5);
+        assert_eq!(core::mem::offset_of!(tl_shape_hit, material), 6);
+        assert_eq!(core::mem::offset_of!(tl_shape_hit, triangle), 8);
+        assert_eq!(core::mem::offset_of!(tl_shape_hit, depth), 12);
+        assert_eq!(core::mem::offset_of!(tl_shape_hit, point), 16);
+        assert_eq!(core::mem::offset_of!(tl_shape_hit, normal), 28);
+        assert_eq!(core::mem::offset_of!(tl_shape_hit, face_normal), 40);
+        assert_eq!(core::mem::offset_of!(tl_shape_hit, status), 52);
+        assert_eq!(core::mem::size_of::<tl_soup_contact_query>(), 56);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact_query, shape), 0);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact_query, pose), 8);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact_query, limits), 36);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact_query, filter), 48);
+        assert_eq!(core::mem::size_of::<tl_soup_contact>(), 232);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact, triangle), 0);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact, material), 4);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact, is_face), 6);
+        assert_eq!(core::mem::offset_of!(tl_soup_contact, manifold), 8);
+        assert_eq!(core::mem::size_of::<tl_soup_location>(), 12);
+        assert_eq!(core::mem::offset_of!(tl_soup_location, side), 0);
+        assert_eq!(core::mem::offset_of!(tl_soup_location, winding), 4);
+        assert_eq!(core::mem::offset_of!(tl_soup_location, triangle), 8);
+        assert_eq!(core::mem::size_of::<tl_soup_triangle>(), 44);
+        assert_eq!(core::mem::offset_of!(tl_soup_triangle, corners), 0);
+        assert_eq!(core::mem::offset_of!(tl_soup_triangle, triangle), 36);
+        assert_eq!(core::mem::offset_of!(tl_soup_triangle, material), 40);
+        assert_eq!(core::mem::size_of::<tl_soup_pair>(), 56);
+        assert_eq!(core::mem::offset_of!(tl_soup_pair, corners), 0);
+        assert_eq!(core::mem::offset_of!(tl_soup_pair, triangles), 48);
+        assert_eq!(core::mem::size_of::<tl_scene_instance>(), 48);
+        assert_eq!(core::mem::offset_of!(tl_scene_instance, soup), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_instance, shape), 8);
+        assert_eq!(core::mem::offset_of!(tl_scene_instance, pose), 16);
+        assert_eq!(core::mem::offset_of!(tl_scene_instance, mask), 44);
+        assert_eq!(core::mem::size_of::<tl_scene_stats>(), 32);
+        assert_eq!(core::mem::offset_of!(tl_scene_stats, size), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_stats, instance_count), 8);
+        assert_eq!(core::mem::offset_of!(tl_scene_stats, node_count), 12);
+        assert_eq!(core::mem::offset_of!(tl_scene_stats, depth), 16);
+        assert_eq!(core::mem::offset_of!(tl_scene_stats, cost), 24);
+        assert_eq!(core::mem::size_of::<tl_scene_filter>(), 40);
+        assert_eq!(core::mem::offset_of!(tl_scene_filter, ignored_mask), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_filter, first_ignored), 4);
+        assert_eq!(core::mem::offset_of!(tl_scene_filter, ignored_count), 8);
+        assert_eq!(core::mem::offset_of!(tl_scene_filter, accept), 16);
+        assert_eq!(core::mem::offset_of!(tl_scene_filter, accept_user), 24);
+        assert_eq!(core::mem::offset_of!(tl_scene_filter, triangles), 32);
+        assert_eq!(core::mem::size_of::<tl_scene_hit>(), 44);
+        assert_eq!(core::mem::offset_of!(tl_scene_hit, hit), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_hit, instance), 32);
+        assert_eq!(core::mem::offset_of!(tl_scene_hit, inside), 36);
+        assert_eq!(core::mem::offset_of!(tl_scene_hit, status), 40);
+        assert_eq!(core::mem::size_of::<tl_scene_shape_hit>(), 60);
+        assert_eq!(core::mem::offset_of!(tl_scene_shape_hit, hit), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_shape_hit, instance), 56);
+        assert_eq!(core::mem::size_of::<tl_scene_overlap_query>(), 48);
+        assert_eq!(core::mem::offset_of!(tl_scene_overlap_query, shape), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_overlap_query, pose), 8);
+        assert_eq!(core::mem::offset_of!(tl_scene_overlap_query, filter), 40);
+        assert_eq!(core::mem::size_of::<tl_scene_overlap>(), 8);
+        assert_eq!(core::mem::offset_of!(tl_scene_overlap, instance), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_overlap, triangle), 4);
+        assert_eq!(core::mem::size_of::<tl_scene_point>(), 44);
+        assert_eq!(core::mem::offset_of!(tl_scene_point, point), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_point, instance), 40);
+        assert_eq!(core::mem::size_of::<tl_character_def>(), 40);
+        assert_eq!(core::mem::offset_of!(tl_character_def, radius), 0);
+        assert_eq!(core::mem::offset_of!(tl_character_def, height), 4);
+        assert_eq!(core::mem::offset_of!(tl_character_def, step_height), 8);
+        assert_eq!(core::mem::offset_of!(tl_character_def, max_slope), 12);
+        assert_eq!(core::mem::offset_of!(tl_character_def, gap), 16);
+        assert_eq!(core::mem::offset_of!(tl_character_def, max_triangles), 20);
+        assert_eq!(core::mem::offset_of!(tl_character_def, allocator), 24);
+        assert_eq!(core::mem::offset_of!(tl_character_def, cookie), 32);
+        assert_eq!(core::mem::size_of::<tl_character>(), 88);
+        assert_eq!(core::mem::offset_of!(tl_character, position), 0);
+        assert_eq!(core::mem::offset_of!(tl_character, velocity), 12);
+        assert_eq!(core::mem::offset_of!(tl_character, ground_normal), 24);
+        assert_eq!(core::mem::offset_of!(tl_character, ground_point), 36);
+        assert_eq!(core::mem::offset_of!(tl_character, grounded), 48);
+        assert_eq!(core::mem::offset_of!(tl_character, ground_triangle), 52);
+        assert_eq!(core::mem::offset_of!(tl_character, ground_instance), 56);
+        assert_eq!(core::mem::offset_of!(tl_character, ground_pose), 60);
+        assert_eq!(core::mem::size_of::<tl_character_level>(), 40);
+        assert_eq!(core::mem::offset_of!(tl_character_level, soup), 0);
+        assert_eq!(core::mem::offset_of!(tl_character_level, soup_filter), 8);
+        assert_eq!(core::mem::offset_of!(tl_character_level, scene), 16);
+        assert_eq!(core::mem::offset_of!(tl_character_level, instances), 24);
+        assert_eq!(core::mem::offset_of!(tl_character_level, scene_filter), 32);
+        assert_eq!(core::mem::size_of::<tl_character_step>(), 20);
+        assert_eq!(core::mem::offset_of!(tl_character_step, velocity), 0);
+        assert_eq!(core::mem::offset_of!(tl_character_step, seconds), 12);
+        assert_eq!(core::mem::offset_of!(tl_character_step, leave_ground), 16);
+        assert_eq!(core::mem::size_of::<tl_character_hit>(), 40);
+        assert_eq!(core::mem::offset_of!(tl_character_hit, point), 0);
+        assert_eq!(core::mem::offset_of!(tl_character_hit, normal), 12);
+        assert_eq!(core::mem::offset_of!(tl_character_hit, instance), 24);
+        assert_eq!(core::mem::offset_of!(tl_character_hit, triangle), 28);
+        assert_eq!(core::mem::offset_of!(tl_character_hit, material), 32);
+        assert_eq!(core::mem::offset_of!(tl_character_hit, surface), 36);
+        assert_eq!(core::mem::size_of::<tl_character_report>(), 432);
+        assert_eq!(core::mem::offset_of!(tl_character_report, base), 0);
+        assert_eq!(core::mem::offset_of!(tl_character_report, landed), 48);
+        assert_eq!(core::mem::offset_of!(tl_character_report, left_ground), 49);
+        assert_eq!(core::mem::offset_of!(tl_character_report, blocked), 50);
+        assert_eq!(core::mem::offset_of!(tl_character_report, hit_ceiling), 51);
+        assert_eq!(core::mem::offset_of!(tl_character_report, stuck), 52);
+        assert_eq!(core::mem::offset_of!(tl_character_report, stepped_up), 56);
+        assert_eq!(core::mem::offset_of!(tl_character_report, pushed), 60);
+        assert_eq!(core::mem::offset_of!(tl_character_report, carried), 64);
+        assert_eq!(core::mem::offset_of!(tl_character_report, turned), 76);
+        assert_eq!(
+            core::mem::offset_of!(tl_character_report, ground_velocity),
+            92
+        );
+        assert_eq!(core::mem::offset_of!(tl_character_report, sweeps), 104);
+        assert_eq!(core::mem::offset_of!(tl_character_report, hit_count), 108);
+        assert_eq!(core::mem::offset_of!(tl_character_report, hits), 112);
         assert_eq!(core::mem::size_of::<tl_contour_vertex>(), 16);
         assert_eq!(core::mem::offset_of!(tl_contour_vertex, x), 0);
         assert_eq!(core::mem::offset_of!(tl_contour_vertex, y), 4);
@@ -4326,101 +4601,6 @@ mod layout {
             core::mem::offset_of!(tl_nav_prune_report, changed_tiles),
             132
         );
-        assert_eq!(core::mem::size_of::<tl_soup_def>(), 56);
-        assert_eq!(core::mem::offset_of!(tl_soup_def, pair_triangles), 0);
-        assert_eq!(core::mem::offset_of!(tl_soup_def, partition), 4);
-        assert_eq!(core::mem::offset_of!(tl_soup_def, layout), 8);
-        assert_eq!(core::mem::offset_of!(tl_soup_def, quality), 12);
-        assert_eq!(core::mem::offset_of!(tl_soup_def, split_budget), 16);
-        assert_eq!(core::mem::offset_of!(tl_soup_def, host), 24);
-        assert_eq!(core::mem::offset_of!(tl_soup_def, cookie), 48);
-        assert_eq!(core::mem::size_of::<tl_soup_report>(), 64);
-        assert_eq!(core::mem::offset_of!(tl_soup_report, base), 0);
-        assert_eq!(core::mem::offset_of!(tl_soup_report, triangle_count), 48);
-        assert_eq!(
-            core::mem::offset_of!(tl_soup_report, degenerate_triangles),
-            52
-        );
-        assert_eq!(core::mem::offset_of!(tl_soup_report, pair_count), 56);
-        assert_eq!(core::mem::offset_of!(tl_soup_report, single_count), 60);
-        assert_eq!(core::mem::size_of::<tl_soup_stats>(), 80);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, size), 0);
-        assert_eq!(
-            core::mem::offset_of!(tl_soup_stats, source_triangle_count),
-            8
-        );
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, triangle_count), 12);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, pair_count), 16);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, single_count), 20);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, reference_count), 24);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, leaf_count), 28);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, node_count), 32);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, layout), 36);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, depth), 40);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, node_bytes), 48);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, leaf_bytes), 56);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, vertex_bytes), 64);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, material_bytes), 72);
-        assert_eq!(core::mem::size_of::<tl_ray>(), 28);
-        assert_eq!(core::mem::offset_of!(tl_ray, origin), 0);
-        assert_eq!(core::mem::offset_of!(tl_ray, direction), 12);
-        assert_eq!(core::mem::offset_of!(tl_ray, tmax), 24);
-        assert_eq!(core::mem::size_of::<tl_ray_filter>(), 32);
-        assert_eq!(core::mem::offset_of!(tl_ray_filter, cull), 0);
-        assert_eq!(core::mem::offset_of!(tl_ray_filter, ignored_materials), 8);
-        assert_eq!(core::mem::offset_of!(tl_ray_filter, accept), 16);
-        assert_eq!(core::mem::offset_of!(tl_ray_filter, accept_user), 24);
-        assert_eq!(core::mem::size_of::<tl_ray_hit>(), 32);
-        assert_eq!(core::mem::offset_of!(tl_ray_hit, t), 0);
-        assert_eq!(core::mem::offset_of!(tl_ray_hit, triangle), 4);
-        assert_eq!(core::mem::offset_of!(tl_ray_hit, u), 8);
-        assert_eq!(core::mem::offset_of!(tl_ray_hit, v), 12);
-        assert_eq!(core::mem::offset_of!(tl_ray_hit, normal), 16);
-        assert_eq!(core::mem::offset_of!(tl_ray_hit, material), 28);
-        assert_eq!(core::mem::offset_of!(tl_ray_hit, back), 30);
-        assert_eq!(core::mem::size_of::<tl_segment>(), 24);
-        assert_eq!(core::mem::offset_of!(tl_segment, a), 0);
-        assert_eq!(core::mem::offset_of!(tl_segment, b), 12);
-        assert_eq!(core::mem::size_of::<tl_soup_point>(), 40);
-        assert_eq!(core::mem::offset_of!(tl_soup_point, point), 0);
-        assert_eq!(core::mem::offset_of!(tl_soup_point, distance), 12);
-        assert_eq!(core::mem::offset_of!(tl_soup_point, normal), 16);
-        assert_eq!(core::mem::offset_of!(tl_soup_point, triangle), 28);
-        assert_eq!(core::mem::offset_of!(tl_soup_point, material), 32);
-        assert_eq!(core::mem::offset_of!(tl_soup_point, back), 34);
-        assert_eq!(core::mem::offset_of!(tl_soup_point, feature), 36);
-        assert_eq!(core::mem::size_of::<tl_shape_hit>(), 56);
-        assert_eq!(core::mem::offset_of!(tl_shape_hit, t), 0);
-        assert_eq!(core::mem::offset_of!(tl_shape_hit, initial_overlap), 4);
-        assert_eq!(core::mem::offset_of!(tl_shape_hit, back), 5);
-        assert_eq!(core::mem::offset_of!(tl_shape_hit, material), 6);
-        assert_eq!(core::mem::offset_of!(tl_shape_hit, triangle), 8);
-        assert_eq!(core::mem::offset_of!(tl_shape_hit, depth), 12);
-        assert_eq!(core::mem::offset_of!(tl_shape_hit, point), 16);
-        assert_eq!(core::mem::offset_of!(tl_shape_hit, normal), 28);
-        assert_eq!(core::mem::offset_of!(tl_shape_hit, face_normal), 40);
-        assert_eq!(core::mem::offset_of!(tl_shape_hit, status), 52);
-        assert_eq!(core::mem::size_of::<tl_soup_contact_query>(), 56);
-        assert_eq!(core::mem::offset_of!(tl_soup_contact_query, shape), 0);
-        assert_eq!(core::mem::offset_of!(tl_soup_contact_query, pose), 8);
-        assert_eq!(core::mem::offset_of!(tl_soup_contact_query, limits), 36);
-        assert_eq!(core::mem::offset_of!(tl_soup_contact_query, filter), 48);
-        assert_eq!(core::mem::size_of::<tl_soup_contact>(), 232);
-        assert_eq!(core::mem::offset_of!(tl_soup_contact, triangle), 0);
-        assert_eq!(core::mem::offset_of!(tl_soup_contact, material), 4);
-        assert_eq!(core::mem::offset_of!(tl_soup_contact, is_face), 6);
-        assert_eq!(core::mem::offset_of!(tl_soup_contact, manifold), 8);
-        assert_eq!(core::mem::size_of::<tl_soup_location>(), 12);
-        assert_eq!(core::mem::offset_of!(tl_soup_location, side), 0);
-        assert_eq!(core::mem::offset_of!(tl_soup_location, winding), 4);
-        assert_eq!(core::mem::offset_of!(tl_soup_location, triangle), 8);
-        assert_eq!(core::mem::size_of::<tl_soup_triangle>(), 44);
-        assert_eq!(core::mem::offset_of!(tl_soup_triangle, corners), 0);
-        assert_eq!(core::mem::offset_of!(tl_soup_triangle, triangle), 36);
-        assert_eq!(core::mem::offset_of!(tl_soup_triangle, material), 40);
-        assert_eq!(core::mem::size_of::<tl_soup_pair>(), 56);
-        assert_eq!(core::mem::offset_of!(tl_soup_pair, corners), 0);
-        assert_eq!(core::mem::offset_of!(tl_soup_pair, triangles), 48);
         assert_eq!(core::mem::size_of::<tl_nav_probe>(), 20);
         assert_eq!(core::mem::offset_of!(tl_nav_probe, radius), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_probe, step), 4);
@@ -4774,41 +4954,5 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_pack_areas, blob), 0);
         assert_eq!(core::mem::offset_of!(tl_pack_areas, count), 16);
         assert_eq!(core::mem::offset_of!(tl_pack_areas, reserved), 20);
-        assert_eq!(core::mem::size_of::<tl_scene_instance>(), 48);
-        assert_eq!(core::mem::offset_of!(tl_scene_instance, soup), 0);
-        assert_eq!(core::mem::offset_of!(tl_scene_instance, shape), 8);
-        assert_eq!(core::mem::offset_of!(tl_scene_instance, pose), 16);
-        assert_eq!(core::mem::offset_of!(tl_scene_instance, mask), 44);
-        assert_eq!(core::mem::size_of::<tl_scene_stats>(), 32);
-        assert_eq!(core::mem::offset_of!(tl_scene_stats, size), 0);
-        assert_eq!(core::mem::offset_of!(tl_scene_stats, instance_count), 8);
-        assert_eq!(core::mem::offset_of!(tl_scene_stats, node_count), 12);
-        assert_eq!(core::mem::offset_of!(tl_scene_stats, depth), 16);
-        assert_eq!(core::mem::offset_of!(tl_scene_stats, cost), 24);
-        assert_eq!(core::mem::size_of::<tl_scene_filter>(), 40);
-        assert_eq!(core::mem::offset_of!(tl_scene_filter, ignored_mask), 0);
-        assert_eq!(core::mem::offset_of!(tl_scene_filter, first_ignored), 4);
-        assert_eq!(core::mem::offset_of!(tl_scene_filter, ignored_count), 8);
-        assert_eq!(core::mem::offset_of!(tl_scene_filter, accept), 16);
-        assert_eq!(core::mem::offset_of!(tl_scene_filter, accept_user), 24);
-        assert_eq!(core::mem::offset_of!(tl_scene_filter, triangles), 32);
-        assert_eq!(core::mem::size_of::<tl_scene_hit>(), 44);
-        assert_eq!(core::mem::offset_of!(tl_scene_hit, hit), 0);
-        assert_eq!(core::mem::offset_of!(tl_scene_hit, instance), 32);
-        assert_eq!(core::mem::offset_of!(tl_scene_hit, inside), 36);
-        assert_eq!(core::mem::offset_of!(tl_scene_hit, status), 40);
-        assert_eq!(core::mem::size_of::<tl_scene_shape_hit>(), 60);
-        assert_eq!(core::mem::offset_of!(tl_scene_shape_hit, hit), 0);
-        assert_eq!(core::mem::offset_of!(tl_scene_shape_hit, instance), 56);
-        assert_eq!(core::mem::size_of::<tl_scene_overlap_query>(), 48);
-        assert_eq!(core::mem::offset_of!(tl_scene_overlap_query, shape), 0);
-        assert_eq!(core::mem::offset_of!(tl_scene_overlap_query, pose), 8);
-        assert_eq!(core::mem::offset_of!(tl_scene_overlap_query, filter), 40);
-        assert_eq!(core::mem::size_of::<tl_scene_overlap>(), 8);
-        assert_eq!(core::mem::offset_of!(tl_scene_overlap, instance), 0);
-        assert_eq!(core::mem::offset_of!(tl_scene_overlap, triangle), 4);
-        assert_eq!(core::mem::size_of::<tl_scene_point>(), 44);
-        assert_eq!(core::mem::offset_of!(tl_scene_point, point), 0);
-        assert_eq!(core::mem::offset_of!(tl_scene_point, instance), 40);
     }
 }

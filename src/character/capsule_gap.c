@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+//
+// The distance of an upright segment from a triangle or a convex shape.
+//
+// Where the end that is nearer to the triangle's plane projects into the triangle, the plane's distance is the answer:
+// that is the floor under a character, and most of what it ever asks. Else a nearest point lies at the other end or on
+// an edge. Source: Ericson, Real-Time Collision Detection, 2005, sections 5.1.9 and 5.1.10.
+
+#include "character/capsule_gap.h"
+
+static double clamp_to_one(double share)
+{
+    return share > 0.0 ? share < 1.0 ? share : 1.0 : 0.0;
+}
+
+static bool projects_inside(const tl_mover_item *t, tl_vec3d p)
+{
+    for (int k = 0; k < 3; k++) {
+        tl_vec3d edge = tl_vec3d_sub(t->corners[(k + 1) % 3], t->corners[k]);
+        if (tl_vec3d_dot(tl_vec3d_cross(t->normal, edge), tl_vec3d_sub(p, t->corners[k])) < 0.0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The point of the plane below an end, `height` over it, signed.
+static void take_plane(const tl_mover_item *t, tl_vec3d end, double height, tl_mover_nearest *best)
+{
+    double side = height < 0.0 ? -1.0 : 1.0;
+    best->distance = height * side;
+    best->normal = tl_vec3d_scale(t->normal, side);
+    best->point = tl_vec3d_mul_add(end, t->normal, -height);
+    best->face = true;
+}
+
+static void try_edge_of(const tl_mover_item *t, const tl_mover_core *core, int k, tl_mover_nearest *best,
+                        double *best_sq)
+{
+    tl_vec3d q = t->corners[k], e = tl_vec3d_sub(t->corners[(k + 1) % 3], q), r = tl_vec3d_sub(core->low, q);
+    double length = core->length, ee = tl_vec3d_dot(e, e), er = tl_vec3d_dot(e, r), de = length * e.y,
+           dr = length * r.y, dd = length * length, determinant = dd * ee - de * de;
+    // Nearly parallel: any point of the core will do, as the ends are tried by clamping.
+    double s = determinant > 0.0 ? clamp_to_one((de * er - dr * ee) / determinant) : 0.0;
+    double u = ee > 0.0 ? clamp_to_one((de * s + er) / ee) : 0.0;
+    s = dd > 0.0 ? clamp_to_one((de * u - dr) / dd) : 0.0;
+    tl_vec3d on_core = core->low, on_edge = tl_vec3d_mul_add(q, e, u);
+    on_core.y += length * s;
+    tl_vec3d away = tl_vec3d_sub(on_core, on_edge);
+    double distance_sq = tl_vec3d_dot(away, away);
+    if (distance_sq < *best_sq) {
+        *best_sq = distance_sq;
+        best->distance = sqrt(distance_sq);
+        best->point = on_edge;
+        best->face = false;
+        best->normal = best->distance > 0.0 ? tl_vec3d_scale(away, 1.0 / best->distance) : t->normal;
+    }
+}
+
+// The core passes through the inside: to the side that is nearer. The front wins a tie.
+static bool crosses_triangle(const tl_mover_item *t, const tl_mover_core *core, double low, double high,
+                             tl_mover_nearest *best)
+{
+    if (!(low < 0.0 && high > 0.0) && !(low > 0.0 && high < 0.0)) {
+        return false;
+    }
+    tl_vec3d at = core->low;
+    at.y += core->length * (low / (low - high));
+    if (!projects_inside(t, at)) {
+        return false;
+    }
+    double below = low < high ? low : high, above = low < high ? high : low;
+    bool front = -below <= above;
+    best->distance = front ? below : -above;
+    best->normal = front ? t->normal : tl_vec3d_neg(t->normal);
+    best->point = at;
+    best->face = true;
+    return true;
+}
+
+static void nearest_of_triangle(const tl_mover_item *t, const tl_mover_core *core, tl_mover_nearest *best)
+{
+    double best_sq = (double)INFINITY;
+    tl_vec3d top = core->low;
+    top.y += core->length;
+    if (t->normal.x != 0.0 || t->normal.y != 0.0 || t->normal.z != 0.0) {
+        double low = tl_vec3d_dot(t->normal, tl_vec3d_sub(core->low, t->corners[0])),
+               high = low + t->normal.y * core->length;
+        if (crosses_triangle(t, core, low, high, best)) {
+            return;
+        }
+        bool low_nearer = fabs(low) <= fabs(high), same_side = (low >= 0.0) == (high >= 0.0);
+        if (same_side && projects_inside(t, low_nearer ? core->low : top)) {
+            take_plane(t, low_nearer ? core->low : top, low_nearer ? low : high, best);
+            return;
+        }
+        for (int end = 0; end < 2; end++) {
+            tl_vec3d p = end == 0 ? core->low : top;
+            double height = end == 0 ? low : high;
+            if (height * height < best_sq && projects_inside(t, p)) {
+                take_plane(t, p, height, best);
+                best_sq = height * height;
+            }
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        try_edge_of(t, core, k, best, &best_sq);
+    }
+    if (best->distance == 0.0 && tl_vec3d_dot(best->normal, best->normal) == 0.0) {
+        best->normal = tl_vec3d_make(0.0, 1.0, 0.0); // a needle through the core
+    }
+}
+
+static void nearest_of_shape(const tl_mover_item *item, const tl_mover_core *core, tl_mover_nearest *best)
+{
+    // Relative to the core, which so is exact; the shape's own place is a float.
+    tl_vec3d away = tl_vec3d_sub(tl_vec3d_from(item->pose->position), core->low);
+    tl_transform here = tl_transform_identity(), there = { item->pose->rotation, tl_vec3d_to_float(away) };
+    tl_convex segment = tl_convex_capsule(tl_vec3_make(0, 0, 0), tl_vec3_make(0, (float)core->length, 0), 0.0f);
+    tl_separation s;
+    tl_convex_distance(item->shape, there, &segment, here, NULL, &s);
+    best->face = false;
+    if (!s.overlap) {
+        best->distance = (double)s.distance;
+        best->normal = tl_vec3d_from(s.normal);
+        best->point = tl_vec3d_add(core->low, tl_vec3d_from(s.point_a));
+        return;
+    }
+    tl_penetration in;
+    tl_convex_penetration(item->shape, there, &segment, here, NULL, &in);
+    best->distance = -(double)in.depth;
+    best->normal = in.overlap ? tl_vec3d_from(in.normal) : tl_vec3d_make(0.0, 1.0, 0.0);
+    best->point = tl_vec3d_add(core->low, tl_vec3d_from(in.point_a));
+}
+
+void tl_mover_nearest_of(const tl_mover_item *item, const tl_mover_core *core, tl_mover_nearest *nearest_out)
+{
+    if (item->shape != NULL) {
+        nearest_of_shape(item, core, nearest_out);
+    } else {
+        nearest_of_triangle(item, core, nearest_out);
+    }
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+//
+// What is near the character, collected once a move: walking the tree costs as much as all that is then computed on the
+// few triangles that are found.
+
+#include "character/mover.h"
+#include "math/tolerance.h"
+
+#include <string.h>
+
+// A triangle whose sine at corner 0 is below half an ulp of float has no face.
+#define MOVER_NEEDLE_SINE_SQ ((double)TL_FLOAT_ROUNDING * (double)TL_FLOAT_ROUNDING)
+
+typedef struct collection {
+    tl_character_mover *m;
+    tl_aabb box; // rounded outwards
+    const tl_ray_filter *filter;
+    const tl_scene_instance *at; // NULL: in the world
+    uint32_t instance;
+    tl_frame frame;
+    bool full;
+} collection;
+
+static tl_vec3d lesser(tl_vec3d a, tl_vec3d b)
+{
+    return tl_vec3d_make(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
+}
+
+static tl_vec3d greater(tl_vec3d a, tl_vec3d b)
+{
+    return tl_vec3d_make(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
+}
+
+static tl_mover_item *next_item(collection *c)
+{
+    if (c->m->item_count == c->m->def.max_triangles) {
+        c->full = true;
+        return NULL;
+    }
+    tl_mover_item *item = &c->m->items[c->m->item_count];
+    memset(item, 0, sizeof *item);
+    item->instance = c->instance;
+    return item;
+}
+
+// As rays.h says: front and back as seen from the middle of the box, materials, then the caller's word.
+static bool accepts_triangle(const collection *c, const tl_soup_triangle *triangle, const tl_mover_item *item)
+{
+    const tl_ray_filter *filter = c->filter;
+    if (filter == NULL) {
+        return true;
+    }
+    uint32_t bit = triangle->material < 63 ? triangle->material : 63;
+    if ((filter->ignored_materials >> bit & 1) != 0) {
+        return false;
+    }
+    if (filter->cull != TL_RAY_CULL_NONE) {
+        tl_vec3d middle = tl_vec3d_from(tl_aabb_center(c->box));
+        double height = tl_vec3d_dot(item->normal, tl_vec3d_sub(middle, item->corners[0]));
+        if (filter->cull == TL_RAY_CULL_BACK ? height < 0.0 : height > 0.0) {
+            return false;
+        }
+    }
+    return filter->accept == NULL || filter->accept(triangle->triangle, triangle->material, filter->accept_user);
+}
+
+static bool collect_triangle(const tl_soup_triangle *triangle, void *user)
+{
+    collection *c = (collection *)user;
+    tl_mover_item *item = next_item(c);
+    if (item == NULL) {
+        return false;
+    }
+    for (int k = 0; k < 3; k++) {
+        tl_vec3d corner = tl_vec3d_from(triangle->corners[k]);
+        item->corners[k] = c->at != NULL ? tl_frame_point(&c->frame, corner) : corner;
+    }
+    item->low = lesser(item->corners[0], lesser(item->corners[1], item->corners[2]));
+    item->high = greater(item->corners[0], greater(item->corners[1], item->corners[2]));
+    tl_vec3d first = tl_vec3d_sub(item->corners[1], item->corners[0]);
+    tl_vec3d second = tl_vec3d_sub(item->corners[2], item->corners[0]);
+    tl_vec3d normal = tl_vec3d_cross(first, second);
+    double normal_sq = tl_vec3d_dot(normal, normal);
+    if (normal_sq > MOVER_NEEDLE_SINE_SQ * tl_vec3d_dot(first, first) * tl_vec3d_dot(second, second)) {
+        item->normal = tl_vec3d_scale(normal, 1.0 / sqrt(normal_sq));
+    }
+    item->triangle = triangle->triangle;
+    item->material = triangle->material;
+    c->m->item_count += accepts_triangle(c, triangle, item);
+    return true;
+}
+
+// The box in the instance's space, with room for the rounding of its corners.
+static tl_aabb box_in_instance(const collection *c)
+{
+    tl_vec3d low = tl_vec3d_from(c->box.min), high = tl_vec3d_from(c->box.max);
+    tl_vec3d half = tl_vec3d_scale(tl_vec3d_sub(high, low), 0.5);
+    tl_vec3d middle = tl_vec3d_sub(tl_vec3d_add(low, half), c->frame.origin);
+    tl_vec3d at = tl_frame_rotate_back(&c->frame, middle);
+    const tl_vec3d *r = c->frame.rows;
+    tl_vec3d reach = tl_vec3d_make(fabs(r[0].x) * half.x + fabs(r[1].x) * half.y + fabs(r[2].x) * half.z,
+                                   fabs(r[0].y) * half.x + fabs(r[1].y) * half.y + fabs(r[2].y) * half.z,
+                                   fabs(r[0].z) * half.x + fabs(r[1].z) * half.y + fabs(r[2].z) * half.z);
+    double room = TL_FLOAT_OUTWARD * (tl_vec3d_size(at) + tl_vec3d_size(reach));
+    reach = tl_vec3d_add(reach, tl_vec3d_make(room, room, room));
+    tl_aabb box = { tl_vec3d_to_float(tl_vec3d_sub(at, reach)), tl_vec3d_to_float(tl_vec3d_add(at, reach)) };
+    return box;
+}
+
+static bool collect_instance(uint32_t instance, void *user)
+{
+    collection *c = (collection *)user;
+    const tl_scene_instance *at = &c->m->level->instances[instance];
+    c->at = at;
+    c->instance = instance;
+    if (at->soup != NULL) {
+        c->frame = tl_frame_from(at->pose);
+        return tl_soup_triangles_in_box(at->soup, box_in_instance(c), collect_triangle, c);
+    }
+    tl_mover_item *item = at->shape != NULL ? next_item(c) : NULL;
+    if (item != NULL) {
+        tl_aabb box = tl_convex_bounds(at->shape, at->pose);
+        item->low = tl_vec3d_from(box.min);
+        item->high = tl_vec3d_from(box.max);
+        item->shape = at->shape;
+        item->pose = &at->pose;
+        item->triangle = TL_NO_TRIANGLE;
+        c->m->item_count++;
+    }
+    return !c->full;
+}
+
+bool tl_mover_collect(tl_character_mover *m, tl_vec3d low, tl_vec3d high)
+{
+    m->feet_low = low;
+    m->feet_high = high;
+    double room = TL_FLOAT_OUTWARD * (tl_vec3d_size(low) + tl_vec3d_size(high)) + 2.0 * m->gap, wide = m->radius + room;
+    low = tl_vec3d_sub(low, tl_vec3d_make(wide, room, wide));
+    high = tl_vec3d_add(high, tl_vec3d_make(wide, m->core_length + 2.0 * m->radius + room, wide));
+    collection c;
+    memset(&c, 0, sizeof c);
+    c.m = m;
+    c.box.min = tl_vec3d_to_float(low);
+    c.box.max = tl_vec3d_to_float(high);
+    m->item_count = 0;
+    m->contacts_known = false;
+    const tl_character_level *level = m->level;
+    if (level->soup != NULL) {
+        c.filter = level->soup_filter;
+        (void)tl_soup_triangles_in_box(level->soup, c.box, collect_triangle, &c);
+    } else {
+        c.filter = level->scene_filter != NULL ? level->scene_filter->triangles : NULL;
+        (void)tl_scene_instances_in_box(level->scene, c.box, level->scene_filter, collect_instance, &c);
+    }
+    return !c.full;
+}
