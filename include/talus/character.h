@@ -154,7 +154,7 @@ typedef struct tl_character_report {
 /// TL_ERR_ARGUMENT, with the field in the report: NULLs; "level" has both a soup and a scene, or neither; "seconds";
 /// "max_triangles" is TL_ERR_LIMIT: more of them touch the box of the capsule, its step height and a quarter of its
 /// radius around. TL_ERR_NOT_FINITE: "velocity", "position". TL_ERR_RANGE: "velocity" leads beyond
-/// TL_MAX_CHARACTER_MOTION, or "position" lies beyond TL_MAX_COORDINATE.
+/// TL_MAX_CHARACTER_MOTION, or "position" lies beyond 2^18 radii (78 km by default), where floats are too coarse.
 TL_API tl_result tl_character_move(tl_character_mover *mover, const tl_character_level *level,
                                    const tl_character_step *step, tl_character *character,
                                    tl_character_report *report_out);

@@ -24,6 +24,9 @@
 // The gap is no less than this share of the coordinates: sixteen roundings of a position.
 #define GAP_SHARE (16.0 * (double)TL_FLOAT_ROUNDING)
 
+// A gap wider than this, in radii, is none to walk with.
+#define WIDEST_GAP 0.25
+
 // A motion in parts goes down to a part of a quarter of the radius; and after so many parts more than it is long, in
 // radii, it leads nowhere.
 #define LEAST_PART  0.25
@@ -67,9 +70,6 @@ static tl_result check_move(const tl_character_level *level, const tl_character_
     tl_vec3d motion = tl_vec3d_scale(tl_vec3d_from(step->velocity), (double)step->seconds);
     if (tl_vec3d_length(motion) > (double)TL_MAX_CHARACTER_MOTION) {
         return tl_report_field(report, TL_ERR_RANGE, "velocity", "move at most TL_MAX_CHARACTER_MOTION at once");
-    }
-    if (tl_vec3d_size(tl_vec3d_from(c->position)) > (double)TL_MAX_COORDINATE) {
-        return tl_report_field(report, TL_ERR_RANGE, "position", "keep it within TL_MAX_COORDINATE");
     }
     return TL_OK;
 }
@@ -196,6 +196,12 @@ static tl_result move_all(tl_character_mover *m, move_state *s)
     return m->crowded ? refuse_crowded(m->report) : TL_OK;
 }
 
+static double largest_coordinate(tl_vec3d a)
+{
+    double x = fabs(a.x), y = fabs(a.y), z = fabs(a.z), xy = x > y ? x : y;
+    return xy > z ? xy : z;
+}
+
 // What of the velocity the contacts at the end allow.
 static tl_vec3d allowed_velocity(const tl_character_mover *m, tl_vec3d velocity, bool grounded)
 {
@@ -246,6 +252,7 @@ static tl_character finish_move(tl_character_mover *m, const move_state *s, cons
     tl_vec3d velocity = tl_vec3d_from(step->velocity);
     velocity.y = walked ? 0.0 : velocity.y;
     const tl_mover_contact *ground = tl_mover_support(m, (double)INFINITY);
+    ground = ground == NULL && s->walking && m->climbing ? tl_mover_steep_support(m) : ground;
     // Who goes up and away from the ground has not landed on it.
     bool leaves = !walked && ground != NULL && velocity.y > 0.0 && tl_vec3d_dot(ground->normal, velocity) > 0.0;
     if (ground != NULL && !leaves) {
@@ -274,13 +281,16 @@ tl_result tl_character_move(tl_character_mover *mover, const tl_character_level 
     mover->level = level;
     mover->report = report;
     mover->ignored_instance = TL_NO_INSTANCE;
-    mover->crowded = false;
+    mover->crowded = mover->climbing = false;
     report->turned.w = 1.0f;
     move_state s = { tl_vec3d_from(character->position),
                      tl_vec3d_scale(tl_vec3d_from(step->velocity), (double)step->seconds),
                      character->grounded != 0 && !step->leave_ground };
     s.motion.y = s.walking ? 0.0 : s.motion.y;
-    double least_gap = GAP_SHARE * (tl_vec3d_size(s.feet) + tl_vec3d_size(s.motion));
+    double least_gap = GAP_SHARE * (largest_coordinate(s.feet) + tl_vec3d_length(s.motion));
+    if (least_gap > WIDEST_GAP * mover->radius) {
+        return tl_report_field(&report->base, TL_ERR_RANGE, "position", "keep it within 2^18 radii of the origin");
+    }
     mover->gap = least_gap > (double)mover->def.gap ? least_gap : (double)mover->def.gap;
     const bool walked = s.walking;
     mover->ground_height = s.walking ? (double)character->ground_point.y : s.feet.y;

@@ -32,6 +32,7 @@ struct tl_character_mover {
     uint32_t ignored_instance;    ///< TL_NO_INSTANCE: none
     tl_vec3d feet_low, feet_high; ///< where the feet may go: around it all items are known
     double ground_height;         ///< of the point that it stands on: steps down are measured from there
+    bool climbing;                ///< it is on the steep side of a step
     bool crowded;                 ///< more was near than fits: the move fails
     bool contacts_known;          ///< the contacts are those at contacts_at
     tl_vec3d contacts_at;
@@ -57,6 +58,9 @@ double tl_mover_find_contacts(tl_character_mover *m, tl_vec3d feet);
 
 /// The most level of the contacts that can be stood on, or NULL. Edges above the height `highest` do not count.
 const tl_mover_contact *tl_mover_support(const tl_character_mover *m, double highest);
+
+/// The same of all contacts that face up, for who climbs.
+const tl_mover_contact *tl_mover_steep_support(const tl_character_mover *m);
 
 typedef struct tl_mover_sweep {
     double t; ///< [0, 1]

@@ -51,12 +51,14 @@ static bool rises_at(const tl_character_mover *m, const tl_mover_contact *edge, 
 static void drop_inner_edges(tl_character_mover *m)
 {
     uint32_t kept = 0;
-    // All are judged before any is dropped: one that goes still tells that another has to.
+    // Only a nearer one hides another, so the nearest stays. All are judged before any is dropped: one that goes still
+    // tells that another has to.
     for (uint32_t i = 0; i < m->contact_count; i++) {
         const tl_mover_contact *c = &m->contacts[i];
         bool inner = false;
         for (uint32_t j = 0; j < m->contact_count && !c->face && !inner && c->gap > -m->radius; j++) {
-            inner = j != i && m->items[c->item].shape == NULL && rises_at(m, c, &m->items[m->contacts[j].item]);
+            inner = m->contacts[j].gap < c->gap && m->items[c->item].shape == NULL &&
+                    rises_at(m, c, &m->items[m->contacts[j].item]);
         }
         m->contacts[i].inner = inner;
     }
@@ -159,6 +161,18 @@ const tl_mover_contact *tl_mover_support(const tl_character_mover *m, double hig
         const tl_mover_contact *c = &m->contacts[i];
         bool counts = c->supports && (c->face || c->point.y <= highest);
         if (counts && (best == NULL || c->normal.y > best->normal.y)) {
+            best = c;
+        }
+    }
+    return best;
+}
+
+const tl_mover_contact *tl_mover_steep_support(const tl_character_mover *m)
+{
+    const tl_mover_contact *best = NULL;
+    for (uint32_t i = 0; i < m->contact_count; i++) {
+        const tl_mover_contact *c = &m->contacts[i];
+        if (c->normal.y > MOVER_RISE && (best == NULL || c->normal.y > best->normal.y)) {
             best = c;
         }
     }

@@ -11,8 +11,9 @@
 
 #include <float.h>
 
-// A gap short by less than this share of it is no reason to move: what stands, stands still.
-#define SHORT_SHARE 0.0625
+// A gap short by less than this share of it is no reason to move: what stands, stands still. Two roundings of a
+// position, as the gap is sixteen at least.
+#define SHORT_SHARE 0.125
 
 // Planes are kept to so much of the gap; and motions shorter than this are none.
 #define SLACK_SHARE 9.5367431640625e-07

@@ -115,6 +115,31 @@ static bool leads_farther(const tl_character_mover *m, tl_vec3d to, tl_vec3d tha
     return tl_vec3d_dot(tl_vec3d_sub(to, than), wish) > FARTHER_SHARE * m->gap * tl_vec3d_length(wish);
 }
 
+// Steps with sides that are too steep, as a rock's: what the wish leads to cannot be stood on, but a radius farther is
+// ground no higher than a step. Then it climbs the side, held as if on ground, and a slow character is not stopped by
+// it.
+static bool climbs_side(tl_character_mover *m, const tl_mover_slide *slid, tl_vec3d from, tl_vec3d lifted,
+                        tl_vec3d wish, tl_vec3d *feet)
+{
+    double length = flat_length(wish), reach = 1.5 * m->radius;
+    tl_vec3d room = tl_vec3d_make(reach, 0.0, reach), far = tl_vec3d_scale(wish, m->radius / length);
+    m->crowded = m->crowded || !tl_mover_collect(m, tl_vec3d_sub(m->feet_low, room), tl_vec3d_add(m->feet_high, room));
+    tl_mover_slide probe = { lifted, far, { 0, 0, 0 }, true, true, slid->highest, false };
+    tl_mover_slide_along(m, &probe);
+    tl_vec3d top = probe.feet;
+    double known = m->ground_height;
+    bool found = leads_farther(m, top, tl_vec3d_mul_add(lifted, far, 0.5), wish) &&
+                 settle_down(m, &top, ground_below(m, from, top), slid->highest) && top.y > from.y + m->gap;
+    m->ground_height = known;
+    bool hit;
+    *feet = descend(m, lifted, ground_below(m, from, lifted), &hit);
+    tl_mover_find_contacts(m, *feet);
+    const tl_mover_contact *side = tl_mover_steep_support(m);
+    bool held = hit && side != NULL && side->normal.y >= LEAN_COSINE;
+    m->climbing = found && held && !m->crowded && leads_farther(m, *feet, slid->feet, wish);
+    return m->climbing;
+}
+
 static bool walk_over_step(tl_character_mover *m, const tl_mover_slide *slid, tl_vec3d from, tl_vec3d wish,
                            tl_vec3d *feet)
 {
@@ -131,8 +156,11 @@ static bool walk_over_step(tl_character_mover *m, const tl_mover_slide *slid, tl
     ahead.feet.y += lifted;
     tl_mover_slide_along(m, &ahead);
     tl_vec3d end = ahead.feet;
-    if (!leads_farther(m, end, slid->feet, wish) || !settle_down(m, &end, ground_below(m, from, end), slid->highest) ||
-        !leads_farther(m, end, slid->feet, wish)) {
+    if (!leads_farther(m, end, slid->feet, wish)) {
+        return false;
+    }
+    bool settled = settle_down(m, &end, ground_below(m, from, end), slid->highest);
+    if (settled ? !leads_farther(m, end, slid->feet, wish) : !climbs_side(m, slid, from, ahead.feet, wish, &end)) {
         return false;
     }
     m->report->stepped_up += end.y > from.y ? (float)(end.y - from.y) : 0.0f;
@@ -143,6 +171,7 @@ static bool walk_over_step(tl_character_mover *m, const tl_mover_slide *slid, tl
 bool tl_mover_walk(tl_character_mover *m, tl_vec3d *feet, tl_vec3d wish)
 {
     const tl_vec3d from = *feet;
+    m->climbing = false;
     tl_mover_slide slide = { from, wish, { 0, 0, 0 }, true, false, from.y + m->step_height + m->gap, false };
     tl_mover_slide_along(m, &slide);
     if (slide.blocked && m->step_height > 0.0 && walk_over_step(m, &slide, from, wish, feet)) {

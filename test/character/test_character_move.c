@@ -302,6 +302,37 @@ static void test_ceilings(void **state)
     world_end(&w);
 }
 
+// Rocks with steep sides are steps too, at any speed, up to the height of one.
+static void test_rocks(void **state)
+{
+    (void)state;
+    const float heights[] = { 0.2f, 0.39f, 0.5f };
+    for (int i = 0; i < 6; i++) {
+        model m = { 0 };
+        const float h = heights[i % 3], speed = i < 3 ? 3 : 0.5f;
+        world_floor(&m, -5, -5, 10, 5, 0, 1);
+        // A frustum: 70 degrees, and level on top.
+        const tl_vec3 foot[4] = { { 1, -0.1f, -2 }, { 1, -0.1f, 2 }, { 3, -0.1f, 2 }, { 3, -0.1f, -2 } };
+        tl_vec3 top[4];
+        for (int k = 0; k < 4; k++) {
+            float in = (h + 0.1f) * 0.364f;
+            top[k] = tl_vec3_make(foot[k].x + (k < 2 ? in : -in), h, foot[k].z + (k == 1 || k == 2 ? -in : in));
+        }
+        for (int k = 0; k < 4; k++) {
+            world_quad(&m, foot[k], foot[(k + 1) % 4], top[(k + 1) % 4], top[k]);
+        }
+        world_quad(&m, top[0], top[1], top[2], top[3]);
+        world w = world_begin(&m);
+        tl_character c = character_at(0, 0.01f, 0.1f);
+        for (int k = 0; k < (int)(2 / speed / WORLD_TICK); k++) {
+            tick(&w, &c, tl_vec3_make(speed, 0, 0));
+        }
+        TEST_CHECK(w.deepest <= TOUCH && c.grounded == 1);
+        TEST_CHECK(i % 3 < 2 ? fabsf(c.position.y - h) < 0.01f && c.position.x > 1.5f : c.position.y < 0.01f);
+        world_end(&w);
+    }
+}
+
 // Put into walls and floors it comes out, by the short way; between walls that leave no room it says that it is stuck.
 static void test_inside(void **state)
 {
@@ -361,7 +392,7 @@ static void test_fast(void **state)
 static void test_far_away(void **state)
 {
     (void)state;
-    for (float far = 1000; far < 3e5f; far *= 4) {
+    for (float far = 1000; far < 7e4f; far *= 4) {
         model m = { 0 };
         world_floor(&m, far - 4, far - 4, far + 8, far + 4, 0, 1);
         world_box(&m, tl_vec3_make(far + 2, -1, far - 4), tl_vec3_make(far + 4, 0.25f, far + 4));
@@ -371,7 +402,7 @@ static void test_far_away(void **state)
         for (int k = 0; k < 240; k++) {
             tick(&w, &c, tl_vec3_make(2, 0, 0.5f));
         }
-        float gap = fmaxf(0.002f, 4 * far * 9.6e-7f);
+        float gap = fmaxf(0.002f, 2 * far * 9.6e-7f);
         TEST_CHECK(w.deepest <= 1e-3 && c.grounded == 1);
         TEST_CHECK(fabsf(c.position.x - (far + 5.7f)) < 0.01f + 2 * gap && c.position.y < 0.01f + 2 * gap);
         world_end(&w);
@@ -407,7 +438,7 @@ static void test_bad_input(void **state)
     step.seconds = INFINITY;
     expect_refusal(&w, step, here, TL_ERR_ARGUMENT, "seconds");
     expect_refusal(&w, still, character_at(0, INFINITY, 0), TL_ERR_NOT_FINITE, "position");
-    expect_refusal(&w, still, character_at(2e12f, 0, 0), TL_ERR_RANGE, "position");
+    expect_refusal(&w, still, character_at(8e4f, 0, 0), TL_ERR_RANGE, "position");
     tl_character_def def = w.def;
     def.max_triangles = 16;
     tl_character_mover_destroy(w.mover);
@@ -445,6 +476,7 @@ int main(void)
         cmocka_unit_test(test_ledges),     cmocka_unit_test(test_gaps),      cmocka_unit_test(test_corners),
         cmocka_unit_test(test_ceilings),   cmocka_unit_test(test_inside),    cmocka_unit_test(test_fast),
         cmocka_unit_test(test_far_away),   cmocka_unit_test(test_bad_input), cmocka_unit_test(test_rollback),
+        cmocka_unit_test(test_rocks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
