@@ -259,6 +259,7 @@ int main(void)
     golden_meshes(&view);
     golden_soups(&view);
     golden_scene(soup);
+    golden_characters(soup);
     golden_hulls();
     golden_pairs();
     golden_polygons();

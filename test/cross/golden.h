@@ -65,6 +65,7 @@ void golden_meshes(const tl_mesh_view *view);
 void golden_soups(const tl_mesh_view *view);
 void golden_rays(const tl_soup *soup, const char *kind);
 void golden_scene(const tl_soup *soup);
+void golden_characters(const tl_soup *soup);
 void golden_hulls(void);
 void golden_pairs(void);
 void golden_polygons(void);
