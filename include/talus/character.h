@@ -144,7 +144,7 @@ typedef struct tl_character_report {
 ///
 /// In this order: it is carried by the instance that it stands on, to where that has moved; it is pushed out of what it
 /// overlaps; it moves by velocity * seconds, sliding, and on the ground follows steps and slopes. `character` is read
-/// and written; after an error it is unchanged. `report_out` may be NULL. No allocation; 4 KB of stack beside that of a
+/// and written; after an error it is unchanged. `report_out` may be NULL. No allocation; 6 KB of stack beside that of a
 /// soup's query. Steps that stay within a radius cost a walk of the tree and some tens of distances; on the ground a
 /// longer motion is made in parts of that length.
 ///
