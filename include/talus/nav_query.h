@@ -93,6 +93,9 @@ TL_API const tl_nav_tile *tl_navmesh_slot_tile(const tl_navmesh *navmesh, uint32
 /// Links from polygons to neighbours, over all tiles and anchored off-mesh links, each direction counted. A search uses
 /// at most two nodes more than that.
 TL_API uint64_t tl_navmesh_link_count(const tl_navmesh *navmesh);
+/// Changes of the navmesh so far: of tiles, off-mesh links, flags and areas. While it stays the same, so do all
+/// answers.
+TL_API uint64_t tl_navmesh_edit_count(const tl_navmesh *navmesh);
 
 /// The reference of a polygon in the tile of a slot, or TL_NAV_NO_REF when there is none.
 TL_API tl_nav_ref tl_navmesh_polygon_ref(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon);

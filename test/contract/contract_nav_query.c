@@ -429,6 +429,7 @@ const contract_entry CONTRACT_TABLE_nav_query[] = {
     { "tl_navmesh_tile_count", 0, 0, 0, NULL, NULL, RETURNS ": test_tile_table.c" },
     { "tl_navmesh_slot_count", 0, 0, 0, NULL, NULL, RETURNS ": test_tile_table.c" },
     { "tl_navmesh_slot_tile", 0, 0, 0, NULL, NULL, RETURNS ": test_tile_table.c" },
+    { "tl_navmesh_edit_count", 0, 0, 0, NULL, NULL, RETURNS ": test_crowd_agents.c" },
     { "tl_navmesh_link_count", 0, 0, 0, NULL, NULL, RETURNS ": test_tile_table.c" },
     { "tl_navmesh_polygon_ref", 0, 0, 0, NULL, NULL, RETURNS ": test_tile_table.c" },
     { "tl_navmesh_resolve", GOOD | INPUT | STALE, 1, 0, NULL, resolve, NULL },

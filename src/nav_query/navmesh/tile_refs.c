@@ -25,6 +25,11 @@ uint64_t tl_navmesh_link_count(const tl_navmesh *navmesh)
     return navmesh->link_count;
 }
 
+uint64_t tl_navmesh_edit_count(const tl_navmesh *navmesh)
+{
+    return navmesh->edit.number;
+}
+
 tl_nav_ref tl_navmesh_polygon_ref(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
