@@ -15,6 +15,7 @@
 #include <talus/nav_audit.h>
 #include <talus/nav_bake.h>
 #include <talus/nav_corridor.h>
+#include <talus/nav_crowd.h>
 #include <talus/nav_detour.h>
 #include <talus/nav_links.h>
 #include <talus/nav_obstacles.h>

@@ -139,6 +139,17 @@ pub const TL_NAV_CAUSE_OUTLINE: tl_nav_cause = 10;
 pub const TL_NAV_CAUSE_CHANGED: tl_nav_cause = 11;
 pub const TL_NAV_CAUSE_PRUNED: tl_nav_cause = 12;
 pub const TL_NAV_CAUSE_WALL: tl_nav_cause = 13;
+pub type tl_nav_agent_status = c_int;
+pub const TL_NAV_AGENT_IDLE: tl_nav_agent_status = 0;
+pub const TL_NAV_AGENT_WAITING: tl_nav_agent_status = 1;
+pub const TL_NAV_AGENT_WALKING: tl_nav_agent_status = 2;
+pub const TL_NAV_AGENT_ARRIVED: tl_nav_agent_status = 3;
+pub const TL_NAV_AGENT_UNREACHABLE: tl_nav_agent_status = 4;
+pub const TL_NAV_AGENT_QUEUED: tl_nav_agent_status = 5;
+pub const TL_NAV_AGENT_ON_LINK: tl_nav_agent_status = 6;
+pub const TL_NAV_AGENT_OFF_MESH: tl_nav_agent_status = 7;
+pub const TL_NAV_AGENT_GAVE_UP: tl_nav_agent_status = 8;
+pub const TL_NAV_AGENT_FIXED: tl_nav_agent_status = 9;
 pub type tl_detour_refs = c_int;
 pub const TL_DETOUR_REFS_32: tl_detour_refs = 0;
 pub const TL_DETOUR_REFS_64: tl_detour_refs = 1;
@@ -179,6 +190,7 @@ pub type tl_nav_ref = u64;
 pub type tl_nav_pass_fn = unsafe extern "C" fn(*const tl_nav_tile, u32, *mut c_void) -> bool;
 pub type tl_nav_cost_fn =
     unsafe extern "C" fn(*const tl_nav_tile, u32, tl_vec3, tl_vec3, f32, *mut c_void) -> f32;
+pub type tl_nav_agent = u64;
 pub type tl_nav_obstacle_id = u64;
 pub type tl_write_fn = unsafe extern "C" fn(*const c_void, usize, *mut c_void) -> tl_result;
 #[repr(C)]
@@ -1675,6 +1687,63 @@ pub struct tl_nav_corridor {
     pub reaches: bool,
 }
 #[repr(C)]
+pub struct tl_nav_crowd {
+    _private: [u8; 0],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_crowd_def {
+    pub max_agents: u32,
+    pub max_path: u32,
+    pub max_neighbors: u32,
+    pub paths_per_step: u32,
+    pub max_nodes: u32,
+    pub neighbor_distance: f32,
+    pub agent_horizon: f32,
+    pub wall_horizon: f32,
+    pub host: tl_host,
+    pub cookie: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_agent_def {
+    pub position: tl_vec3,
+    pub reach: f32,
+    pub radius: f32,
+    pub height: f32,
+    pub max_speed: f32,
+    pub max_acceleration: f32,
+    pub arrive_distance: f32,
+    pub priority: f32,
+    pub filter: u32,
+    pub is_fixed: bool,
+    pub cookie: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_agent_state {
+    pub status: tl_nav_agent_status,
+    pub position: tl_vec3,
+    pub velocity: tl_vec3,
+    pub wanted: tl_vec3,
+    pub polygon: tl_nav_ref,
+    pub link: tl_nav_ref,
+    pub goal: tl_vec3,
+    pub radius: f32,
+    pub height: f32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_crowd_step_report {
+    pub searched: u32,
+    pub waiting: u32,
+    pub walking: u32,
+    pub arrived: u32,
+    pub unreachable: u32,
+    pub on_link: u32,
+    pub off_mesh: u32,
+}
+#[repr(C)]
 #[derive(Clone, Copy)]
 pub struct tl_detour_report {
     pub base: tl_report,
@@ -2564,6 +2633,7 @@ extern "C" {
     pub fn tl_navmesh_slot_count(navmesh: *const tl_navmesh) -> u32;
     pub fn tl_navmesh_slot_tile(navmesh: *const tl_navmesh, slot: u32) -> *const tl_nav_tile;
     pub fn tl_navmesh_link_count(navmesh: *const tl_navmesh) -> u64;
+    pub fn tl_navmesh_edit_count(navmesh: *const tl_navmesh) -> u64;
     pub fn tl_navmesh_polygon_ref(
         navmesh: *const tl_navmesh,
         slot: u32,
@@ -3080,6 +3150,77 @@ extern "C" {
         half_extents: tl_vec3,
         path_out: *mut tl_nav_path,
     ) -> tl_result;
+    pub fn tl_default_nav_crowd_def() -> tl_nav_crowd_def;
+    pub fn tl_nav_crowd_create(
+        def: *const tl_nav_crowd_def,
+        crowd_out: *mut *mut tl_nav_crowd,
+        report: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_destroy(crowd: *mut tl_nav_crowd);
+    pub fn tl_nav_crowd_set_filter(
+        crowd: *mut tl_nav_crowd,
+        place: u32,
+        filter: *const tl_nav_filter,
+    ) -> tl_result;
+    pub fn tl_default_nav_agent_def() -> tl_nav_agent_def;
+    pub fn tl_nav_agent_status_name(status: tl_nav_agent_status) -> *const c_char;
+    pub fn tl_nav_crowd_add(
+        crowd: *mut tl_nav_crowd,
+        navmesh: *const tl_navmesh,
+        def: *const tl_nav_agent_def,
+        agent_out: *mut tl_nav_agent,
+        report: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_remove(crowd: *mut tl_nav_crowd, agent: tl_nav_agent) -> tl_result;
+    pub fn tl_nav_crowd_set_goal(
+        crowd: *mut tl_nav_crowd,
+        agent: tl_nav_agent,
+        goal: *const tl_nav_location,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_set_motion(
+        crowd: *mut tl_nav_crowd,
+        agent: tl_nav_agent,
+        position: tl_vec3,
+        velocity: tl_vec3,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_agent(
+        crowd: *const tl_nav_crowd,
+        agent: tl_nav_agent,
+        state_out: *mut tl_nav_agent_state,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_corners(
+        crowd: *const tl_nav_crowd,
+        navmesh: *const tl_navmesh,
+        agent: tl_nav_agent,
+        corners_out: *mut tl_nav_corner,
+        capacity: u32,
+        count_out: *mut u32,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_count(crowd: *const tl_nav_crowd) -> u32;
+    pub fn tl_nav_crowd_next(
+        crowd: *const tl_nav_crowd,
+        cursor: *mut u32,
+        agent_out: *mut tl_nav_agent,
+    ) -> bool;
+    pub fn tl_nav_crowd_step(
+        crowd: *mut tl_nav_crowd,
+        navmesh: *const tl_navmesh,
+        dt: f32,
+        report_out: *mut tl_nav_crowd_step_report,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_state_size(crowd: *const tl_nav_crowd) -> usize;
+    pub fn tl_nav_crowd_save(
+        crowd: *const tl_nav_crowd,
+        bytes_out: *mut c_void,
+        capacity: usize,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_restore(
+        crowd: *mut tl_nav_crowd,
+        bytes: *const c_void,
+        size: usize,
+        report: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_hash(crowd: *const tl_nav_crowd) -> u64;
     pub fn tl_detour_tile_size(tile: *const tl_nav_tile, refs: tl_detour_refs) -> u64;
     pub fn tl_detour_set_size(
         tiles: *const *mut tl_nav_tile,
@@ -4683,6 +4824,59 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_corridor, target), 28);
         assert_eq!(core::mem::offset_of!(tl_nav_corridor, goal), 40);
         assert_eq!(core::mem::offset_of!(tl_nav_corridor, reaches), 52);
+        assert_eq!(core::mem::size_of::<tl_nav_crowd_def>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, max_agents), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, max_path), 4);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, max_neighbors), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, paths_per_step), 12);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, max_nodes), 16);
+        assert_eq!(
+            core::mem::offset_of!(tl_nav_crowd_def, neighbor_distance),
+            20
+        );
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, agent_horizon), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, wall_horizon), 28);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, host), 32);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, cookie), 56);
+        assert_eq!(core::mem::size_of::<tl_nav_agent_def>(), 52);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_def, position), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_def, reach), 12);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_def, radius), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_def, height), 20);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_def, max_speed), 24);
+        assert_eq!(
+            core::mem::offset_of!(tl_nav_agent_def, max_acceleration),
+            28
+        );
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_def, arrive_distance), 32);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_def, priority), 36);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_def, filter), 40);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_def, is_fixed), 44);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_def, cookie), 48);
+        assert_eq!(core::mem::size_of::<tl_nav_agent_state>(), 80);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_state, status), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_state, position), 4);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_state, velocity), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_state, wanted), 28);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_state, polygon), 40);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_state, link), 48);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_state, goal), 56);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_state, radius), 68);
+        assert_eq!(core::mem::offset_of!(tl_nav_agent_state, height), 72);
+        assert_eq!(core::mem::size_of::<tl_nav_crowd_step_report>(), 28);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_step_report, searched), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_step_report, waiting), 4);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_step_report, walking), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_step_report, arrived), 12);
+        assert_eq!(
+            core::mem::offset_of!(tl_nav_crowd_step_report, unreachable),
+            16
+        );
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_step_report, on_link), 20);
+        assert_eq!(
+            core::mem::offset_of!(tl_nav_crowd_step_report, off_mesh),
+            24
+        );
         assert_eq!(core::mem::size_of::<tl_detour_report>(), 88);
         assert_eq!(core::mem::offset_of!(tl_detour_report, base), 0);
         assert_eq!(core::mem::offset_of!(tl_detour_report, tile_count), 48);

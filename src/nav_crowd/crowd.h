@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+//
+// The inside of a crowd: its state, one block of bytes with an array for each field, and the scratch of a step.
+//
+// Arrays of fields instead of an array of agents: a step reads the twenty bytes of each neighbour that it needs, and
+// most passes read two or three fields of all agents. The state holds no pointer, so that saving it is a copy.
+
+#ifndef TALUS_SRC_NAV_CROWD_CROWD_H
+#define TALUS_SRC_NAV_CROWD_CROWD_H
+
+#include "base/host.h"
+
+#include <talus/nav_around.h>
+#include <talus/nav_corridor.h>
+#include <talus/nav_crowd.h>
+
+enum {
+    CROWD_MAX_WALLS = 8,      ///< that an agent keeps
+    CROWD_MAX_NEIGHBORS = 32, ///< that a def may ask for
+    CROWD_BLOCK = 64,         ///< agents of one task
+    CROWD_FREE = 15,          ///< status of a place without an agent
+};
+
+// What numbers of a crowd may be, so that no product of two of them overflows a float.
+#define CROWD_MAX_SIZE   1000.0f ///< metres, or metres a second
+#define CROWD_MAX_NUMBER 1e9f    ///< coordinates, velocities of fixed agents, accelerations
+
+#define CROWD_NO_PLACE   UINT32_MAX
+#define CROWD_MAGIC      0x44574f52u ///< "ROWD"
+#define CROWD_VERSION    1u
+
+// Flags of an agent.
+#define CROWD_HAS_GOAL  1u
+#define CROWD_REACHES   2u  ///< the corridor ends at the goal
+#define CROWD_PARTIAL   4u  ///< proven: no path leads to the goal, the corridor ends as near to it as one does
+#define CROWD_GAVE_UP   8u  ///< the last search was out of nodes
+#define CROWD_NEED_PATH 16u ///< asks for a search
+#define CROWD_IN_QUEUE  32u
+#define CROWD_YIELDS    64u ///< it goes back from a throng that comes the other way
+#define CROWD_ALL_FLAGS 127u
+
+/// The state's fields: type, name, items for each agent. 64-bit fields come first.
+#define CROWD_FIELDS(FIELD)                                                                                            \
+    FIELD(uint64_t, goal_polygon, 1)                                                                                   \
+    FIELD(uint64_t, link, 1)        /* that is taken or waited for; else TL_NAV_NO_REF */                              \
+    FIELD(uint64_t, path, max_path) /* the corridor */                                                                 \
+    FIELD(uint32_t, generation, 1)                                                                                     \
+    FIELD(uint32_t, status, 1)                                                                                         \
+    FIELD(uint32_t, flags, 1)                                                                                          \
+    FIELD(uint32_t, filter, 1)                                                                                         \
+    FIELD(uint32_t, next_free, 1)  /* of a free place; else steps that a link was waited for */                        \
+    FIELD(uint32_t, path_count, 1) /* 0: fixed */                                                                      \
+    FIELD(uint32_t, wall_count, 1)                                                                                     \
+    FIELD(uint32_t, queue, 1) /* a ring of places that wait for a path, the oldest at queue_first */                   \
+    FIELD(float, x, 1)                                                                                                 \
+    FIELD(float, y, 1)                                                                                                 \
+    FIELD(float, z, 1)                                                                                                 \
+    FIELD(float, vx, 1)                                                                                                \
+    FIELD(float, vy, 1)                                                                                                \
+    FIELD(float, vz, 1)                                                                                                \
+    FIELD(float, wanted_x, 1)                                                                                          \
+    FIELD(float, wanted_z, 1)                                                                                          \
+    FIELD(float, radius, 1)                                                                                            \
+    FIELD(float, height, 1)                                                                                            \
+    FIELD(float, max_speed, 1)                                                                                         \
+    FIELD(float, max_acceleration, 1)                                                                                  \
+    FIELD(float, arrive_distance, 1)                                                                                   \
+    FIELD(float, priority, 1)                                                                                          \
+    FIELD(float, clearance, 1) /* metres that its center keeps from walls */                                           \
+    FIELD(float, target, 3)    /* the corridor's end */                                                                \
+    FIELD(float, goal, 3)                                                                                              \
+    FIELD(float, wall_center, 2) /* where the walls were looked for */                                                 \
+    FIELD(float, wall_slack, 1)  /* metres that it may be away from there; < 0: look again */                          \
+    FIELD(float, stalled, 1)     /* seconds that it has hardly come forward; arrived: metres to the goal */            \
+    FIELD(float, walls, 4 * CROWD_MAX_WALLS) /* start and end in x and z; on a link: crowd_link_run */
+
+typedef struct crowd_head {
+    uint32_t magic, version;
+    uint64_t size;         ///< bytes in all
+    uint64_t edits;        ///< of the navmesh that was seen last
+    uint64_t step;         ///< steps so far
+    uint64_t milliseconds; ///< of all steps, each rounded
+    uint32_t max_agents, max_path;
+    uint32_t used;  ///< places below have been used once
+    uint32_t count; ///< agents
+    uint32_t free;  ///< head of the chain of free places
+    uint32_t queue_first, queue_count;
+    uint32_t filters_changed; ///< 1: agents check their corridors in the next step
+} crowd_head;
+
+/// Where the fields stand in the state.
+typedef struct crowd_fields {
+#define CROWD_POINTER(type, name, per) type *name;
+    CROWD_FIELDS(CROWD_POINTER)
+#undef CROWD_POINTER
+} crowd_fields;
+
+/// What an agent on a link keeps in place of its walls.
+typedef struct crowd_link_run {
+    float from[3], to[3];    ///< metres
+    float elapsed, duration; ///< seconds
+} crowd_link_run;
+
+/// What agents see of one another in a step, in the order of the grid's cells.
+typedef struct crowd_snapshot {
+    float *x, *y, *z, *vx, *vz, *radius, *height, *priority;
+    float *wanted_x, *wanted_z;
+    uint32_t *agent; ///< its place
+    uint32_t *kind;  ///< CROWD_SEEN_...
+    uint32_t count;
+    float max_radius;
+} crowd_snapshot;
+
+#define CROWD_SEEN_FIXED   1u ///< others do all of the evading
+#define CROWD_SEEN_STILL   2u ///< it has arrived, or has nowhere to go
+#define CROWD_SEEN_YIELDS  4u
+#define CROWD_SEEN_STALLED 8u ///< it walks, but is held up
+
+/// A uniform grid over the plan that repeats itself every `mask + 1` cells in both directions.
+typedef struct crowd_grid {
+    uint32_t *first; ///< [cell_count + 1] of the snapshot
+    uint32_t *cell;  ///< [max_agents] of each place
+    uint32_t cell_count;
+    uint32_t mask_x, mask_z, shift_z;
+    float cell_size;
+} crowd_grid;
+
+struct tl_nav_crowd {
+    tl_allocator allocator;
+    tl_nav_crowd_def def;
+    crowd_head *head; ///< of the state
+    crowd_fields a;
+    uint64_t state_bytes;
+    crowd_snapshot seen;
+    crowd_grid grid;
+    uint32_t *work; ///< [paths_per_step]: places whose paths are searched in this step
+    uint32_t work_capacity;
+    tl_nav_query **queries; ///< one for each worker
+    uint32_t worker_count;
+    tl_nav_filter filters[TL_NAV_CROWD_FILTER_COUNT];
+};
+
+/// A step under way.
+typedef struct crowd_step {
+    tl_nav_crowd *crowd;
+    const tl_navmesh *navmesh;
+    float dt;
+    uint32_t work_count;
+} crowd_step;
+
+/// Bytes of a state, or 0 when they do not fit a size_t.
+uint64_t tl_crowd_state_bytes(uint32_t max_agents, uint32_t max_path);
+/// Where the fields of a state stand.
+crowd_fields tl_crowd_fields_at(void *state, uint32_t max_agents, uint32_t max_path);
+/// Turns a state's words round, on machines of the other byte order.
+void tl_crowd_swap_words(void *state, uint64_t bytes, uint32_t max_agents, uint32_t max_path);
+
+/// The place of an agent. TL_ERR_STALE.
+tl_result tl_crowd_find(const tl_nav_crowd *crowd, tl_nav_agent agent, uint32_t *place_out);
+/// Puts an agent at the end of the queue for paths, unless it is there.
+void tl_crowd_enqueue(tl_nav_crowd *crowd, uint32_t i);
+/// An agent's corridor, which shares its path. tl_crowd_keep_corridor writes the rest back.
+tl_nav_corridor tl_crowd_corridor(const tl_nav_crowd *crowd, uint32_t i);
+void tl_crowd_keep_corridor(tl_nav_crowd *crowd, uint32_t i, const tl_nav_corridor *corridor);
+/// Gives a standing agent a corridor of its polygon alone.
+void tl_crowd_reset_corridor(tl_nav_crowd *crowd, uint32_t i, const tl_nav_location *at);
+/// Metres by which an agent is wider than the one that its polygon was baked for.
+float tl_crowd_clearance(const tl_navmesh *navmesh, tl_nav_ref polygon, float radius);
+
+/// Searches an agent's path.
+void tl_crowd_search_path(const crowd_step *step, uint32_t i, tl_nav_query *query);
+/// Checks an agent's polygon and corridor after the navmesh has changed.
+void tl_crowd_revalidate(const crowd_step *step, uint32_t i);
+
+/// Sorts all agents into the grid, and copies what they show.
+void tl_crowd_fill_grid(tl_nav_crowd *crowd);
+
+/// Sets an agent's wanted velocity, and its status.
+void tl_crowd_steer(const crowd_step *step, uint32_t i);
+/// Looks for the walls around an agent where it has come too far from where that was done.
+void tl_crowd_look_for_walls(const crowd_step *step, uint32_t i, tl_nav_query *query);
+/// The velocity that an agent takes: it stands at `k` in the snapshot.
+void tl_crowd_avoid(const crowd_step *step, uint32_t k, float velocity_out[2]);
+/// Moves an agent along the surface.
+void tl_crowd_move(const crowd_step *step, uint32_t i, const float velocity[2], tl_nav_query *query);
+
+/// Moves an agent that is on a link.
+void tl_crowd_follow_link(const crowd_step *step, uint32_t i);
+/// Lets those agents onto their links whose turn it is.
+void tl_crowd_grant_links(const crowd_step *step);
+
+static inline tl_vec3 tl_crowd_position(const tl_nav_crowd *crowd, uint32_t i)
+{
+    return tl_vec3_make(crowd->a.x[i], crowd->a.y[i], crowd->a.z[i]);
+}
+
+static inline void tl_crowd_set_position(tl_nav_crowd *crowd, uint32_t i, tl_vec3 position)
+{
+    crowd->a.x[i] = position.x;
+    crowd->a.y[i] = position.y;
+    crowd->a.z[i] = position.z;
+}
+
+static inline tl_vec3 tl_crowd_get3(const float *items, uint32_t i)
+{
+    const float *v = items + 3 * (size_t)i;
+    return tl_vec3_make(v[0], v[1], v[2]);
+}
+
+static inline void tl_crowd_set3(float *items, uint32_t i, tl_vec3 value)
+{
+    float *v = items + 3 * (size_t)i;
+    v[0] = value.x;
+    v[1] = value.y;
+    v[2] = value.z;
+}
+
+/// Whether an agent stands, and wants to.
+static inline bool tl_crowd_stands(uint32_t status)
+{
+    return status != TL_NAV_AGENT_WALKING && status != TL_NAV_AGENT_ON_LINK && status != TL_NAV_AGENT_FIXED;
+}
+
+#endif

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+//
+// A crowd's defs, and its memory: all of it is taken here, so that a step allocates nothing.
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/min_max.h"
+#include "nav_crowd/crowd.h"
+
+#include <math.h>
+#include <string.h>
+
+tl_nav_crowd_def tl_default_nav_crowd_def(void)
+{
+    tl_nav_crowd_def def;
+    memset(&def, 0, sizeof def);
+    def.max_agents = 1024;
+    def.max_path = 20;
+    def.max_neighbors = 10;
+    def.paths_per_step = 64;
+    def.max_nodes = 4096;
+    def.neighbor_distance = 4.0f;
+    def.agent_horizon = 2.0f;
+    def.wall_horizon = 0.25f;
+    def.cookie = TL_DEF_COOKIE;
+    return def;
+}
+
+static bool is_above_zero(float value)
+{
+    return isfinite(value) && value > 0.0f;
+}
+
+static tl_result check_crowd_def(const tl_nav_crowd_def *def, tl_report *report)
+{
+    TL_TRY(tl_def_check(def->cookie, "begin with tl_default_nav_crowd_def()", report));
+    if (def->max_agents < 1 || def->max_agents > TL_NAV_CROWD_MAX_AGENTS) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "max_agents", "make it 1 to TL_NAV_CROWD_MAX_AGENTS");
+    }
+    if (def->max_path < 4 || def->max_path > 1024) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "max_path", "make it 4 to 1024");
+    }
+    if (def->max_neighbors < 1 || def->max_neighbors > CROWD_MAX_NEIGHBORS) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "max_neighbors", "make it 1 to 32");
+    }
+    if (def->paths_per_step < 1) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "paths_per_step", "make it at least 1");
+    }
+    if (def->max_nodes < 2 || def->max_nodes > 1u << 30) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "max_nodes", "make it 2 to 2^30");
+    }
+    if (!is_above_zero(def->neighbor_distance) || def->neighbor_distance > 1e6f) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "neighbor_distance", "make it > 0, and at most 1e6 m");
+    }
+    if (!is_above_zero(def->agent_horizon)) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "agent_horizon", "make it > 0");
+    }
+    if (!is_above_zero(def->wall_horizon)) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "wall_horizon", "make it > 0");
+    }
+    return TL_OK;
+}
+
+// The scratch arrays: at least as many cells as agents, and at most four times as many.
+static bool allocate_step(tl_nav_crowd *crowd)
+{
+    const uint64_t count = crowd->def.max_agents;
+    const tl_allocator *allocator = &crowd->allocator;
+    uint32_t bits = 4;
+    while ((uint64_t)1 << bits < 2 * count) {
+        bits++;
+    }
+    crowd->grid.mask_x = (1u << (bits + 1) / 2) - 1;
+    crowd->grid.mask_z = (1u << bits / 2) - 1;
+    crowd->grid.shift_z = (bits + 1) / 2;
+    crowd->grid.cell_count = 1u << bits;
+    crowd_snapshot *seen = &crowd->seen;
+    float **const floats[] = { &seen->x,      &seen->y,      &seen->z,        &seen->vx,       &seen->vz,
+                               &seen->radius, &seen->height, &seen->priority, &seen->wanted_x, &seen->wanted_z };
+    bool all = true;
+    for (uint32_t i = 0; i < TL_COUNT_OF(floats); i++) {
+        *floats[i] = (float *)tl_allocate_array(allocator, count, sizeof(float));
+        all = all && *floats[i] != NULL;
+    }
+    crowd->work_capacity = tl_min_u32(crowd->def.paths_per_step, crowd->def.max_agents);
+    seen->agent = (uint32_t *)tl_allocate_array(allocator, count, sizeof(uint32_t));
+    seen->kind = (uint32_t *)tl_allocate_array(allocator, count, sizeof(uint32_t));
+    crowd->grid.first =
+        (uint32_t *)tl_allocate_array(allocator, (uint64_t)crowd->grid.cell_count + 1, sizeof(uint32_t));
+    crowd->grid.cell = (uint32_t *)tl_allocate_array(allocator, count, sizeof(uint32_t));
+    crowd->work = (uint32_t *)tl_allocate_array(allocator, crowd->work_capacity, sizeof(uint32_t));
+    return all && seen->agent != NULL && seen->kind != NULL && crowd->grid.first != NULL && crowd->grid.cell != NULL &&
+           crowd->work != NULL;
+}
+
+static void release_step(tl_nav_crowd *crowd)
+{
+    const uint64_t count = crowd->def.max_agents;
+    const tl_allocator *allocator = &crowd->allocator;
+    crowd_snapshot *seen = &crowd->seen;
+    float *const floats[] = { seen->x,      seen->y,      seen->z,        seen->vx,       seen->vz,
+                              seen->radius, seen->height, seen->priority, seen->wanted_x, seen->wanted_z };
+    for (uint32_t i = 0; i < TL_COUNT_OF(floats); i++) {
+        tl_release_array(allocator, floats[i], count, sizeof(float));
+    }
+    tl_release_array(allocator, seen->agent, count, sizeof(uint32_t));
+    tl_release_array(allocator, seen->kind, count, sizeof(uint32_t));
+    tl_release_array(allocator, crowd->grid.first, (uint64_t)crowd->grid.cell_count + 1, sizeof(uint32_t));
+    tl_release_array(allocator, crowd->grid.cell, count, sizeof(uint32_t));
+    tl_release_array(allocator, crowd->work, crowd->work_capacity, sizeof(uint32_t));
+}
+
+static bool allocate_agents(tl_nav_crowd *crowd)
+{
+    const tl_nav_crowd_def *def = &crowd->def;
+    crowd->state_bytes = tl_crowd_state_bytes(def->max_agents, def->max_path);
+    crowd->head =
+        crowd->state_bytes > 0 ? (crowd_head *)tl_allocate_array(&crowd->allocator, crowd->state_bytes, 1) : NULL;
+    if (crowd->head == NULL) {
+        return false;
+    }
+    memset(crowd->head, 0, (size_t)crowd->state_bytes);
+    crowd->head->magic = CROWD_MAGIC;
+    crowd->head->version = CROWD_VERSION;
+    crowd->head->size = crowd->state_bytes;
+    crowd->head->max_agents = def->max_agents;
+    crowd->head->max_path = def->max_path;
+    crowd->head->free = CROWD_NO_PLACE;
+    crowd->a = tl_crowd_fields_at(crowd->head, def->max_agents, def->max_path);
+    return true;
+}
+
+static tl_result allocate_queries(tl_nav_crowd *crowd)
+{
+    crowd->worker_count = tl_worker_count(&crowd->def.host);
+    crowd->queries = (tl_nav_query **)tl_allocate_array(&crowd->allocator, crowd->worker_count, sizeof(tl_nav_query *));
+    if (crowd->queries == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(crowd->queries, 0, crowd->worker_count * sizeof(tl_nav_query *));
+    tl_nav_query_def def = tl_default_nav_query_def();
+    def.max_nodes = crowd->def.max_nodes;
+    def.allocator = &crowd->allocator;
+    for (uint32_t i = 0; i < crowd->worker_count; i++) {
+        TL_TRY(tl_nav_query_create(&def, &crowd->queries[i], NULL));
+        TL_TRY(tl_nav_query_reserve(crowd->queries[i], def.max_nodes));
+    }
+    return TL_OK;
+}
+
+tl_result tl_nav_crowd_create(const tl_nav_crowd_def *def, tl_nav_crowd **crowd_out, tl_report *report)
+{
+    tl_report_begin(report, "crowd");
+    if (crowd_out != NULL) {
+        *crowd_out = NULL;
+    }
+    TL_REFUSE_NULL(crowd_out, report);
+    const tl_nav_crowd_def defaults = tl_default_nav_crowd_def();
+    def = def != NULL ? def : &defaults;
+    TL_TRY(check_crowd_def(def, report));
+    tl_allocator allocator = tl_allocator_or_default(def->host.allocator);
+    tl_nav_crowd *crowd = (tl_nav_crowd *)tl_allocate_array(&allocator, 1, sizeof *crowd);
+    if (crowd == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(crowd, 0, sizeof *crowd);
+    crowd->allocator = allocator;
+    crowd->def = *def;
+    crowd->def.host.allocator = NULL;
+    for (uint32_t i = 0; i < TL_NAV_CROWD_FILTER_COUNT; i++) {
+        crowd->filters[i] = tl_default_nav_filter();
+    }
+    tl_result result = allocate_agents(crowd) && allocate_step(crowd) ? TL_OK : TL_ERR_MEMORY;
+    result = result == TL_OK ? allocate_queries(crowd) : result;
+    if (result != TL_OK) {
+        tl_nav_crowd_destroy(crowd);
+        return result;
+    }
+    *crowd_out = crowd;
+    return TL_OK;
+}
+
+void tl_nav_crowd_destroy(tl_nav_crowd *crowd)
+{
+    if (crowd == NULL) {
+        return;
+    }
+    for (uint32_t i = 0; crowd->queries != NULL && i < crowd->worker_count; i++) {
+        tl_nav_query_destroy(crowd->queries[i]);
+    }
+    tl_release_array(&crowd->allocator, crowd->queries, crowd->worker_count, sizeof(tl_nav_query *));
+    tl_release_array(&crowd->allocator, crowd->head, crowd->state_bytes, 1);
+    release_step(crowd);
+    tl_allocator allocator = crowd->allocator;
+    tl_release_array(&allocator, crowd, 1, sizeof *crowd);
+}
+
+tl_result tl_nav_crowd_set_filter(tl_nav_crowd *crowd, uint32_t place, const tl_nav_filter *filter)
+{
+    if (crowd == NULL || place >= TL_NAV_CROWD_FILTER_COUNT || (filter != NULL && filter->cookie != TL_DEF_COOKIE)) {
+        return TL_ERR_ARGUMENT;
+    }
+    for (uint32_t i = 0; filter != NULL && i <= TL_NAV_MAX_AREA; i++) {
+        if (!is_above_zero(filter->area_cost[i])) {
+            return TL_ERR_ARGUMENT;
+        }
+    }
+    crowd->filters[place] = filter != NULL ? *filter : tl_default_nav_filter();
+    crowd->head->filters_changed = 1;
+    return TL_OK;
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+//
+// The agents nearest to one, rim to rim (crowd_neighbors.c).
+
+#ifndef TALUS_SRC_NAV_CROWD_CROWD_NEIGHBORS_H
+#define TALUS_SRC_NAV_CROWD_CROWD_NEIGHBORS_H
+
+#include "nav_crowd/crowd.h"
+
+#include <math.h>
+
+typedef struct crowd_neighbor {
+    float gap;         ///< metres between the two rims in the plane; < 0: they overlap
+    uint32_t agent;    ///< its place, by which ties are broken
+    uint32_t snapshot; ///< where it stands there
+} crowd_neighbor;
+
+/// The cell of a coordinate; cells beyond 2^30 fall together with others.
+static inline int32_t tl_crowd_cell(float at, float cell_size)
+{
+    double cell = floor((double)at / (double)cell_size);
+    return (int32_t)(cell - floor(cell * 0x1p-30) * 0x1p30);
+}
+
+/// The nearest neighbours of the agent at `k` of the snapshot, the nearest first; returns how many there are, at most
+/// the def's max_neighbors. Agents whose heights do not overlap are none.
+uint32_t tl_crowd_find_neighbors(const tl_nav_crowd *crowd, uint32_t k, crowd_neighbor *neighbors_out);
+
+/// Whether two agents have one goal: no farther apart than a radius of the first.
+bool tl_crowd_has_goal_of(const tl_nav_crowd *crowd, uint32_t i, uint32_t other);
+
+/// Keeps to the right of those who come the other way, lets them pass where neither gets on, and settles an agent that
+/// stands before others with its goal (crowd_right_of_way.c): changes what it wants. The neighbours are those that it
+/// sees.
+void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor *neighbors, uint32_t count);
+
+#endif

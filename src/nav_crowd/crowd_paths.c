@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+//
+// Paths: searched when their turn comes, and checked after the navmesh has changed.
+
+#include "base/min_max.h"
+#include "nav_crowd/crowd.h"
+
+#include <talus/nav_wide.h>
+
+#include <string.h>
+
+// A polygon that was removed under an agent, or under its goal, is sought anew within so many radii to each side, and
+// within the agent's height.
+#define RELOCATE_RADII 2.0f
+
+enum { MAX_WIDE_CORNERS = 64 };
+
+static tl_vec3 relocate_extents(const tl_nav_crowd *crowd, uint32_t i)
+{
+    float side = RELOCATE_RADII * crowd->a.radius[i];
+    return tl_vec3_make(side, crowd->a.height[i], side);
+}
+
+// The polygons under a wide path's lines: what a corridor is made of. Lines that cannot be followed end it.
+static void follow_lines(const crowd_step *step, uint32_t i, const tl_nav_corner *corners, uint32_t count,
+                         tl_nav_corridor *corridor)
+{
+    const tl_nav_filter *filter = &step->crowd->filters[step->crowd->a.filter[i]];
+    uint32_t filled = 1;
+    tl_nav_location at = { corridor->path[0], corridor->position };
+    for (uint32_t k = 1; k < count && filled < corridor->capacity; k++) {
+        if ((corners[k - 1].flags & TL_NAV_CORNER_LINK) != 0) {
+            if (filled + 2 > corridor->capacity) {
+                break;
+            }
+            corridor->path[filled++] = corners[k - 1].link;
+            corridor->path[filled++] = corners[k].polygon;
+        } else {
+            // The first polygon stands there already: it is written again.
+            tl_nav_ray_hit hit;
+            tl_result result = tl_navmesh_cast_ray(step->navmesh, filter, &at, corners[k].point,
+                                                   corridor->path + filled - 1, corridor->capacity - filled + 1, &hit);
+            if (result != TL_OK && result != TL_INCOMPLETE) {
+                break;
+            }
+            filled = tl_min_u32(filled - 1 + hit.polygon_count, corridor->capacity);
+        }
+        at.polygon = corridor->path[filled - 1];
+        at.point = corners[k].point;
+        corridor->target = at.point;
+        corridor->reaches = k + 1 == count && (corners[k].flags & TL_NAV_CORNER_END) != 0;
+    }
+    corridor->count = filled;
+    if (!corridor->reaches || corridor->count == corridor->capacity) {
+        corridor->reaches = false;
+        tl_vec3 nearest;
+        if (tl_navmesh_closest_point(step->navmesh, corridor->path[filled - 1], corridor->target, &nearest, NULL) ==
+            TL_OK) {
+            corridor->target = nearest;
+        }
+    }
+}
+
+// For an agent wider than the mesh's. TL_NOT_FOUND: it fits nowhere on the way, or stands where it does not fit: then
+// it takes the plain path, and its clearance holds it where that is too narrow.
+static tl_result find_wide_corridor(const crowd_step *step, uint32_t i, const tl_nav_location *goal,
+                                    tl_nav_query *query, tl_nav_corridor *corridor)
+{
+    const crowd_fields *a = &step->crowd->a;
+    const tl_nav_path_request request = { &step->crowd->filters[a->filter[i]],
+                                          { corridor->path[0], corridor->position },
+                                          *goal };
+    tl_nav_corner corners[MAX_WIDE_CORNERS];
+    tl_nav_wide_path path;
+    tl_result result =
+        tl_nav_query_find_wide_path(query, step->navmesh, &request, a->radius[i], corners, MAX_WIDE_CORNERS, &path);
+    if ((result != TL_OK && result != TL_INCOMPLETE) || path.status != TL_NAV_WIDE_COMPLETE) {
+        return TL_NOT_FOUND;
+    }
+    follow_lines(step, i, corners, tl_min_u32(path.corner_count, MAX_WIDE_CORNERS), corridor);
+    return TL_OK;
+}
+
+// A goal on an island that the agent is not on: the point nearest to it on its own.
+static bool find_nearest_reachable(const crowd_step *step, uint32_t i, tl_nav_location *goal)
+{
+    const tl_nav_crowd *crowd = step->crowd;
+    const tl_nav_ref here = crowd->a.path[(size_t)i * crowd->def.max_path];
+    uint32_t from = 0, to = 0;
+    if (tl_navmesh_island(step->navmesh, here, &from) != TL_OK ||
+        tl_navmesh_island(step->navmesh, goal->polygon, &to) != TL_OK || from == to) {
+        return false;
+    }
+    return tl_navmesh_find_nearest_reachable(step->navmesh, &crowd->filters[crowd->a.filter[i]], here, goal->point,
+                                             goal) == TL_OK;
+}
+
+void tl_crowd_search_path(const crowd_step *step, uint32_t i, tl_nav_query *query)
+{
+    tl_nav_crowd *crowd = step->crowd;
+    crowd_fields *a = &crowd->a;
+    const tl_nav_filter *filter = &crowd->filters[a->filter[i]];
+    tl_nav_location goal = { a->goal_polygon[i], tl_crowd_get3(a->goal, i) };
+    a->flags[i] &= ~(CROWD_PARTIAL | CROWD_GAVE_UP | CROWD_NEED_PATH);
+    if (tl_navmesh_resolve(step->navmesh, goal.polygon, NULL, NULL) != TL_OK &&
+        tl_navmesh_find_nearest(step->navmesh, filter, goal.point, relocate_extents(crowd, i), &goal) != TL_OK) {
+        // There is no goal now: it stands until there is.
+        a->flags[i] |= CROWD_PARTIAL;
+        tl_nav_location here = { a->path[(size_t)i * crowd->def.max_path], tl_crowd_position(crowd, i) };
+        tl_crowd_reset_corridor(crowd, i, &here);
+        a->status[i] = TL_NAV_AGENT_UNREACHABLE;
+        return;
+    }
+    const bool is_elsewhere = find_nearest_reachable(step, i, &goal);
+    tl_nav_corridor corridor = tl_crowd_corridor(crowd, i);
+    tl_nav_path path;
+    memset(&path, 0, sizeof path);
+    tl_result result = TL_NOT_FOUND;
+    if (a->clearance[i] > 0.0f) {
+        result = find_wide_corridor(step, i, &goal, query, &corridor);
+        path.status = TL_NAV_PATH_COMPLETE;
+    }
+    if (result != TL_OK) {
+        result = tl_nav_corridor_find(&corridor, query, step->navmesh, filter, &goal, &path);
+    }
+    if (result != TL_OK) {
+        // Its own polygon is stale, which the next check finds, or the filter's function refuses costs.
+        a->flags[i] |= CROWD_PARTIAL;
+        a->status[i] = TL_NAV_AGENT_UNREACHABLE;
+        return;
+    }
+    corridor.reaches = corridor.reaches && !is_elsewhere;
+    tl_crowd_keep_corridor(crowd, i, &corridor);
+    if (path.status == TL_NAV_PATH_UNREACHABLE || is_elsewhere) {
+        a->flags[i] |= CROWD_PARTIAL;
+    } else if (path.status != TL_NAV_PATH_COMPLETE) {
+        a->flags[i] |= CROWD_GAVE_UP;
+    }
+    a->status[i] = TL_NAV_AGENT_WALKING;
+    a->link[i] = TL_NAV_NO_REF;
+    a->stalled[i] = 0.0f;
+}
+
+void tl_crowd_revalidate(const crowd_step *step, uint32_t i)
+{
+    tl_nav_crowd *crowd = step->crowd;
+    crowd_fields *a = &crowd->a;
+    const uint32_t status = a->status[i];
+    if (status == CROWD_FREE || status == TL_NAV_AGENT_FIXED) {
+        return;
+    }
+    const tl_nav_filter *filter = &crowd->filters[a->filter[i]];
+    const bool is_on_link = status == TL_NAV_AGENT_ON_LINK;
+    tl_nav_ref here = a->path[(size_t)i * crowd->def.max_path];
+    if (!is_on_link) {
+        a->wall_slack[i] = -1.0f;
+    }
+    if (status == TL_NAV_AGENT_OFF_MESH || tl_navmesh_resolve(step->navmesh, here, NULL, NULL) != TL_OK) {
+        if (is_on_link) {
+            return; // looked at when it lands
+        }
+        tl_nav_location at;
+        if (tl_navmesh_find_nearest(step->navmesh, filter, tl_crowd_position(crowd, i), relocate_extents(crowd, i),
+                                    &at) != TL_OK) {
+            a->status[i] = TL_NAV_AGENT_OFF_MESH;
+            a->vx[i] = 0.0f;
+            a->vz[i] = 0.0f;
+            a->wanted_x[i] = 0.0f;
+            a->wanted_z[i] = 0.0f;
+            return;
+        }
+        tl_crowd_reset_corridor(crowd, i, &at);
+        a->clearance[i] = tl_crowd_clearance(step->navmesh, at.polygon, a->radius[i]);
+        a->status[i] = (a->flags[i] & CROWD_HAS_GOAL) != 0 ? TL_NAV_AGENT_WAITING : TL_NAV_AGENT_IDLE;
+        a->link[i] = TL_NAV_NO_REF;
+        a->flags[i] |= (a->flags[i] & CROWD_HAS_GOAL) != 0 ? CROWD_NEED_PATH : 0;
+        return;
+    }
+    if ((a->flags[i] & CROWD_HAS_GOAL) == 0) {
+        return;
+    }
+    // Whoever has arrived stays; whoever could not get to its goal, or not whole, tries again.
+    tl_nav_corridor corridor = tl_crowd_corridor(crowd, i);
+    const bool is_broken = tl_nav_corridor_check(&corridor, step->navmesh, filter, UINT32_MAX) < corridor.count;
+    if (status != TL_NAV_AGENT_ARRIVED && (is_broken || (a->flags[i] & (CROWD_PARTIAL | CROWD_GAVE_UP)) != 0)) {
+        a->flags[i] |= CROWD_NEED_PATH;
+    }
+}

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+//
+// Right of way. ORCA alone stops where two flows meet in a door: each agent's answer is the best one, and it is to
+// stand. Four rules change what agents want, never what they may do:
+//
+//   right    whoever meets others that come the other way keeps to the right, so that flows divide into lanes
+//   yield    where that is not enough, the flow whose direction is farther from a common one goes back a little, until
+//            the others are through. That direction turns every few seconds by the golden angle: each flow gets its
+//            turn, and nobody needs to know who is in which
+//   aside    whoever stands in the way of one that is held up steps aside, and returns later
+//   settle   whoever is held up by those that have arrived at its goal has arrived too
+//
+// All agents of a flow decide alike, as they compare directions, not themselves; those behind follow those in front.
+
+#include "base/min_max.h"
+#include "nav_crowd/crowd_neighbors.h"
+
+// Two directions are against one another when their cosine is below this.
+#define AGAINST_COSINE (-0.3f)
+
+// One that yields is followed when it stands within this cone: wider ones let some follow one another in a ring.
+#define BEFORE_COSINE 0.7f
+
+// To the right by about 20 degrees.
+#define RIGHT_COSINE 0.94f
+#define RIGHT_SINE   0.342f
+
+// Seconds that an agent is held up before it goes back, how long it does so at most, and before it settles.
+#define YIELD_AFTER  1.5f
+#define YIELD_FOR    8.0f
+#define SETTLE_AFTER 0.5f
+
+#define YIELD_SPEED  0.5f  // of the top speed
+#define TURN_MS      6000u // how long one direction has the right of way
+
+// An agent that stands steps aside for those within so many of its radii, at a part of its speed: a little along their
+// way, and off it.
+#define ASIDE_RADII 1.0f
+#define ASIDE_SPEED 0.4f
+#define ASIDE_ALONG 0.3f
+
+// Rims that are so near touch, as a share of the radius.
+#define RIM_TOUCH_SHARE 0.5f
+
+// The direction that has the right of way now: the golden angle, again and again.
+static void preferred_direction(uint64_t milliseconds, float out[2])
+{
+    // Powers of a rotation by 2.39996 radians, without a sine: squared and multiplied.
+    double x = 1.0, z = 0.0;
+    double c = -0.7373688780783197, s = 0.6754902942615238;
+    for (uint32_t turn = (uint32_t)(milliseconds / TURN_MS % 1024); turn != 0; turn >>= 1) {
+        if ((turn & 1) != 0) {
+            double t = x * c - z * s;
+            z = x * s + z * c;
+            x = t;
+        }
+        double t = c * c - s * s;
+        s = 2.0 * c * s;
+        c = t;
+    }
+    out[0] = (float)x;
+    out[1] = (float)z;
+}
+
+typedef struct crowd_traffic {
+    bool meets;   // others that come the other way
+    bool loses;   // the right of way to one of them
+    bool follows; // one that yields
+} crowd_traffic;
+
+static crowd_traffic look_at_traffic(const tl_nav_crowd *crowd, uint32_t k, const float ahead[2],
+                                     const crowd_neighbor *neighbors, uint32_t count)
+{
+    const crowd_snapshot *seen = &crowd->seen;
+    crowd_traffic traffic = { false, false, false };
+    float preferred[2];
+    preferred_direction(crowd->head->milliseconds, preferred);
+    for (uint32_t n = 0; n < count; n++) {
+        const uint32_t other = neighbors[n].snapshot;
+        float dx = seen->x[other] - seen->x[k], dz = seen->z[other] - seen->z[k];
+        if (dx * ahead[0] + dz * ahead[1] <= 0.0f || (seen->kind[other] & CROWD_SEEN_STILL) != 0) {
+            continue;
+        }
+        const bool is_fixed = (seen->kind[other] & CROWD_SEEN_FIXED) != 0;
+        float x = is_fixed ? seen->vx[other] : seen->wanted_x[other];
+        float z = is_fixed ? seen->vz[other] : seen->wanted_z[other];
+        float length = sqrtf(x * x + z * z);
+        float dot = x * ahead[0] + z * ahead[1];
+        if ((seen->kind[other] & CROWD_SEEN_YIELDS) != 0) {
+            // It goes back, so it came the way that this one goes.
+            bool is_before = dx * ahead[0] + dz * ahead[1] > BEFORE_COSINE * sqrtf(dx * dx + dz * dz);
+            traffic.follows = traffic.follows || (is_before && dot < AGAINST_COSINE * length);
+        } else if (length > 0.0f && dot < AGAINST_COSINE * length) {
+            traffic.meets = true;
+            float mine = ahead[0] * preferred[0] + ahead[1] * preferred[1];
+            float its = (x * preferred[0] + z * preferred[1]) / length;
+            traffic.loses = traffic.loses || is_fixed || its > mine;
+        }
+    }
+    return traffic;
+}
+
+bool tl_crowd_has_goal_of(const tl_nav_crowd *crowd, uint32_t i, uint32_t other)
+{
+    const crowd_fields *a = &crowd->a;
+    const tl_vec3 goal = tl_crowd_get3(a->goal, i), its = tl_crowd_get3(a->goal, other);
+    float x = its.x - goal.x, z = its.z - goal.z;
+    return (a->flags[i] & CROWD_HAS_GOAL) != 0 && x * x + z * z <= a->radius[i] * a->radius[i] &&
+           fabsf(its.y - goal.y) < a->height[i];
+}
+
+// Whether an agent touches one that has arrived at the same goal and stands nearer to it; or any that wants to get
+// there, where it stands at the goal itself.
+static bool stands_before_goal(const tl_nav_crowd *crowd, uint32_t k, const crowd_neighbor *neighbors, uint32_t count)
+{
+    const crowd_snapshot *seen = &crowd->seen;
+    const uint32_t i = seen->agent[k];
+    const tl_vec3 goal = tl_crowd_get3(crowd->a.goal, i);
+    const float x = goal.x - seen->x[k], z = goal.z - seen->z[k];
+    const float diameter = 2.0f * seen->radius[k];
+    for (uint32_t n = 0; n < count && neighbors[n].gap < RIM_TOUCH_SHARE * seen->radius[k]; n++) {
+        const uint32_t other = neighbors[n].snapshot;
+        float ox = goal.x - seen->x[other], oz = goal.z - seen->z[other];
+        const bool is_before = (seen->kind[other] & CROWD_SEEN_STILL) != 0 && ox * ox + oz * oz < x * x + z * z;
+        if ((is_before || x * x + z * z < diameter * diameter) && tl_crowd_has_goal_of(crowd, i, neighbors[n].agent)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static float distance_to_goal(const tl_nav_crowd *crowd, uint32_t i)
+{
+    const tl_vec3 goal = tl_crowd_get3(crowd->a.goal, i);
+    float x = goal.x - crowd->a.x[i], z = goal.z - crowd->a.z[i];
+    return sqrtf(x * x + z * z);
+}
+
+// An agent that stands steps aside for one that it holds up, and walks back to its goal when nobody is there any more.
+static void step_aside(const crowd_step *step, uint32_t k, const crowd_neighbor *neighbors, uint32_t count)
+{
+    const tl_nav_crowd *crowd = step->crowd;
+    const crowd_fields *a = &crowd->a;
+    const crowd_snapshot *seen = &crowd->seen;
+    const uint32_t i = seen->agent[k];
+    bool is_free = true;
+    for (uint32_t n = 0; n < count && neighbors[n].gap < ASIDE_RADII * seen->radius[k]; n++) {
+        const uint32_t other = neighbors[n].snapshot;
+        if (tl_crowd_has_goal_of(crowd, i, neighbors[n].agent)) {
+            continue;
+        }
+        float x = seen->wanted_x[other], z = seen->wanted_z[other];
+        float length = sqrtf(x * x + z * z);
+        float dx = seen->x[k] - seen->x[other], dz = seen->z[k] - seen->z[other];
+        is_free = is_free && !(length > 0.0f);
+        if ((seen->kind[other] & CROWD_SEEN_STALLED) != 0 && x * dx + z * dz > 0.0f) {
+            float side = x * dz - z * dx >= 0.0f ? 1.0f : -1.0f;
+            float speed = ASIDE_SPEED * a->max_speed[i] / length;
+            a->wanted_x[i] = speed * (ASIDE_ALONG * x - side * z);
+            a->wanted_z[i] = speed * (ASIDE_ALONG * z + side * x);
+            return;
+        }
+    }
+    float stay = tl_max_f32(a->stalled[i], a->arrive_distance[i]) + a->radius[i];
+    if (is_free && a->status[i] == TL_NAV_AGENT_ARRIVED && distance_to_goal(crowd, i) > stay) {
+        a->status[i] = TL_NAV_AGENT_WALKING;
+        a->stalled[i] = 0.0f;
+    }
+}
+
+void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor *neighbors, uint32_t count)
+{
+    const tl_nav_crowd *crowd = step->crowd;
+    const crowd_fields *a = &crowd->a;
+    const uint32_t i = crowd->seen.agent[k];
+    float ahead[2] = { a->wanted_x[i], a->wanted_z[i] };
+    float length = sqrtf(ahead[0] * ahead[0] + ahead[1] * ahead[1]);
+    a->flags[i] &= ~CROWD_YIELDS;
+    if (tl_crowd_stands(a->status[i])) {
+        step_aside(step, k, neighbors, count);
+        return;
+    }
+    if (!(length > 0.0f)) {
+        return;
+    }
+    if (a->stalled[i] > SETTLE_AFTER && (a->flags[i] & CROWD_REACHES) != 0 &&
+        stands_before_goal(crowd, k, neighbors, count)) {
+        a->status[i] = TL_NAV_AGENT_ARRIVED;
+        a->wanted_x[i] = 0.0f;
+        a->wanted_z[i] = 0.0f;
+        a->stalled[i] = distance_to_goal(crowd, i);
+        return;
+    }
+    ahead[0] /= length;
+    ahead[1] /= length;
+    const crowd_traffic traffic = look_at_traffic(crowd, k, ahead, neighbors, count);
+    // In the open they pass one another: only where walls leave little room somebody must go back.
+    const bool is_narrow = a->wall_count[i] > 0;
+    const bool loses = traffic.loses && is_narrow;
+    if (!loses && traffic.follows && a->stalled[i] > YIELD_AFTER + YIELD_FOR) {
+        a->stalled[i] = 0.0f; // some that follow one another in a ring would do so for ever
+    }
+    if (a->stalled[i] > YIELD_AFTER && (loses || traffic.follows)) {
+        a->flags[i] |= CROWD_YIELDS;
+        a->wanted_x[i] = -YIELD_SPEED * a->max_speed[i] * ahead[0];
+        a->wanted_z[i] = -YIELD_SPEED * a->max_speed[i] * ahead[1];
+    } else if (traffic.meets) {
+        a->wanted_x[i] = length * (RIGHT_COSINE * ahead[0] - RIGHT_SINE * ahead[1]);
+        a->wanted_z[i] = length * (RIGHT_SINE * ahead[0] + RIGHT_COSINE * ahead[1]);
+    }
+}

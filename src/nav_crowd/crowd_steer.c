@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+//
+// What an agent wants: along its corridor's straight path, round corners with some room, slower before its goal. And
+// when it has arrived: where many have one goal, those who come last stand where the others leave room, and stay there.
+
+#include "base/min_max.h"
+#include "nav_crowd/crowd_neighbors.h"
+
+#include <math.h>
+
+// Room that an agent leaves at a corner, as a share of its radius: those who turn there abreast need not press into it.
+#define CORNER_SHARE 0.5f
+
+// An agent takes a link once it is so near to it, as a share of its radius.
+#define LINK_SHARE 1.0f
+
+// Below this share of its top speed towards its corner an agent is held up; it is not any more when it has walked a
+// third of that time.
+#define PROGRESS_SHARE 0.25f
+#define RECOVERY       3.0f
+#define MAX_STALLED    10.0f // seconds
+
+// The corner that the path turns at, moved aside by the room that is left there: the point where a tangent touches the
+// circle around it.
+static void pass_corner(float px, float pz, const tl_nav_corner *corner, float room, float toward_out[2])
+{
+    float x = corner->point.x - px, z = corner->point.z - pz;
+    toward_out[0] = x;
+    toward_out[1] = z;
+    float side = (corner->flags & TL_NAV_CORNER_LEFT) != 0    ? 1.0f
+                 : (corner->flags & TL_NAV_CORNER_RIGHT) != 0 ? -1.0f
+                                                              : 0.0f;
+    float distance_sq = x * x + z * z;
+    if (side == 0.0f || !(distance_sq > 0.0f)) {
+        return;
+    }
+    if (distance_sq <= room * room) { // beside the corner: past it, at a right angle
+        toward_out[0] = -side * z;
+        toward_out[1] = side * x;
+        return;
+    }
+    float leg = sqrtf(distance_sq - room * room);
+    float cosine = leg / sqrtf(distance_sq), sine = side * room / sqrtf(distance_sq);
+    toward_out[0] = cosine * (cosine * x - sine * z);
+    toward_out[1] = cosine * (sine * x + cosine * z);
+}
+
+// The wanted velocity: `speed` towards a direction.
+static void want(const crowd_step *step, uint32_t i, float toward_x, float toward_z, float speed)
+{
+    crowd_fields *a = &step->crowd->a;
+    float length = sqrtf(toward_x * toward_x + toward_z * toward_z);
+    float scale = length > 0.0f ? speed / length : 0.0f;
+    a->wanted_x[i] = toward_x * scale;
+    a->wanted_z[i] = toward_z * scale;
+}
+
+static void want_to_stand(const crowd_step *step, uint32_t i)
+{
+    want(step, i, 0.0f, 0.0f, 0.0f);
+}
+
+// The end of the corridor is reached.
+static void arrive(const crowd_step *step, uint32_t i)
+{
+    crowd_fields *a = &step->crowd->a;
+    const uint32_t flags = a->flags[i];
+    if ((flags & CROWD_REACHES) != 0) {
+        a->status[i] = TL_NAV_AGENT_ARRIVED;
+    } else if ((flags & CROWD_IN_QUEUE) != 0) {
+        a->status[i] = TL_NAV_AGENT_WAITING;
+    } else if ((flags & CROWD_PARTIAL) != 0) {
+        a->status[i] = TL_NAV_AGENT_UNREACHABLE;
+    } else if ((flags & CROWD_GAVE_UP) != 0 && a->path_count[i] == 1) {
+        a->status[i] = TL_NAV_AGENT_GAVE_UP;
+    } else {
+        a->flags[i] |= CROWD_NEED_PATH;
+        a->status[i] = TL_NAV_AGENT_WAITING;
+    }
+    a->stalled[i] = 0.0f;
+    want_to_stand(step, i);
+}
+
+// How long an agent has hardly come forward: towards where it wants to go now.
+static void note_progress(const crowd_step *step, uint32_t i, float x, float z)
+{
+    crowd_fields *a = &step->crowd->a;
+    float forward = a->vx[i] * x + a->vz[i] * z;
+    float enough = PROGRESS_SHARE * a->max_speed[i] * sqrtf(x * x + z * z);
+    float stalled = forward < enough ? a->stalled[i] + step->dt : a->stalled[i] - RECOVERY * step->dt;
+    a->stalled[i] = tl_clamp_f32(stalled, 0.0f, MAX_STALLED);
+}
+
+static void walk(const crowd_step *step, uint32_t i)
+{
+    tl_nav_crowd *crowd = step->crowd;
+    crowd_fields *a = &crowd->a;
+    tl_nav_corridor corridor = tl_crowd_corridor(crowd, i);
+    tl_nav_corner corners[3];
+    uint32_t count = 0;
+    tl_result result = tl_nav_corridor_corners(&corridor, step->navmesh, corners, 3, &count);
+    if ((result != TL_OK && result != TL_INCOMPLETE) || count < 2) {
+        a->flags[i] |= CROWD_NEED_PATH;
+        want_to_stand(step, i);
+        return;
+    }
+    if ((a->flags[i] & (CROWD_REACHES | CROWD_PARTIAL | CROWD_IN_QUEUE)) == 0 &&
+        a->path_count[i] <= corridor.capacity / 2 && (a->flags[i] & CROWD_GAVE_UP) == 0) {
+        a->flags[i] |= CROWD_NEED_PATH; // a path that was cut off: before its end is reached
+    }
+    // Where a link begins under the agent's feet, the first corner is the link.
+    const bool links_here = (corners[0].flags & TL_NAV_CORNER_LINK) != 0;
+    const tl_nav_corner *next = links_here ? &corners[0] : &corners[1];
+    float x = next->point.x - a->x[i], z = next->point.z - a->z[i];
+    float distance = sqrtf(x * x + z * z);
+    float speed = a->max_speed[i];
+    if ((next->flags & TL_NAV_CORNER_LINK) != 0) {
+        if (distance <= LINK_SHARE * a->radius[i]) {
+            a->status[i] = TL_NAV_AGENT_QUEUED;
+            a->link[i] = next->link;
+            want_to_stand(step, i);
+            return;
+        }
+    } else if ((next->flags & TL_NAV_CORNER_END) != 0) {
+        if (distance <= a->arrive_distance[i]) {
+            arrive(step, i);
+            return;
+        }
+        speed = tl_min_f32(speed, sqrtf(2.0f * a->max_acceleration[i] * distance));
+        speed = tl_min_f32(speed, distance / step->dt);
+    } else {
+        float toward[2];
+        pass_corner(a->x[i], a->z[i], next, a->clearance[i] + CORNER_SHARE * a->radius[i], toward);
+        x = toward[0];
+        z = toward[1];
+    }
+    note_progress(step, i, x, z);
+    want(step, i, x, z, speed);
+}
+
+// An agent that stands at its link until it may take it; pushed away it walks back.
+static void wait_for_link(const crowd_step *step, uint32_t i)
+{
+    crowd_fields *a = &step->crowd->a;
+    a->status[i] = TL_NAV_AGENT_WALKING;
+    uint64_t link = a->link[i];
+    a->link[i] = TL_NAV_NO_REF;
+    walk(step, i);
+    bool waits_on = a->status[i] == TL_NAV_AGENT_QUEUED && a->link[i] == link;
+    a->next_free[i] = waits_on ? a->next_free[i] + (a->next_free[i] < UINT32_MAX) : 0;
+}
+
+void tl_crowd_steer(const crowd_step *step, uint32_t i)
+{
+    const uint32_t status = step->crowd->a.status[i];
+    if (status == TL_NAV_AGENT_WALKING) {
+        walk(step, i);
+    } else if (status == TL_NAV_AGENT_QUEUED) {
+        wait_for_link(step, i);
+    } else {
+        want_to_stand(step, i);
+    }
+}

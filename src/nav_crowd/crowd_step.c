@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+//
+// A step: paths, the grid, then each agent by itself; and at the end what agents must agree on.
+//
+// Agents read their neighbours from a copy that was made when the step began, and write to their own places alone. So
+// the blocks run in any order, on any number of threads, and give the same bytes.
+
+#include "base/assert.h"
+#include "base/min_max.h"
+#include "nav_crowd/crowd.h"
+
+#include <math.h>
+#include <string.h>
+
+static void revalidate_block(uint32_t block, uint32_t worker, void *user)
+{
+    (void)worker;
+    const crowd_step *step = (const crowd_step *)user;
+    const uint32_t end = tl_block_end(block, CROWD_BLOCK, step->crowd->head->used);
+    for (uint32_t i = block * CROWD_BLOCK; i < end; i++) {
+        tl_crowd_revalidate(step, i);
+    }
+}
+
+static void search_one(uint32_t index, uint32_t worker, void *user)
+{
+    const crowd_step *step = (const crowd_step *)user;
+    tl_crowd_search_path(step, step->crowd->work[index], step->crowd->queries[worker]);
+}
+
+static void step_block(uint32_t block, uint32_t worker, void *user)
+{
+    const crowd_step *step = (const crowd_step *)user;
+    tl_nav_crowd *crowd = step->crowd;
+    tl_nav_query *query = crowd->queries[worker];
+    const uint32_t end = tl_block_end(block, CROWD_BLOCK, crowd->seen.count);
+    for (uint32_t k = block * CROWD_BLOCK; k < end; k++) {
+        const uint32_t i = crowd->seen.agent[k];
+        const uint32_t status = crowd->a.status[i];
+        if (status == TL_NAV_AGENT_FIXED || status == TL_NAV_AGENT_OFF_MESH) {
+            continue;
+        }
+        if (status == TL_NAV_AGENT_ON_LINK) {
+            tl_crowd_follow_link(step, i);
+            continue;
+        }
+        float velocity[2];
+        tl_crowd_look_for_walls(step, i, query);
+        tl_crowd_steer(step, i);
+        tl_crowd_avoid(step, k, velocity);
+        tl_crowd_move(step, i, velocity, query);
+    }
+}
+
+// Takes the oldest requests that can be searched now from the queue. Those of agents on links wait behind the others.
+static void take_work(crowd_step *step)
+{
+    tl_nav_crowd *crowd = step->crowd;
+    crowd_head *head = crowd->head;
+    const uint32_t asked = head->queue_count;
+    step->work_count = 0;
+    for (uint32_t k = 0; k < asked && step->work_count < crowd->work_capacity; k++) {
+        const uint32_t i = crowd->a.queue[head->queue_first];
+        crowd->a.queue[head->queue_first] = 0;
+        head->queue_first = (head->queue_first + 1) % head->max_agents;
+        head->queue_count--;
+        crowd->a.flags[i] &= ~CROWD_IN_QUEUE;
+        const uint32_t status = crowd->a.status[i];
+        if (status == TL_NAV_AGENT_ON_LINK) {
+            tl_crowd_enqueue(crowd, i);
+        } else if (status != TL_NAV_AGENT_OFF_MESH) { // which asks again when it finds a polygon
+            crowd->work[step->work_count++] = i;
+        }
+    }
+}
+
+static void run_blocks(const crowd_step *step, tl_task_fn *task, uint32_t count)
+{
+    tl_host host = step->crowd->def.host;
+    host.progress = NULL;
+    crowd_step copy = *step;
+    tl_run_tasks(&host, task, count, &copy);
+}
+
+static void finish(const crowd_step *step, tl_nav_crowd_step_report *report)
+{
+    tl_nav_crowd *crowd = step->crowd;
+    uint32_t counts[CROWD_FREE + 1] = { 0 };
+    for (uint32_t i = 0; i < crowd->head->used; i++) {
+        if ((crowd->a.flags[i] & CROWD_NEED_PATH) != 0 && crowd->a.status[i] != TL_NAV_AGENT_OFF_MESH) {
+            tl_crowd_enqueue(crowd, i);
+        }
+        counts[crowd->a.status[i]]++;
+    }
+    if (report != NULL) {
+        report->searched = step->work_count;
+        report->waiting = crowd->head->queue_count;
+        report->walking = counts[TL_NAV_AGENT_WALKING];
+        report->arrived = counts[TL_NAV_AGENT_ARRIVED];
+        report->unreachable = counts[TL_NAV_AGENT_UNREACHABLE];
+        report->on_link = counts[TL_NAV_AGENT_ON_LINK];
+        report->off_mesh = counts[TL_NAV_AGENT_OFF_MESH];
+    }
+}
+
+tl_result tl_nav_crowd_step(tl_nav_crowd *crowd, const tl_navmesh *navmesh, float dt,
+                            tl_nav_crowd_step_report *report_out)
+{
+    if (report_out != NULL) {
+        memset(report_out, 0, sizeof *report_out);
+    }
+    if (crowd == NULL || navmesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (!isfinite(dt)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (!(dt > 0.0f && dt <= 1.0f)) {
+        return TL_ERR_ARGUMENT;
+    }
+    crowd_head *head = crowd->head;
+    crowd_step step = { crowd, navmesh, dt, 0 };
+    const uint64_t edits = tl_navmesh_edit_count(navmesh);
+    if (head->edits != edits || head->filters_changed != 0) {
+        run_blocks(&step, revalidate_block, tl_block_count(head->used, CROWD_BLOCK));
+        head->edits = edits;
+        head->filters_changed = 0;
+    }
+    take_work(&step);
+    run_blocks(&step, search_one, step.work_count);
+    tl_crowd_fill_grid(crowd);
+    run_blocks(&step, step_block, tl_block_count(crowd->seen.count, CROWD_BLOCK));
+    tl_crowd_grant_links(&step);
+    finish(&step, report_out);
+    head->step++;
+    head->milliseconds += (uint64_t)((double)dt * 1000.0 + 0.5);
+    return TL_OK;
+}
