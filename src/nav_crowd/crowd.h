@@ -36,8 +36,11 @@ enum {
 #define CROWD_GAVE_UP   8u  ///< the last search was out of nodes
 #define CROWD_NEED_PATH 16u ///< asks for a search
 #define CROWD_IN_QUEUE  32u
-#define CROWD_YIELDS    64u ///< it goes back from a throng that comes the other way
-#define CROWD_ALL_FLAGS 127u
+#define CROWD_YIELDS    64u  ///< it goes back from a throng that comes the other way
+#define CROWD_CORNER    128u ///< its corner is known, and how the path turns there:
+#define CROWD_LEFT      256u
+#define CROWD_RIGHT     512u
+#define CROWD_ALL_FLAGS 1023u
 
 /// The state's fields: type, name, items for each agent. 64-bit fields come first.
 #define CROWD_FIELDS(FIELD)                                                                                            \
@@ -69,6 +72,7 @@ enum {
     FIELD(float, clearance, 1) /* metres that its center keeps from walls */                                           \
     FIELD(float, target, 3)    /* the corridor's end */                                                                \
     FIELD(float, goal, 3)                                                                                              \
+    FIELD(float, corner, 2)      /* that it walks to, in x and z */                                                    \
     FIELD(float, wall_center, 2) /* where the walls were looked for */                                                 \
     FIELD(float, wall_slack, 1)  /* metres that it may be away from there; < 0: look again */                          \
     FIELD(float, stalled, 1)     /* seconds that it has hardly come forward; arrived: metres to the goal */            \

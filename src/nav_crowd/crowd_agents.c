@@ -105,14 +105,14 @@ void tl_crowd_keep_corridor(tl_nav_crowd *crowd, uint32_t i, const tl_nav_corrid
     crowd->a.path_count[i] = corridor->count;
     tl_crowd_set_position(crowd, i, corridor->position);
     tl_crowd_set3(crowd->a.target, i, corridor->target);
-    crowd->a.flags[i] = (crowd->a.flags[i] & ~CROWD_REACHES) | (corridor->reaches ? CROWD_REACHES : 0);
+    crowd->a.flags[i] = (crowd->a.flags[i] & ~(CROWD_REACHES | CROWD_CORNER)) | (corridor->reaches ? CROWD_REACHES : 0);
 }
 
 void tl_crowd_reset_corridor(tl_nav_crowd *crowd, uint32_t i, const tl_nav_location *at)
 {
     crowd->a.path[(size_t)i * crowd->def.max_path] = at->polygon;
     crowd->a.path_count[i] = 1;
-    crowd->a.flags[i] &= ~CROWD_REACHES;
+    crowd->a.flags[i] &= ~(CROWD_REACHES | CROWD_CORNER);
     crowd->a.wall_slack[i] = -1.0f;
     tl_crowd_set_position(crowd, i, at->point);
     tl_crowd_set3(crowd->a.target, i, at->point);

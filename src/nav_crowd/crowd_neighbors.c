@@ -11,7 +11,8 @@
 typedef struct neighbor_search {
     const tl_nav_crowd *crowd;
     uint32_t self;
-    float reach; // metres, rim to rim
+    float reach;    // metres, rim to rim
+    float rounding; // metres: of distances
     crowd_neighbor *found;
     uint32_t count, capacity;
 } neighbor_search;
@@ -32,6 +33,10 @@ static void keep_nearest(neighbor_search *search, crowd_neighbor neighbor)
         at--;
     }
     search->found[at] = neighbor;
+    if (search->count == search->capacity) {
+        // Nothing farther than the last one counts; by no less than the rounding of a distance.
+        search->reach = search->found[search->count - 1].gap + search->rounding;
+    }
 }
 
 static void scan_cells(neighbor_search *search, uint32_t begin, uint32_t end)
@@ -79,25 +84,49 @@ static void scan_around(neighbor_search *search, int32_t x, int32_t z, int32_t c
     // Where the ring of cells closes, its last column or row is reached from one side alone.
     const int32_t last_x = x + columns + (columns < cells ? 1 : 0);
     const int32_t last_z = z + rows + (rows < cells ? 1 : 0);
-    for (int32_t row = z - rows; row <= last_z; row++) {
-        scan_row(search, row, x - columns, last_x);
+    // From the middle outward: the nearest come first, and those after them are soon out of reach.
+    for (int32_t far = 0; far <= last_z - z; far++) {
+        scan_row(search, z + far, x - columns, last_x);
+        if (far > 0 && far <= rows) {
+            scan_row(search, z - far, x - columns, last_x);
+        }
     }
+}
+
+// Agents in the nine cells around one, itself included; more where the grid goes round.
+static uint32_t count_near(const tl_nav_crowd *crowd, int32_t x, int32_t z)
+{
+    const crowd_grid *grid = &crowd->grid;
+    uint32_t count = 0;
+    for (int32_t row = z - 1; row <= z + 1; row++) {
+        const uint32_t *first = grid->first + ((size_t)((uint32_t)row & grid->mask_z) << grid->shift_z);
+        for (int32_t column = x - 1; column <= x + 1; column++) {
+            uint32_t cell = (uint32_t)column & grid->mask_x;
+            count += first[cell + 1] - first[cell];
+        }
+    }
+    return count;
 }
 
 uint32_t tl_crowd_find_neighbors(const tl_nav_crowd *crowd, uint32_t k, crowd_neighbor *neighbors_out)
 {
     const crowd_snapshot *seen = &crowd->seen;
     const float cell = crowd->grid.cell_size;
-    neighbor_search search = { crowd, k, crowd->def.neighbor_distance, neighbors_out, 0, crowd->def.max_neighbors };
+    const float widest = crowd->def.neighbor_distance + seen->radius[k] + seen->max_radius;
+    // Distances are sums and a root, of numbers up to the widest: four roundings.
+    neighbor_search search = { crowd,         k, crowd->def.neighbor_distance, 8.0f * FLT_EPSILON * widest,
+                               neighbors_out, 0, crowd->def.max_neighbors };
     const int32_t x = tl_crowd_cell(seen->x[k], cell);
     const int32_t z = tl_crowd_cell(seen->z[k], cell);
-    scan_around(&search, x, z, 1);
-    // Beyond these cells every center is more than a cell away.
-    float unseen = cell - seen->radius[k] - seen->max_radius;
-    if (search.count < search.capacity || search.found[search.count - 1].gap >= unseen) {
-        float reach = crowd->def.neighbor_distance + seen->radius[k] + seen->max_radius;
-        float cells = tl_min_f32(reach / cell + 1.0f, 1048576.0f);
-        scan_around(&search, x, z, (int32_t)cells);
+    // Beyond the cells around it every center is more than a cell away.
+    const float unseen = cell - seen->radius[k] - seen->max_radius;
+    const bool is_dense = count_near(crowd, x, z) > search.capacity;
+    if (is_dense) {
+        scan_around(&search, x, z, 1);
+    }
+    if (!is_dense || search.count < search.capacity || search.found[search.count - 1].gap >= unseen) {
+        search.reach = crowd->def.neighbor_distance;
+        scan_around(&search, x, z, (int32_t)tl_min_f32(widest / cell + 1.0f, 1048576.0f));
     }
     return search.count;
 }

@@ -152,6 +152,7 @@ void tl_crowd_revalidate(const crowd_step *step, uint32_t i)
     const tl_nav_filter *filter = &crowd->filters[a->filter[i]];
     const bool is_on_link = status == TL_NAV_AGENT_ON_LINK;
     tl_nav_ref here = a->path[(size_t)i * crowd->def.max_path];
+    a->flags[i] &= ~CROWD_CORNER;
     if (!is_on_link) {
         a->wall_slack[i] = -1.0f;
     }

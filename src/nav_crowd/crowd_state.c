@@ -75,7 +75,7 @@ static bool is_agent_finite(const crowd_fields *a, uint32_t i)
                                   a->max_acceleration,
                                   a->arrive_distance };
     bool all = are_finite(a->target, i, 3) && are_finite(a->goal, i, 3) && are_finite(a->wall_center, i, 2) &&
-               are_finite(a->walls, i, 4 * CROWD_MAX_WALLS);
+               are_finite(a->corner, i, 2) && are_finite(a->walls, i, 4 * CROWD_MAX_WALLS);
     for (uint32_t k = 0; k < TL_COUNT_OF(ones); k++) {
         all = all && fabsf(ones[k][i]) <= CROWD_MAX_NUMBER; // false for NaN
     }

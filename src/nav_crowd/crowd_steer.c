@@ -20,16 +20,12 @@
 #define RECOVERY       3.0f
 #define MAX_STALLED    10.0f // seconds
 
-// The corner that the path turns at, moved aside by the room that is left there: the point where a tangent touches the
-// circle around it.
-static void pass_corner(float px, float pz, const tl_nav_corner *corner, float room, float toward_out[2])
+// The corner that the path turns at, `x` and `z` from here, to its left (side 1) or right (-1): moved aside by the room
+// that is left there: the point where a tangent touches the circle around it.
+static void pass_corner(float x, float z, float side, float room, float toward_out[2])
 {
-    float x = corner->point.x - px, z = corner->point.z - pz;
     toward_out[0] = x;
     toward_out[1] = z;
-    float side = (corner->flags & TL_NAV_CORNER_LEFT) != 0    ? 1.0f
-                 : (corner->flags & TL_NAV_CORNER_RIGHT) != 0 ? -1.0f
-                                                              : 0.0f;
     float distance_sq = x * x + z * z;
     if (side == 0.0f || !(distance_sq > 0.0f)) {
         return;
@@ -91,10 +87,56 @@ static void note_progress(const crowd_step *step, uint32_t i, float x, float z)
     a->stalled[i] = tl_clamp_f32(stalled, 0.0f, MAX_STALLED);
 }
 
+// Steps between looks for the corner, while it is far and the agent stays in one polygon.
+enum { CORNER_STEPS = 4 };
+
+static void head_for(const crowd_step *step, uint32_t i, float x, float z, float speed)
+{
+    const crowd_fields *a = &step->crowd->a;
+    const uint32_t flags = a->flags[i];
+    const float side = (flags & CROWD_LEFT) != 0 ? 1.0f : (flags & CROWD_RIGHT) != 0 ? -1.0f : 0.0f;
+    float toward[2];
+    pass_corner(x, z, side, a->clearance[i] + CORNER_SHARE * a->radius[i], toward);
+    note_progress(step, i, toward[0], toward[1]);
+    want(step, i, toward[0], toward[1], speed);
+}
+
+// Whether the corner of the steps before is still where the agent heads. The straight path is a third of a step's time.
+static bool head_on(const crowd_step *step, uint32_t i)
+{
+    const tl_nav_crowd *crowd = step->crowd;
+    const crowd_fields *a = &crowd->a;
+    if ((a->flags[i] & CROWD_CORNER) == 0 || (crowd->head->step + i) % CORNER_STEPS == 0) {
+        return false;
+    }
+    const float x = a->corner[2 * (size_t)i] - a->x[i], z = a->corner[2 * (size_t)i + 1] - a->z[i];
+    // Near it the path may turn, arrive or take a link.
+    const float reach = 2.0f * (a->radius[i] + a->clearance[i]) + a->arrive_distance[i] +
+                        a->max_speed[i] * (step->dt + a->max_speed[i] / a->max_acceleration[i]);
+    if (x * x + z * z <= reach * reach) {
+        return false;
+    }
+    head_for(step, i, x, z, a->max_speed[i]);
+    return true;
+}
+
+static void keep_corner(crowd_fields *a, uint32_t i, const tl_nav_corner *corner)
+{
+    uint32_t flags = CROWD_CORNER;
+    flags |= (corner->flags & TL_NAV_CORNER_LEFT) != 0 ? CROWD_LEFT : 0;
+    flags |= (corner->flags & TL_NAV_CORNER_RIGHT) != 0 ? CROWD_RIGHT : 0;
+    a->flags[i] = (a->flags[i] & ~(CROWD_LEFT | CROWD_RIGHT)) | flags;
+    a->corner[2 * (size_t)i] = corner->point.x;
+    a->corner[2 * (size_t)i + 1] = corner->point.z;
+}
+
 static void walk(const crowd_step *step, uint32_t i)
 {
     tl_nav_crowd *crowd = step->crowd;
     crowd_fields *a = &crowd->a;
+    if (head_on(step, i)) {
+        return;
+    }
     tl_nav_corridor corridor = tl_crowd_corridor(crowd, i);
     tl_nav_corner corners[3];
     uint32_t count = 0;
@@ -128,14 +170,9 @@ static void walk(const crowd_step *step, uint32_t i)
         }
         speed = tl_min_f32(speed, sqrtf(2.0f * a->max_acceleration[i] * distance));
         speed = tl_min_f32(speed, distance / step->dt);
-    } else {
-        float toward[2];
-        pass_corner(a->x[i], a->z[i], next, a->clearance[i] + CORNER_SHARE * a->radius[i], toward);
-        x = toward[0];
-        z = toward[1];
     }
-    note_progress(step, i, x, z);
-    want(step, i, x, z, speed);
+    keep_corner(a, i, next);
+    head_for(step, i, x, z, speed);
 }
 
 // An agent that stands at its link until it may take it; pushed away it walks back.

@@ -152,7 +152,7 @@ static void test_wide(void **state)
     uint32_t through_far_gap = 0;
     tl_nav_agent wide[10];
     for (uint32_t i = 0; i < 20; i++) {
-        float z = -9.0f + 0.8f * (float)i;
+        float z = -10.4f + 1.1f * (float)i; // as near as they stand beside one another
         def.radius = i % 2 == 0 ? 0.75f : 0.3f;
         tl_nav_location goal = crowd_place(navmesh, 9.0f, 0.0f, z);
         tl_nav_agent agent = crowd_send(crowd, navmesh, def, -9.0f, 0.0f, z, &goal);
