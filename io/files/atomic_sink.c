@@ -205,9 +205,9 @@ static bool flush_to_disk(int descriptor)
     return result == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 }
 
-tl_result tl_atomic_sink_replace(tl_atomic_sink *sink)
+tl_result tl_atomic_sink_replace(tl_atomic_sink *sink, bool flush)
 {
-    if (!flush_to_disk(sink->descriptor)) {
+    if (flush && !flush_to_disk(sink->descriptor)) {
         return tl_io_fail_system(sink->failure, sink->path, "flush to disk", errno);
     }
     if (sink->target == NULL) {
@@ -220,7 +220,7 @@ tl_result tl_atomic_sink_replace(tl_atomic_sink *sink)
         return tl_io_fail_system(sink->failure, sink->path, "replace", errno);
     }
     sink->named = false;
-    if (!flush_to_disk(sink->folder)) {
+    if (flush && !flush_to_disk(sink->folder)) {
         return tl_io_fail_system(sink->failure, sink->path, "flush its folder to disk", errno);
     }
     return TL_OK;

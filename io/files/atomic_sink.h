@@ -16,8 +16,8 @@ tl_result tl_atomic_sink_open(const char *path, tl_io_error *failure, tl_atomic_
 
 tl_result tl_atomic_sink_write(tl_atomic_sink *sink, const void *bytes, size_t size);
 
-/// Flushes to disk and replaces the target.
-tl_result tl_atomic_sink_replace(tl_atomic_sink *sink);
+/// Replaces the target; with `flush` both the bytes and the folder are on disk afterwards.
+tl_result tl_atomic_sink_replace(tl_atomic_sink *sink, bool flush);
 
 /// Takes a temporary file that has not replaced its target away, and frees the sink. NULL: nothing happens.
 void tl_atomic_sink_close(tl_atomic_sink *sink);

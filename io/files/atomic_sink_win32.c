@@ -149,17 +149,18 @@ tl_result tl_atomic_sink_write(tl_atomic_sink *sink, const void *bytes, size_t s
     return TL_OK;
 }
 
-tl_result tl_atomic_sink_replace(tl_atomic_sink *sink)
+tl_result tl_atomic_sink_replace(tl_atomic_sink *sink, bool flush)
 {
     if (sink->target == NULL) {
         return TL_OK;
     }
-    if (!FlushFileBuffers(sink->handle)) {
+    if (flush && !FlushFileBuffers(sink->handle)) {
         return tl_io_fail_system(sink->failure, sink->path, "flush to disk", tl_windows_errno());
     }
     CloseHandle(sink->handle);
     sink->handle = INVALID_HANDLE_VALUE;
-    if (!MoveFileExW(sink->temporary, sink->target, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH)) {
+    const DWORD how = MOVEFILE_REPLACE_EXISTING | (flush ? MOVEFILE_WRITE_THROUGH : 0);
+    if (!MoveFileExW(sink->temporary, sink->target, how)) {
         return tl_io_fail_system(sink->failure, sink->path, "replace", tl_windows_errno());
     }
     free(sink->temporary);

@@ -95,20 +95,30 @@ tl_result tl_atomic_file_write(tl_atomic_file *file, const void *bytes, size_t s
     return file->failure.result;
 }
 
-tl_result tl_atomic_file_commit(tl_atomic_file *file, tl_io_error *error_out)
+static tl_result put_in_place(tl_atomic_file *file, bool flush, tl_io_error *error_out)
 {
     tl_result result = file->failure.result;
     if (result == TL_OK) {
         result = flush_buffer(file);
     }
     if (result == TL_OK) {
-        result = tl_atomic_sink_replace(file->sink);
+        result = tl_atomic_sink_replace(file->sink, flush);
     }
     if (result != TL_OK && error_out != NULL) {
         *error_out = file->failure;
     }
     discard(file);
     return result;
+}
+
+tl_result tl_atomic_file_commit(tl_atomic_file *file, tl_io_error *error_out)
+{
+    return put_in_place(file, true, error_out);
+}
+
+tl_result tl_atomic_file_commit_unflushed(tl_atomic_file *file, tl_io_error *error_out)
+{
+    return put_in_place(file, false, error_out);
 }
 
 void tl_atomic_file_abort(tl_atomic_file *file)

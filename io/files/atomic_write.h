@@ -35,6 +35,11 @@ tl_result tl_atomic_file_write(tl_atomic_file *file, const void *bytes, size_t s
 /// target is untouched and no temporary file is left.
 tl_result tl_atomic_file_commit(tl_atomic_file *file, tl_io_error *error_out);
 
+/// The same without waiting for the disk, for files of which there are thousands, that carry a checksum of their own
+/// and can be made again: a process that is killed leaves a whole file or none, a loss of power may leave a damaged
+/// one.
+tl_result tl_atomic_file_commit_unflushed(tl_atomic_file *file, tl_io_error *error_out);
+
 /// Discards what was written and frees `file`. NULL: nothing happens.
 void tl_atomic_file_abort(tl_atomic_file *file);
 
