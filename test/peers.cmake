@@ -32,6 +32,11 @@ foreach(stem import_process gltf_parser gltf_reader import_formats sibling_file 
     set(talus_test_${stem}_needs talus_io)
 endforeach()
 
+# The world library's tests.
+foreach(stem triangle_record segment_file plan_file shard manifest)
+    set(talus_test_${stem}_needs talus_world)
+endforeach()
+
 # The built-in levels of the command.
 set(talus_test_sample_level_needs talus_sample)
 
@@ -43,7 +48,7 @@ set(talus_test_ray_decide_needs talus_peer_gmp)
 set(talus_test_soup_bake_libraries pthread)
 set(talus_test_ray_batch_libraries pthread)
 foreach(stem frame options examples manual bake areas around audit prune ray soup_queries path hull polygonize draw detour bad_input
-        links outputs baked_options walkable precision axes streams path_costs view hand_links)
+        links outputs baked_options walkable precision axes streams path_costs view hand_links world)
     set(talus_test_cli_${stem}_needs talus_command_path)
 endforeach()
 set(talus_test_hull_qhull_needs talus_peer_qhull)

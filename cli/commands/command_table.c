@@ -8,6 +8,7 @@
 #define COMMANDS(COMMAND) \
     COMMAND(sample) \
     COMMAND(bake) \
+    COMMAND(world) \
     COMMAND(info) \
     COMMAND(check) \
     COMMAND(draw) \

@@ -2,6 +2,8 @@
 //
 // talus sample: a built-in level as an OBJ file.
 
+#include "cli/commands/sample_files.h"
+#include "cli/options/output_check.h"
 #include "cli/sample/sample_level.h"
 #include "cli/shared/command.h"
 #include "cli/shared/interrupt.h"
@@ -10,6 +12,10 @@
 
 #include <stdio.h>
 #include <string.h>
+
+enum { WORLD_TRIANGLES = 1000000 };
+
+static const char world_text[] = "a folder of files for 'talus world': terrain, towns, roads, bridges, caves, any size";
 
 static tl_exit list_levels(tl_cli *cli)
 {
@@ -22,11 +28,14 @@ static tl_exit list_levels(tl_cli *cli)
                                   json_pack("{ss ss si}", "name", levels[i].name, "description", levels[i].description,
                                             "triangles", (int)levels[i].default_triangles));
         }
+        json_array_append_new(array, json_pack("{ss ss si}", "name", "world", "description", world_text, "triangles",
+                                               (int)WORLD_TRIANGLES));
         return tl_cli_print_json(cli, json_pack("{so}", "levels", array));
     }
     for (uint32_t i = 0; i < count; ++i) {
         printf("%-11s %6u triangles  %s\n", levels[i].name, levels[i].default_triangles, levels[i].description);
     }
+    printf("%-11s %6u triangles  %s\n", "world", WORLD_TRIANGLES, world_text);
     return TL_EXIT_OK;
 }
 
@@ -79,16 +88,33 @@ static tl_exit write_level(tl_cli *cli, const tl_sample_level *level, const char
     return code;
 }
 
+static tl_exit write_world(tl_cli *cli, const char *output, uint32_t triangles, uint64_t seed)
+{
+    tl_sample_files files;
+    tl_exit code = tl_sample_files_write(cli, output, triangles != 0 ? triangles : WORLD_TRIANGLES, seed, &files);
+    tl_progress_end(&cli->progress);
+    if (code != TL_EXIT_OK) {
+        return code;
+    }
+    if (cli->json) {
+        return tl_cli_print_json(cli, json_pack("{ss so sI sI sI}", "level", "world", "output", tl_json_text(output),
+                                                "triangles", (json_int_t)files.triangles, "parts_x",
+                                                (json_int_t)files.parts_x, "parts_z", (json_int_t)files.parts_z));
+    }
+    printf("%s: world, %llu triangles in %u x %u parts of a square kilometre\n", output,
+           (unsigned long long)files.triangles, files.parts_x, files.parts_z);
+    return TL_EXIT_OK;
+}
+
 static tl_exit run_sample(tl_cli *cli)
 {
     const char *output = NULL;
     uint32_t triangles = 0;
     uint64_t seed = 1;
     bool list = false;
-    static const char *const level_endings[] = { ".obj", NULL };
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_OUTPUT, &output, "FILE", "where to write; - is standard output (NAME.obj)",
-          level_endings, 0, 0, 0, 0 },
+        { "output", 'o', TL_OPTION_OUTPUT, &output, "FILE",
+          "where to write; - is standard output (NAME.obj); of the world a folder (world)", NULL, 0, 0, 0, 0 },
         { "triangles", 'n', TL_OPTION_COUNT, &triangles, "N",
           "triangles of the level, from 500; up to 7 fewer are made (0: as --list says)", NULL, 0, 0, 0,
           TL_MAX_MESH_TRIANGLES / 4 },
@@ -104,6 +130,12 @@ static tl_exit run_sample(tl_cli *cli)
     }
     if (list || cli->arguments.count == 0) {
         return list_levels(cli);
+    }
+    if (strcmp(cli->arguments.words[0], "world") == 0) {
+        return write_world(cli, output != NULL ? output : "world", triangles, seed);
+    }
+    if (output != NULL && strcmp(output, "-") != 0 && !tl_has_ending(output, ".obj")) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "--output: '%s' has an ending that cannot be written; use .obj", output);
     }
     const tl_sample_level *level = tl_sample_find_level(cli->arguments.words[0]);
     if (level == NULL) {
@@ -122,11 +154,14 @@ const tl_command tl_sample_command = {
     "Levels",
     "write a built-in level as OBJ",
     "NAME [-o FILE.obj] [--triangles N] [--seed N]\n"
+    "world [-o FOLDER] [--triangles N] [--seed N]\n"
     "--list",
     "Writes a built-in level: rooms, stairs, ramps, bridges over floors, thin walls, pits. Metres, y up. The\n"
-    "same name, size and seed give the same file on every machine. Without NAME it lists the levels.",
+    "same name, size and seed give the same file on every machine. Without NAME it lists the levels.\n"
+    "The world is a folder of parts, written one by one, so that it may be larger than memory.",
     "talus sample --list\n"
     "talus sample courtyard -o courtyard.obj\n"
-    "talus sample city --triangles 100000 --seed 7 -o city.obj",
+    "talus sample city --triangles 100000 --seed 7 -o city.obj\n"
+    "talus sample world --triangles 300000 -o land",
     run_sample,
 };

@@ -8,6 +8,8 @@
 #include "io/files/sibling_file.h"
 #include "io/mesh/mesh_import.h"
 #include "io/mesh/obj_write.h"
+#include "world/bytes/folder.h"
+#include "world/bytes/random_read.h"
 
 #include <talus/pack.h>
 #include <talus/soup.h>
@@ -188,6 +190,49 @@ static void long_names(void)
     EXPECT(tl_atomic_write(path, "long", 4, NULL) == TL_OK && holds(path, "long"));
 }
 
+typedef struct seen_names {
+    int count, expected;
+} seen_names;
+
+static tl_result see_name(const char *name, void *user)
+{
+    seen_names *seen = user;
+    seen->count++;
+    seen->expected += strcmp(name, "here \xc3\xbc.txt") == 0 || strcmp(name, "below") == 0;
+    return TL_OK;
+}
+
+// Folders, what the system says of files, and reading anywhere in them.
+static void folders(void)
+{
+    tl_file_facts facts;
+    tl_random_file file;
+    tl_io_error error;
+    char bytes[4] = "";
+    seen_names seen = { 0, 0 };
+    EXPECT(tl_folder_make(in_folder("store"), NULL) == TL_OK && tl_folder_make(in_folder("store"), NULL) == TL_OK);
+    EXPECT(tl_folder_make(in_folder("store/below"), NULL) == TL_OK);
+    const char *path = in_folder("store/here \xc3\xbc.txt");
+    EXPECT(tl_atomic_write(path, "0123456789", 10, NULL) == TL_OK);
+    EXPECT(tl_folder_make(path, &error) == TL_ERR_IO);
+    EXPECT(tl_folder_list(in_folder("store"), see_name, &seen, NULL) == TL_OK && seen.count == 2 && seen.expected == 2);
+    EXPECT(tl_folder_list(in_folder("none"), see_name, &seen, &error) == TL_ERR_IO);
+    EXPECT(tl_file_look(path, &facts) && facts.size == 10 && !facts.is_folder &&
+           facts.changed > 1500000000u * UINT64_C(1000000000));
+    EXPECT(tl_file_look(in_folder("store"), &facts) && facts.is_folder && !tl_file_look(in_folder("none"), NULL));
+    EXPECT(tl_random_file_open(in_folder("none"), &file, &error) == TL_ERR_IO && error.message[0] != '\0');
+    EXPECT(tl_random_file_open(path, &file, NULL) == TL_OK);
+    EXPECT(tl_random_file_read(&file, path, 6, bytes, 4, NULL) == TL_OK && memcmp(bytes, "6789", 4) == 0);
+    EXPECT(tl_random_file_read(&file, path, 1, bytes, 3, NULL) == TL_OK && memcmp(bytes, "123", 3) == 0);
+    EXPECT(tl_random_file_read(&file, path, 7, bytes, 4, &error) == TL_ERR_TRUNCATED);
+    tl_random_file_close(&file);
+    char *full = tl_full_path(path);
+    EXPECT(full != NULL && tl_file_look(full, &facts) && facts.size == 10);
+    free(full);
+    tl_file_remove(path);
+    EXPECT(!tl_file_look(path, NULL));
+}
+
 int main(int count, char **words)
 {
     if (count != 2) {
@@ -201,6 +246,7 @@ int main(int count, char **words)
     meshes();
     baked_files();
     long_names();
+    folders();
     printf(faults == 0 ? "files: all as it should be\n" : "files: %d faults\n", faults);
     return faults != 0;
 }

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// Baking a job's tiles, and how far it is.
+
+#ifndef TALUS_WORLD_BAKE_TILES_H
+#define TALUS_WORLD_BAKE_TILES_H
+
+#include "world/job/shard.h"
+
+typedef struct tl_world_bake_report {
+    uint64_t tiles;     ///< of the shard
+    uint64_t there;     ///< were there already
+    uint64_t baked;     ///< now
+    uint64_t failed;    ///< named one by one in `fail`
+    uint64_t triangles; ///< of the tiles baked now, those of borders several times
+    uint64_t bytes;     ///< of the files written now
+} tl_world_bake_report;
+
+typedef struct tl_world_bake_def {
+    const char *job; ///< path
+    tl_world_shard shard;
+    tl_host host;
+    bool as_planned; ///< do not look whether the inputs changed since the plan
+    /// Told of each tile that fails, on the calling thread; the others are baked all the same.
+    void (*fail)(const tl_io_error *error, void *user);
+    void *user;
+} tl_world_bake_def;
+
+/// Bakes the tiles of a shard that are not there yet. When tiles failed: the first one's result and error.
+/// TL_ERR_STALE: an input changed since the plan. On TL_ERR_CANCELLED the tiles that are done stay.
+tl_result tl_world_bake(const tl_world_bake_def *def, tl_world_bake_report *report_out, tl_io_error *error_out);
+
+typedef struct tl_world_status {
+    uint64_t inputs, triangles;
+    uint64_t tiles, there; ///< of the job, or of the shard that was asked for
+    uint64_t cost, cost_there;
+    uint32_t tiles_x, tiles_z;
+    uint32_t missing_x, missing_z; ///< the first that is missing, by z, then x
+} tl_world_status;
+
+tl_result tl_world_look(const char *job, const tl_world_shard *shard, tl_world_status *status_out,
+                        tl_io_error *error_out);
+
+/// TL_ERR_STALE, by name, when an input of a plan is there and is no longer the file that was planned. Inputs that are
+/// not there, as on a cluster's nodes, are not asked for: the store holds them.
+tl_result tl_world_inputs_unchanged(const tl_world_plan *plan, tl_io_error *error_out);
+
+/// The plan of a job.
+tl_result tl_world_plan_of_job(const char *job, tl_world_plan *plan_out, tl_io_error *error_out);
+
+#endif
