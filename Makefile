@@ -30,7 +30,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench bench-simd bench-python sanitize tsan msan fuzz cross windows growth python-test docs amalgamation package rust-test format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
+.PHONY: all demo test benchmarks bench bench-simd bench-python bench-world sanitize tsan msan fuzz cross windows growth python-test docs amalgamation package rust-test format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
 
 all:
 	tools/setup tools
@@ -59,6 +59,14 @@ bench: benchmarks
 bench-simd:
 	tools/setup tools tests cross
 	tools/bench-simd
+
+# The stages of talus world on sample worlds of 1 and 10 million triangles: triangles a second, and each process's peak.
+bench-world:
+	tools/setup tools
+	$(CONFIGURE)
+	cmake --build $(BUILD) --parallel $(JOBS) --target talus_command
+	rm -rf $(BUILD)/bench-world
+	bench/python/bench_world.py --talus $(BUILD)/cli/talus --folder $(BUILD)/bench-world --json $(BUILD)/bench-world.json
 
 bench-%:
 	tools/setup tools tests bench
