@@ -4,6 +4,7 @@
 
 #include "cli/commands/sample_files.h"
 #include "cli/options/output_check.h"
+#include "cli/options/same_file.h"
 #include "cli/sample/sample_level.h"
 #include "cli/shared/command.h"
 #include "cli/shared/interrupt.h"
@@ -134,7 +135,7 @@ static tl_exit run_sample(tl_cli *cli)
     if (strcmp(cli->arguments.words[0], "world") == 0) {
         return write_world(cli, output != NULL ? output : "world", triangles, seed);
     }
-    if (output != NULL && strcmp(output, "-") != 0 && !tl_has_ending(output, ".obj")) {
+    if (output != NULL && !tl_is_stream(output) && !tl_has_ending(output, ".obj")) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "--output: '%s' has an ending that cannot be written; use .obj", output);
     }
     const tl_sample_level *level = tl_sample_find_level(cli->arguments.words[0]);

@@ -15,7 +15,7 @@ static crowd_link_run *run_of(const tl_nav_crowd *crowd, uint32_t i)
     return (crowd_link_run *)(void *)&crowd->a.walls[(size_t)i * 4 * CROWD_MAX_WALLS];
 }
 
-static void land(const crowd_step *step, uint32_t i)
+static void land_agent(const crowd_step *step, uint32_t i)
 {
     tl_nav_crowd *crowd = step->crowd;
     crowd_fields *a = &crowd->a;
@@ -41,7 +41,7 @@ void tl_crowd_follow_link(const crowd_step *step, uint32_t i)
     crowd_link_run *run = run_of(crowd, i);
     run->elapsed += step->dt;
     if (run->elapsed >= run->duration) {
-        land(step, i);
+        land_agent(step, i);
         return;
     }
     float t = run->elapsed / run->duration;

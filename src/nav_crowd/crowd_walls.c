@@ -9,8 +9,8 @@
 
 // Metres that an agent goes before its walls are looked for anew, as a share of how far it must know them; and at
 // least.
-#define SLACK_SHARE 1.0f
-#define MIN_SLACK   0.5f
+#define WALL_SLACK_SHARE 1.0f
+#define MIN_SLACK        0.5f
 
 void tl_crowd_look_for_walls(const crowd_step *step, uint32_t i, tl_nav_query *query)
 {
@@ -25,7 +25,7 @@ void tl_crowd_look_for_walls(const crowd_step *step, uint32_t i, tl_nav_query *q
     }
     // As far as it must know them: what it may reach, and the neighbours that they hide.
     const float reach = a->max_speed[i] * crowd->def.wall_horizon + a->clearance[i];
-    const float more = tl_max_f32(SLACK_SHARE * reach, MIN_SLACK);
+    const float more = tl_max_f32(WALL_SLACK_SHARE * reach, MIN_SLACK);
     const tl_nav_around_request request = { &crowd->filters[a->filter[i]],
                                             { a->path[(size_t)i * crowd->def.max_path], tl_crowd_position(crowd, i) },
                                             reach + more };

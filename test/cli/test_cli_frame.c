@@ -168,7 +168,7 @@ static void test_samples(void **state)
     free(file);
     cli_free(&piped);
     json_t *list = cli_json(0, "sample --list --json");
-    assert_int_equal(json_array_size(json_object_get(list, "levels")), 4);
+    assert_int_equal(json_array_size(json_object_get(list, "levels")), 5); // and the world
     json_decref(list);
     cli_check_error(2, "sample castle", "no level 'castle'", "--list");
     cli_check_error(2, "sample city --triangles 9999999999", "--triangles", "too large");
