@@ -155,6 +155,7 @@ static tl_result read_head(tl_world_segment *segment, tl_io_error *error_out)
 {
     unsigned char bytes[TL_WORLD_SEGMENT_HEADER];
     tl_file_facts facts;
+    memset(&facts, 0, sizeof facts);
     const char *path = segment->path;
     tl_result result = tl_random_file_read(&segment->file, path, 0, bytes, sizeof bytes, error_out);
     if (result != TL_OK) {
