@@ -8,6 +8,8 @@
 #include "painted_stack.h"
 #include "scene_models.h"
 
+#include <talus/character.h>
+
 enum { CALLS = 300 };
 
 typedef struct stack_run {
@@ -15,6 +17,7 @@ typedef struct stack_run {
     const tl_scene_instance *instances;
     const tl_soup *soup;
     const tl_hull *hull;
+    tl_character_mover *mover;
     uint32_t query, found;
 } stack_run;
 
@@ -25,6 +28,19 @@ static tl_convex any_shape(const stack_run *run, uint32_t i)
            : i % 4 == 1 ? tl_convex_box(low, tl_vec3_make(1, 2, 1), 0.0f)
            : i % 4 == 2 ? tl_convex_cylinder(low, high, 2.0f, 0.0f)
                         : tl_convex_cone(low, high, 2.0f, 0.1f);
+}
+
+// A character among the scene's parts, or in one of them: most moves push it out.
+static bool move_character(const stack_run *run, tl_vec3 position, tl_vec3 motion)
+{
+    const tl_character_level level = { NULL, NULL, run->scene, run->instances, NULL };
+    const tl_character_step step = { motion, 1.0f, false };
+    tl_character character;
+    tl_character_report report;
+    memset(&character, 0, sizeof character);
+    character.position = position;
+    TEST_RESULT(tl_character_move(run->mover, &level, &step, &character, &report), TL_OK);
+    return report.hit_count > 0 || report.pushed > 0.0f;
 }
 
 static bool run_query(const stack_run *run, test_random *random, uint32_t i)
@@ -55,6 +71,8 @@ static bool run_query(const stack_run *run, test_random *random, uint32_t i)
         return tl_convex_contacts(&shape, here, &other, near, NULL, NULL, &manifold) > 0;
     case 6:
         return tl_soup_find_contacts(run->soup, &contacts_of, NULL, 0, &count) == TL_INCOMPLETE;
+    case 7:
+        return move_character(run, here.position, motion);
     default:
         return tl_convex_cast(&shape, here, &other, near, motion, &hit);
     }
@@ -77,8 +95,8 @@ static void test_queries_fit_small_stacks(void **state)
     skip();
 #endif
     static const char *const names[] = {
-        "none",        "scene_cast_shape",  "soup_cast_shape", "convex_penetration", "convex_contacts",
-        "convex_cast", "soup_find_contacts"
+        "none",        "scene_cast_shape",   "soup_cast_shape", "convex_penetration", "convex_contacts",
+        "convex_cast", "soup_find_contacts", "character_move"
     };
     scene_parts parts;
     scene_parts_make(&parts, 3.0f);
@@ -87,17 +105,21 @@ static void test_queries_fit_small_stacks(void **state)
     scene_fill(&parts, &random, tl_vec3_make(0, 0, 0), 5.0f, instances, 40);
     tl_scene *scene = scene_build(instances, 40);
     tl_hull *hull = scene_hull(60, 2.0f, 5);
-    stack_run run = { scene, instances, NULL, hull, 0, 0 };
+    stack_run run = { scene, instances, NULL, hull, NULL, 0, 0 };
+    tl_character_def mover_def = tl_default_character_def();
+    mover_def.max_triangles = 1 << 14;
+    TEST_RESULT(tl_character_mover_create(&mover_def, &run.mover, NULL), TL_OK);
     for (uint32_t i = 0; i < 40 && run.soup == NULL; i++) {
         run.soup = instances[i].soup;
     }
     size_t base = painted_stack_used(run_calls, &run);
-    for (run.query = 1; run.query < 7; run.query++) {
+    for (run.query = 1; run.query < sizeof names / sizeof names[0]; run.query++) {
         run.found = 0;
         size_t used = painted_stack_used(run_calls, &run) - base;
         print_message("%-20s %6zu bytes, %u of %d found something\n", names[run.query], used, run.found, CALLS);
         TEST_CHECK(run.found > 20 && used <= PROMISED_STACK);
     }
+    tl_character_mover_destroy(run.mover);
     tl_blob_free(scene);
     tl_blob_free(hull);
     scene_parts_free(&parts);
