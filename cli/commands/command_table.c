@@ -19,6 +19,7 @@
     COMMAND(sweep) \
     COMMAND(path) \
     COMMAND(around) \
+    COMMAND(crowd) \
     COMMAND(links) \
     COMMAND(why) \
     COMMAND(audit) \

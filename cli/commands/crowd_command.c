@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+//
+// talus crowd: a scenario of agents on a navmesh, as figures and as a film.
+
+#include "cli/crowd/crowd_film.h"
+#include "cli/crowd/crowd_run.h"
+#include "cli/crowd/crowd_scenario.h"
+#include "cli/level/open_input.h"
+#include "cli/options/output_check.h"
+#include "cli/shared/json_out.h"
+#include "io/files/atomic_write.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct crowd_settings {
+    tl_bake_settings bake;
+    const char *output;
+    float every; // seconds between the film's frames
+} crowd_settings;
+
+static tl_exit write_film(tl_cli *cli, const char *output, const tl_crowd_film *film, const tl_crowd_scenario *scenario,
+                          const tl_navmesh *navmesh)
+{
+    tl_text text;
+    memset(&text, 0, sizeof(text));
+    if (tl_has_ending(output, ".svg")) {
+        tl_crowd_film_add_svg(film, scenario, navmesh, &text);
+    } else {
+        text.frame = cli->frame;
+        tl_crowd_film_add_lines(film, &text);
+    }
+    tl_io_error error;
+    memset(&error, 0, sizeof(error));
+    tl_exit code = TL_EXIT_OK;
+    if (text.failed) {
+        code = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
+    } else if (tl_atomic_write(output, text.bytes, text.size, &error) != TL_OK) {
+        code = tl_cli_fail_io(cli, &error);
+    }
+    tl_text_free(&text);
+    return code;
+}
+
+static tl_exit report_outcome(tl_cli *cli, const tl_crowd_scenario *scenario, const tl_crowd_outcome *o)
+{
+    const double microseconds = o->agent_steps > 0 ? 1e6 * o->compute_seconds / (double)o->agent_steps : 0.0;
+    if (cli->json) {
+        char hash[17];
+        snprintf(hash, sizeof(hash), "%016" PRIx64, o->hash);
+        return tl_cli_print_json(
+            cli, json_pack("{sI sI so sI sI sI so so sI so so ss}", "agents", (json_int_t)scenario->agent_count,
+                           "vehicles", (json_int_t)scenario->vehicle_count, "seconds", tl_json_float(o->seconds),
+                           "arrived", (json_int_t)o->arrived, "unreachable", (json_int_t)o->unreachable, "off_mesh",
+                           (json_int_t)o->off_mesh, "half_arrived_after", tl_json_float(o->half), "last_arrived_after",
+                           tl_json_float(o->last), "overlaps", (json_int_t)o->pairs, "deepest_overlap",
+                           tl_json_float(o->deepest), "microseconds_an_agent_step", tl_json_double(microseconds),
+                           "hash", hash));
+    }
+    printf("agents    %u, vehicles %u\n", scenario->agent_count, scenario->vehicle_count);
+    printf("arrived   %u", o->arrived);
+    if (o->arrived > 0) {
+        printf(", half of them after %.1f s, the last after %.1f s", (double)o->half, (double)o->last);
+    }
+    printf("\nstopped   %u: no path leads to the goal\n", o->unreachable);
+    printf("overlaps  %" PRIu64 " pairs in all frames, the deepest %.0f mm\n", o->pairs, 1000.0 * (double)o->deepest);
+    printf("run       %.1f s, hash %016" PRIx64 "\n", (double)o->seconds, o->hash);
+    return TL_EXIT_OK;
+}
+
+static tl_exit run_scenario(tl_cli *cli, const crowd_settings *settings, const tl_navmesh *navmesh,
+                            const tl_crowd_scenario *scenario)
+{
+    tl_crowd_film film;
+    tl_crowd_outcome outcome;
+    tl_exit code = TL_EXIT_OK;
+    if (tl_crowd_run(cli, navmesh, scenario, settings->every, &film, &outcome, &code)) {
+        tl_progress_end(&cli->progress);
+        if (settings->output != NULL) {
+            code = write_film(cli, settings->output, &film, scenario, navmesh);
+        }
+        if (code == TL_EXIT_OK && (settings->output == NULL || strcmp(settings->output, "-") != 0)) {
+            code = report_outcome(cli, scenario, &outcome);
+        }
+        if (code == TL_EXIT_OK && outcome.arrived < scenario->agent_count) {
+            code = TL_EXIT_NEGATIVE;
+        }
+    }
+    tl_crowd_film_free(&film);
+    return code;
+}
+
+static tl_exit run_crowd(tl_cli *cli)
+{
+    static const char *const film_endings[] = { ".svg", ".jsonl", NULL };
+    crowd_settings settings;
+    memset(&settings, 0, sizeof(settings));
+    settings.bake = tl_default_bake_settings();
+    settings.every = 0.25f;
+    const tl_option options[] = {
+        { "output", 'o', TL_OPTION_OUTPUT, &settings.output, "FILE",
+          "write a film: .svg moves in any browser, .jsonl has a line a frame; - prints such lines", film_endings, 0, 0,
+          0, 0 },
+        { "every", 0, TL_OPTION_FLOAT, &settings.every, "S", "seconds between frames", NULL, 0.001f, 1e6f, 0, 0 },
+        TL_OPTION_TABLE_END,
+    };
+    const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
+    cli->speaks_frame = true;
+    tl_exit code;
+    if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 2, 2, &code)) {
+        return code;
+    }
+    tl_input input;
+    if (tl_input_open_navmesh(cli, cli->arguments.words[0], &settings.bake, &input, &code)) {
+        tl_crowd_scenario scenario;
+        tl_io_error error;
+        memset(&error, 0, sizeof(error));
+        if (tl_crowd_scenario_read(cli->arguments.words[1], cli->frame, &scenario, &error) == TL_OK) {
+            code = run_scenario(cli, &settings, input.navmesh, &scenario);
+        } else {
+            code = tl_cli_fail_io(cli, &error);
+        }
+        tl_crowd_scenario_free(&scenario);
+    }
+    tl_input_close(&input);
+    return code;
+}
+
+const tl_command tl_crowd_command = {
+    "crowd",
+    "Navmesh",
+    "run a crowd through a scenario, as figures and a film",
+    "FILE SCENARIO [-o FILM] [options]",
+    "Moves agents along the navmesh to their goals; they avoid one another and never leave it. FILE is a baked\n"
+    "file, or a level, which is then baked in memory. The run ends when all have arrived, at the latest after the\n"
+    "scenario's seconds; exits with 1 when some have not.\n"
+    "\n"
+    "SCENARIO is JSON: { \"seconds\": 60, \"step\": 0.05, \"groups\": [...], \"vehicles\": [...] }. A group has "
+    "\"at\"\n"
+    "[x, y, z], \"goals\" [[x, y, z], ...], which each agent visits in order, and may have \"count\", \"name\",\n"
+    "\"start\" (seconds), \"repeat\", \"spacing\", \"radius\", \"height\", \"speed\" and \"priority\". A vehicle goes "
+    "straight\n"
+    "from \"from\" to \"to\" and evades nobody; it may have \"start\", \"speed\", \"radius\" and \"height\".",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
+    "echo '{\"groups\": [{\"count\": 9, \"at\": [2, 0, 20], \"goals\": [[20, 5, 20]]}]}' > guests.json\n"
+    "talus crowd courtyard.talus guests.json -o guests.svg\n"
+    "talus crowd courtyard.talus guests.json --json",
+    run_crowd,
+};

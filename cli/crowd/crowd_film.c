@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+//
+// SMIL animation of each circle's center, linear between frames: no script, so the picture moves in a page, in a viewer
+// of pictures and in a file that was mailed.
+
+#include "cli/crowd/crowd_film.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// Colours that the colour-blind tell apart (Okabe, Ito 2008), without black, which vehicles have.
+static const char *const group_colors[] = {
+    "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"
+};
+
+enum { GROUP_COLORS = sizeof(group_colors) / sizeof(group_colors[0]) };
+
+// Centimetres are enough for the eye. 0 is never "-0".
+static void add_number(tl_text *text, float value)
+{
+    char number[48];
+    const double rounded = round(100.0 * (double)value) / 100.0;
+    snprintf(number, sizeof(number), "%.10g", rounded == 0.0 ? 0.0 : rounded);
+    tl_text_add(text, number);
+}
+
+static void add_attribute(tl_text *text, const char *name, float value)
+{
+    tl_text_add(text, " ");
+    tl_text_add(text, name);
+    tl_text_add(text, "=\"");
+    add_number(text, value);
+    tl_text_add(text, "\"");
+}
+
+static void add_floor(tl_text *text, const tl_nav_tile *tile)
+{
+    for (uint32_t p = 0; p < tile->polygon_count; ++p) {
+        uint32_t count;
+        const tl_vec3 *corners = tl_nav_tile_corners(tile, p, &count);
+        for (uint32_t k = 0; k < count; ++k) {
+            tl_text_add(text, k == 0 ? "M" : "L");
+            add_number(text, corners[k].x);
+            tl_text_add(text, " ");
+            add_number(text, corners[k].z);
+        }
+        tl_text_add(text, "Z\n");
+    }
+}
+
+static void add_motion(tl_text *text, const tl_crowd_film *film, uint32_t who, bool is_z)
+{
+    tl_text_add(text, is_z ? "<animate attributeName=\"cy\"" : "<animate attributeName=\"cx\"");
+    tl_text_add(text, " repeatCount=\"indefinite\" dur=\"");
+    add_number(text, film->interval * (float)(film->frame_count - 1));
+    tl_text_add(text, "s\" values=\"");
+    for (uint32_t i = 0; i < film->frame_count; ++i) {
+        const tl_vec3 place = film->places[(size_t)i * film->who_count + who];
+        tl_text_add(text, i > 0 ? ";" : "");
+        add_number(text, is_z ? place.z : place.x);
+    }
+    tl_text_add(text, "\"/>");
+}
+
+static bool moves(const tl_crowd_film *film, uint32_t who)
+{
+    for (uint32_t i = 1; i < film->frame_count; ++i) {
+        const tl_vec3 *place = &film->places[(size_t)i * film->who_count + who];
+        const tl_vec3 *before = place - film->who_count;
+        if (place->x != before->x || place->z != before->z) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void add_everybody(tl_text *text, const tl_crowd_film *film, const tl_crowd_scenario *scenario)
+{
+    for (uint32_t who = 0; who < film->who_count; ++who) {
+        const uint32_t group = film->group_of[who];
+        const bool is_vehicle = group == scenario->group_count;
+        const float radius =
+            is_vehicle ? scenario->vehicles[who - scenario->agent_count].radius : scenario->groups[group].radius;
+        tl_text_add(text, "<circle fill=\"");
+        tl_text_add(text, is_vehicle ? "#222222" : group_colors[group % GROUP_COLORS]);
+        tl_text_add(text, "\"");
+        add_attribute(text, "r", radius);
+        add_attribute(text, "cx", film->places[who].x);
+        add_attribute(text, "cy", film->places[who].z);
+        tl_text_add(text, ">");
+        if (moves(film, who)) {
+            add_motion(text, film, who, false);
+            add_motion(text, film, who, true);
+        }
+        tl_text_add(text, "</circle>\n");
+    }
+}
+
+static tl_aabb bounds_of_tiles(const tl_navmesh *navmesh)
+{
+    tl_aabb bounds = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); ++slot) {
+        const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
+        if (tile != NULL) {
+            bounds.min = tl_min(bounds.min, tile->bounds.min);
+            bounds.max = tl_max(bounds.max, tile->bounds.max);
+        }
+    }
+    return bounds;
+}
+
+void tl_crowd_film_add_svg(const tl_crowd_film *film, const tl_crowd_scenario *scenario, const tl_navmesh *navmesh,
+                           tl_text *text)
+{
+    const tl_aabb bounds = bounds_of_tiles(navmesh);
+    const float margin = 1.0f, width = bounds.max.x - bounds.min.x, depth = bounds.max.z - bounds.min.z;
+    tl_text_add(text, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"");
+    add_number(text, bounds.min.x - margin);
+    tl_text_add(text, " ");
+    add_number(text, bounds.min.z - margin);
+    tl_text_add(text, " ");
+    add_number(text, width + 2.0f * margin);
+    tl_text_add(text, " ");
+    add_number(text, depth + 2.0f * margin);
+    tl_text_add(text, "\">\n<rect fill=\"#ffffff\" width=\"100%\" height=\"100%\"");
+    add_attribute(text, "x", bounds.min.x - margin);
+    add_attribute(text, "y", bounds.min.z - margin);
+    tl_text_add(text, "/>\n<path fill=\"#dfe3e6\" stroke=\"#c3c9ce\" stroke-width=\"0.04\" d=\"");
+    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); ++slot) {
+        const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
+        if (tile != NULL) {
+            add_floor(text, tile);
+        }
+    }
+    tl_text_add(text, "\"/>\n");
+    add_everybody(text, film, scenario);
+    tl_text_add(text, "</svg>\n");
+}
+
+void tl_crowd_film_add_lines(const tl_crowd_film *film, tl_text *text)
+{
+    for (uint32_t i = 0; i < film->frame_count; ++i) {
+        tl_text_add(text, "{\"t\":");
+        tl_text_add_json_float(text, film->interval * (float)i);
+        tl_text_add(text, ",\"places\":[");
+        for (uint32_t who = 0; who < film->who_count; ++who) {
+            tl_text_add(text, who > 0 ? "," : "");
+            tl_text_add_json_point(text, film->places[(size_t)i * film->who_count + who]);
+        }
+        tl_text_add(text, "],\"status\":[");
+        for (uint32_t who = 0; who < film->who_count; ++who) {
+            tl_text_add(text, who > 0 ? ",\"" : "\"");
+            tl_text_add(text,
+                        tl_nav_agent_status_name((tl_nav_agent_status)film->status[(size_t)i * film->who_count + who]));
+            tl_text_add(text, "\"");
+        }
+        tl_text_add(text, "]}\n");
+    }
+}

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+//
+// A key that is not known is an error: a misspelt "repeat" would be a guard who stands still.
+
+#include "cli/crowd/crowd_scenario.h"
+
+#include "io/files/file_map.h"
+#include "io/text/json_place.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <talus/nav_crowd.h>
+
+enum { SCENARIO_MIB = 64 };
+
+// What the getters need to know.
+typedef struct scenario_reader {
+    tl_json_reader json;
+    const tl_pack_frame *frame;
+} scenario_reader;
+
+static bool only_keys(scenario_reader *r, const tl_json_place *at, const char *const *known)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach(at->value, key, value)
+    {
+        const char *const *word = known;
+        while (*word != NULL && strcmp(*word, key) != 0) {
+            ++word;
+        }
+        if (*word == NULL) {
+            tl_json_fail(&r->json, TL_ERR_FORMAT, at, key, "is no key that is known");
+            return false;
+        }
+    }
+    return true;
+}
+
+// Leaves `value` as it is where the key is not there.
+static void take_number(scenario_reader *r, const tl_json_place *at, const char *key, double low, double high,
+                        float *value)
+{
+    const json_t *given = json_object_get(at->value, key);
+    if (given == NULL) {
+        return;
+    }
+    const double number = json_is_number(given) ? json_number_value(given) : (double)NAN;
+    if (!(number >= low && number <= high)) {
+        char what[96];
+        snprintf(what, sizeof(what), "is no number from %g to %g", low, high);
+        tl_json_fail(&r->json, TL_ERR_FORMAT, at, key, what);
+        return;
+    }
+    *value = (float)number;
+}
+
+static bool point_of(const scenario_reader *r, const json_t *value, tl_vec3 *point)
+{
+    double n[3];
+    for (size_t i = 0; i < 3; ++i) {
+        const json_t *number = json_array_get(value, i);
+        n[i] = json_is_number(number) ? json_number_value(number) : (double)NAN;
+    }
+    *point = tl_pack_place_in(r->frame, n);
+    return json_array_size(value) == 3 && isfinite(point->x) && isfinite(point->y) && isfinite(point->z);
+}
+
+static void take_point(scenario_reader *r, const tl_json_place *at, const char *key, tl_vec3 *point)
+{
+    if (!point_of(r, json_object_get(at->value, key), point)) {
+        tl_json_fail(&r->json, TL_ERR_FORMAT, at, key, "is no place; give [x, y, z]");
+    }
+}
+
+static void take_goals(scenario_reader *r, const tl_json_place *at, tl_crowd_group *group)
+{
+    tl_json_place list;
+    const size_t count = tl_json_list(&r->json, at, "goals", &list);
+    if (r->json.result == TL_OK && (count == 0 || count > 1000000)) {
+        tl_json_fail(&r->json, TL_ERR_FORMAT, at, "goals", "holds no place; give [[x, y, z], ...]");
+    }
+    if (r->json.result != TL_OK) {
+        return;
+    }
+    group->goals = calloc(count, sizeof(*group->goals));
+    if (group->goals == NULL) {
+        tl_json_fail(&r->json, TL_ERR_MEMORY, at, "goals", "is too long for the memory");
+        return;
+    }
+    group->goal_count = (uint32_t)count;
+    for (size_t i = 0; i < count; ++i) {
+        if (!point_of(r, json_array_get(list.value, i), &group->goals[i])) {
+            const tl_json_place goal = { at, "goals", i, NULL };
+            tl_json_fail(&r->json, TL_ERR_FORMAT, &goal, NULL, "is no place; give [x, y, z]");
+            return;
+        }
+    }
+}
+
+static void take_group(scenario_reader *r, const tl_json_place *at, tl_crowd_group *group)
+{
+    static const char *const known[] = { "name",    "count",  "at",     "goals", "start",    "repeat",
+                                         "spacing", "radius", "height", "speed", "priority", NULL };
+    if (!only_keys(r, at, known)) {
+        return;
+    }
+    const tl_nav_agent_def def = tl_default_nav_agent_def();
+    group->radius = def.radius;
+    group->height = def.height;
+    group->speed = def.max_speed;
+    group->priority = def.priority;
+    const char *name = tl_json_string(&r->json, at, "name");
+    snprintf(group->name, sizeof(group->name), "%s", name != NULL ? name : "");
+    const size_t count = tl_json_size(&r->json, at, "count", 1);
+    if (r->json.result == TL_OK && (count == 0 || count > TL_NAV_CROWD_MAX_AGENTS)) {
+        tl_json_fail(&r->json, TL_ERR_LIMIT, at, "count", "is 0, or more than a crowd holds");
+    }
+    group->count = (uint32_t)count;
+    group->repeat = tl_json_bool(&r->json, at, "repeat");
+    take_point(r, at, "at", &group->at);
+    take_goals(r, at, group);
+    take_number(r, at, "start", 0.0, 1e6, &group->start);
+    take_number(r, at, "radius", 0.01, 1000.0, &group->radius);
+    take_number(r, at, "height", 0.01, 1000.0, &group->height);
+    take_number(r, at, "speed", 0.0, 1000.0, &group->speed);
+    take_number(r, at, "priority", 0.0, 1.0, &group->priority);
+    group->spacing = 3.0f * group->radius;
+    take_number(r, at, "spacing", 0.01, 1000.0, &group->spacing);
+}
+
+static void take_vehicle(scenario_reader *r, const tl_json_place *at, tl_crowd_vehicle *vehicle)
+{
+    static const char *const known[] = { "from", "to", "start", "speed", "radius", "height", NULL };
+    if (!only_keys(r, at, known)) {
+        return;
+    }
+    vehicle->speed = 4.0f;
+    vehicle->radius = 1.0f;
+    vehicle->height = 1.5f;
+    take_point(r, at, "from", &vehicle->from);
+    take_point(r, at, "to", &vehicle->to);
+    take_number(r, at, "start", 0.0, 1e6, &vehicle->start);
+    take_number(r, at, "speed", 0.0, 1000.0, &vehicle->speed);
+    take_number(r, at, "radius", 0.01, 1000.0, &vehicle->radius);
+    take_number(r, at, "height", 0.01, 1000.0, &vehicle->height);
+}
+
+// Room for the items of a list; NULL and 0 for none. False: out of memory.
+static bool make_room(scenario_reader *r, const tl_json_place *root, const char *key, size_t size, void **items,
+                      tl_json_place *list, uint32_t *count)
+{
+    const size_t length = tl_json_list(&r->json, root, key, list);
+    *count = 0;
+    *items = length > 0 ? calloc(length, size) : NULL;
+    if (length > TL_NAV_CROWD_MAX_AGENTS || (length > 0 && *items == NULL)) {
+        tl_json_fail(&r->json, TL_ERR_LIMIT, root, key, "is longer than a crowd holds");
+        return false;
+    }
+    *count = (uint32_t)length;
+    return r->json.result == TL_OK;
+}
+
+static void take_scenario(scenario_reader *r, const tl_json_place *root, tl_crowd_scenario *s)
+{
+    static const char *const known[] = { "seconds", "step", "groups", "vehicles", NULL };
+    tl_json_place list, item;
+    void *items;
+    if (!only_keys(r, root, known)) {
+        return;
+    }
+    take_number(r, root, "seconds", 0.001, 1e6, &s->seconds);
+    take_number(r, root, "step", 0.001, 1.0, &s->step);
+    bool good = make_room(r, root, "groups", sizeof(*s->groups), &items, &list, &s->group_count);
+    s->groups = items;
+    uint64_t agents = 0;
+    for (uint32_t i = 0; good && i < s->group_count && tl_json_item(&r->json, &list, i, &item); ++i) {
+        take_group(r, &item, &s->groups[i]);
+        agents += s->groups[i].count;
+    }
+    good = good && make_room(r, root, "vehicles", sizeof(*s->vehicles), &items, &list, &s->vehicle_count);
+    s->vehicles = good ? items : NULL;
+    s->vehicle_count = good ? s->vehicle_count : 0;
+    for (uint32_t i = 0; good && i < s->vehicle_count && tl_json_item(&r->json, &list, i, &item); ++i) {
+        take_vehicle(r, &item, &s->vehicles[i]);
+    }
+    if (r->json.result == TL_OK && (agents == 0 || agents + s->vehicle_count > TL_NAV_CROWD_MAX_AGENTS)) {
+        tl_json_fail(&r->json, agents == 0 ? TL_ERR_FORMAT : TL_ERR_LIMIT, root, "groups",
+                     agents == 0 ? "is empty or missing" : "has more agents than a crowd holds");
+    }
+    s->agent_count = (uint32_t)agents;
+}
+
+tl_result tl_crowd_scenario_read(const char *path, const tl_pack_frame *frame, tl_crowd_scenario *scenario_out,
+                                 tl_io_error *error_out)
+{
+    memset(scenario_out, 0, sizeof(*scenario_out));
+    scenario_out->seconds = 60.0f;
+    scenario_out->step = 0.05f;
+    tl_file_map map;
+    const tl_result result = tl_file_read(path, (uint64_t)SCENARIO_MIB << 20, &map, error_out);
+    if (result != TL_OK) {
+        return result;
+    }
+    scenario_reader reader = { { TL_OK, path, error_out, "see talus crowd --help" }, frame };
+    tl_json_place root;
+    if (tl_json_load(&reader.json, map.bytes, map.size, &root) == TL_OK) {
+        take_scenario(&reader, &root, scenario_out);
+        json_decref(root.value);
+    }
+    tl_file_map_close(&map);
+    return reader.json.result;
+}
+
+void tl_crowd_scenario_free(tl_crowd_scenario *scenario)
+{
+    for (uint32_t i = 0; i < scenario->group_count; ++i) {
+        free(scenario->groups[i].goals);
+    }
+    free(scenario->groups);
+    free(scenario->vehicles);
+    memset(scenario, 0, sizeof(*scenario));
+}

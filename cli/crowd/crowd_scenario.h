@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// A scenario: who walks where, as JSON.
+//
+//   { "seconds": 40, "step": 0.05,
+//     "groups": [ { "name": "west", "count": 40, "at": [4, 0, 20], "goals": [[36, 0, 20]], "start": 2, "repeat": true,
+//                   "spacing": 0.9, "radius": 0.3, "height": 1.8, "speed": 1.4, "priority": 0.5 } ],
+//     "vehicles": [ { "from": [0, 0, 10], "to": [30, 0, 10], "start": 5, "speed": 4, "radius": 1, "height": 1.5 } ] }
+//
+// A group stands around "at", and each of its agents walks to all goals, one after the other. A vehicle drives straight
+// and evades nobody.
+
+#ifndef TALUS_CLI_CROWD_SCENARIO_H
+#define TALUS_CLI_CROWD_SCENARIO_H
+
+#include "io/files/io_error.h"
+
+#include <talus/pack.h>
+
+typedef struct tl_crowd_group {
+    char name[32];
+    tl_vec3 at;
+    tl_vec3 *goals; ///< [goal_count], at least one
+    uint32_t goal_count;
+    uint32_t count;
+    bool repeat;
+    float start;   ///< seconds: when it sets out
+    float spacing; ///< metres between those who stand beside one another at the start
+    float radius, height, speed, priority;
+} tl_crowd_group;
+
+typedef struct tl_crowd_vehicle {
+    tl_vec3 from, to;
+    float start, speed, radius, height;
+} tl_crowd_vehicle;
+
+typedef struct tl_crowd_scenario {
+    float seconds, step;
+    tl_crowd_group *groups;
+    uint32_t group_count;
+    tl_crowd_vehicle *vehicles;
+    uint32_t vehicle_count;
+    uint32_t agent_count; ///< of all groups
+} tl_crowd_scenario;
+
+/// Reads a scenario; its places are in the level's own coordinates, `frame` (may be NULL) brings them to the baked
+/// ones. TL_ERR_IO; TL_ERR_FORMAT with the place; TL_ERR_LIMIT: more agents than a crowd holds; TL_ERR_MEMORY. Free
+/// with tl_crowd_scenario_free in any case.
+tl_result tl_crowd_scenario_read(const char *path, const tl_pack_frame *frame, tl_crowd_scenario *scenario_out,
+                                 tl_io_error *error_out);
+void tl_crowd_scenario_free(tl_crowd_scenario *scenario);
+
+#endif

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+//
+// talus crowd: all arrive, the same bytes for any number of threads, films that say what the run did, and every fault
+// of a scenario named with its place.
+#include "cli_run.h"
+
+#include <math.h>
+
+static void write_level(void)
+{
+    cli_write_floor("floor.obj", 80, false);
+    cli_do(0, "bake floor.obj -o floor.talus");
+    cli_write_text("two.json", "{ \"seconds\": 60, \"groups\": ["
+                               " { \"name\": \"a\", \"count\": 12, \"at\": [4, 0, 20], \"goals\": [[16, 0, 20]] },"
+                               " { \"name\": \"b\", \"count\": 12, \"at\": [16, 0, 20], \"goals\": [[4, 0, 20]] } ] }");
+}
+
+static void test_all_arrive(void **state)
+{
+    (void)state;
+    write_level();
+    json_t *one = cli_json(0, "crowd floor.talus two.json --json --threads 1");
+    json_t *many = cli_json(0, "crowd floor.obj two.json --json --threads 3");
+    TEST_CHECK(cli_number(one, "agents") == 24 && cli_number(one, "arrived") == 24);
+    TEST_CHECK(cli_number(one, "unreachable") == 0 && cli_number(one, "off_mesh") == 0);
+    TEST_CHECK(cli_number(one, "last_arrived_after") >= cli_number(one, "half_arrived_after"));
+    // 12 m at 1.4 m/s at least, and the run ends with the last.
+    TEST_CHECK(cli_number(one, "half_arrived_after") > 7 && cli_number(one, "seconds") < 60);
+    TEST_CHECK(cli_number(one, "deepest_overlap") < 0.15);
+    assert_string_equal(json_string_value(json_object_get(one, "hash")),
+                        json_string_value(json_object_get(many, "hash")));
+    json_decref(one);
+    json_decref(many);
+}
+
+// A guard walks to and fro until the end, another group sets out late, a vehicle drives through.
+static void test_goals_and_vehicles(void **state)
+{
+    (void)state;
+    cli_write_text("guard.json",
+                   "{ \"seconds\": 40, \"groups\": ["
+                   " { \"at\": [4, 0, 10], \"goals\": [[9, 0, 10], [4, 0, 10]], \"repeat\": true, \"speed\": 2 },"
+                   " { \"count\": 3, \"at\": [4, 0, 30], \"goals\": [[9, 0, 30]], \"start\": 20 } ],"
+                   " \"vehicles\": [ { \"from\": [2, 0, 2], \"to\": [12, 0, 2], \"start\": 1, \"speed\": 5 } ] }");
+    cli_result lines = cli_expect(0, "crowd floor.talus guard.json -o - --every 1");
+    uint32_t frames = 0, turns = 0;
+    double last_x = 4.0, last_way = 1.0;
+    for (char *line = strtok(lines.out, "\n"); line != NULL; line = strtok(NULL, "\n"), ++frames) {
+        json_t *frame = json_loads(line, 0, NULL);
+        TEST_CHECK(frame != NULL && cli_number(frame, "t") == frames);
+        const json_t *places = json_object_get(frame, "places");
+        TEST_CHECK(json_array_size(places) == 5 && json_array_size(json_object_get(frame, "status")) == 5);
+        const double x = json_number_value(json_array_get(json_array_get(places, 0), 0));
+        if (x != last_x && (x > last_x) != (last_way > 0)) {
+            ++turns;
+            last_way = -last_way;
+        }
+        last_x = x;
+        const double late = json_number_value(json_array_get(json_array_get(places, 1), 0));
+        TEST_CHECK(frames >= 20 || fabs(late - 4.0) < 1.0); // it waits for its start
+        const double car = json_number_value(json_array_get(json_array_get(places, 4), 0));
+        const double wanted = frames <= 1 ? 2.0 : frames >= 3 ? 12.0 : 7.0;
+        TEST_CHECK(fabs(car - wanted) < 0.3); // a step late: where it was in the step before
+        json_decref(frame);
+    }
+    TEST_CHECK(frames == 41 && turns >= 8);
+    cli_free(&lines);
+}
+
+static void test_films(void **state)
+{
+    (void)state;
+    cli_do(0, "crowd floor.talus two.json -o film.svg");
+    size_t size;
+    char *svg = cli_read_file("film.svg", &size);
+    uint32_t circles = 0, motions = 0;
+    for (const char *at = svg; (at = strstr(at, "<circle")) != NULL; ++at) {
+        ++circles;
+    }
+    for (const char *at = svg; (at = strstr(at, "<animate ")) != NULL; ++at) {
+        ++motions;
+    }
+    TEST_CHECK(circles == 24 && motions == 48 && strstr(svg, "</svg>") != NULL);
+    TEST_CHECK(strstr(svg, "nan") == NULL && strstr(svg, "inf") == NULL);
+    free(svg);
+    cli_do(0, "crowd floor.talus two.json -o film.jsonl");
+    TEST_CHECK(cli_exists("film.jsonl"));
+}
+
+static void test_not_all_arrive(void **state)
+{
+    (void)state;
+    cli_write_text("short.json", "{\"seconds\": 1, \"groups\": [{\"at\": [4, 0, 20], \"goals\": [[16, 0, 20]]}]}");
+    json_t *outcome = cli_json(1, "crowd floor.talus short.json --json");
+    TEST_CHECK(cli_number(outcome, "arrived") == 0 && cli_number(outcome, "seconds") == 1);
+    json_decref(outcome);
+}
+
+static void test_faults(void **state)
+{
+    (void)state;
+    static const char *const faults[][2] = {
+        { "{\"groops\": []}", "groops is no key" },
+        { "{}", "groups is empty" },
+        { "{\"groups\": [{\"at\": [1, 2], \"goals\": [[9, 0, 9]]}]}", "groups[0].at is no place" },
+        { "{\"groups\": [{\"at\": [4, 0, 9]}]}", "groups[0].goals holds no place" },
+        { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 0, 9], 5]}]}", "groups[0].goals[1] is no place" },
+        { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 0, \"x\"]]}]}", "groups[0].goals[0] is no place" },
+        { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 0, 9]], \"radius\": -1}]}",
+          "groups[0].radius is no number" },
+        { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 0, 9]], \"count\": 0}]}", "groups[0].count" },
+        { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 0, 9]], \"count\": 99999}]}", "there is room for" },
+        { "{\"groups\": [{\"at\": [400, 0, 9], \"goals\": [[9, 0, 9]]}]}", "no navmesh within 2 m of its \"at\"" },
+        { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 90, 9]]}]}", "no navmesh within 2 m of its goals[0]" },
+        { "{\"step\": 2, \"groups\": []}", "step is no number from 0.001 to 1" },
+        { "{\"groups\": [], \"vehicles\": [{\"from\": [0, 0, 0]}]}", "vehicles[0].to is no place" },
+        { "{\"groups\": [", "cut short" },
+    };
+    for (size_t i = 0; i < sizeof(faults) / sizeof(faults[0]); ++i) {
+        cli_write_text("fault.json", faults[i][0]);
+        cli_check_error(3, "crowd floor.talus fault.json -o fault.svg", faults[i][1], "");
+        TEST_CHECK(!cli_exists("fault.svg"));
+    }
+    cli_check_error(4, "crowd floor.talus no.json", "no.json", "check the path");
+    cli_check_error(2, "crowd floor.talus", "SCENARIO", "");
+    cli_check_error(2, "crowd floor.talus two.json -o film.png", "film.png", ".svg");
+    cli_check_error(4, "crowd floor.talus two.json -o no/such/film.svg", "no/such", ";");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_all_arrive), cmocka_unit_test(test_goals_and_vehicles),
+        cmocka_unit_test(test_films),      cmocka_unit_test(test_not_all_arrive),
+        cmocka_unit_test(test_faults),
+    };
+    return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
+}
