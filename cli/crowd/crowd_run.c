@@ -361,7 +361,7 @@ static bool run_steps(crowd_run *run, tl_exit *exit_out)
     return true;
 }
 
-static int compare_floats(const void *a, const void *b)
+static int compare_times(const void *a, const void *b)
 {
     const float x = *(const float *)a, y = *(const float *)b;
     return (x > y) - (x < y);
@@ -385,7 +385,7 @@ static bool sum_up(const crowd_run *run, tl_exit *exit_out)
             times[arrived++] = run->walkers[i].done_at;
         }
     }
-    qsort(times, arrived, sizeof(*times), compare_floats);
+    qsort(times, arrived, sizeof(*times), compare_times);
     outcome->half = arrived > 0 ? times[(arrived - 1) / 2] : 0.0f;
     outcome->last = arrived > 0 ? times[arrived - 1] : 0.0f;
     outcome->hash = tl_nav_crowd_hash(run->crowd);
