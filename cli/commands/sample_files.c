@@ -110,7 +110,7 @@ tl_exit tl_sample_files_write(tl_cli *cli, const char *output, uint64_t triangle
     if (tl_folder_make(output, &error) != TL_OK) {
         return tl_cli_fail_io(cli, &error);
     }
-    const double side = ceil(sqrt((double)triangles / TL_SAMPLE_PART_TRIANGLES));
+    const double side = ceil(sqrt((double)triangles / (double)TL_SAMPLE_PART_TRIANGLES));
     files_out->parts_x = side > 1.0 ? (uint32_t)side : 1;
     uint64_t parts = 0;
     tl_exit code = TL_EXIT_OK;

@@ -53,8 +53,8 @@ static block_place place_block(uint64_t seed, int64_t x, int64_t z)
     tl_sample_random random = tl_sample_random_make(seed ^ 0x776f726c64u, (uint64_t)x, (uint64_t)z);
     const uint32_t draw = tl_sample_random_below(&random, 4);
     block_place place = { seed, x, z, draw == 0 ? LAND_TOWN : draw == 1 ? LAND_CAVES : LAND_WILD, 0.0f };
-    place.level =
-        (float)wild_height(seed, (double)x * LAND_BLOCK + 0.5 * LAND_BLOCK, (double)z * LAND_BLOCK + 0.5 * LAND_BLOCK);
+    const double block = LAND_BLOCK;
+    place.level = (float)wild_height(seed, ((double)x + 0.5) * block, ((double)z + 0.5) * block);
     return place;
 }
 
@@ -62,9 +62,10 @@ static block_place place_block(uint64_t seed, int64_t x, int64_t z)
 // beside.
 static float ground(const block_place *place, float x, float z)
 {
-    const double half = 0.5 * LAND_BLOCK, wide = fmax(fabs((double)x - half), fabs((double)z - half)) / half;
+    const double block = LAND_BLOCK, half = 0.5 * block,
+                 wide = fmax(fabs((double)x - half), fabs((double)z - half)) / half;
     const double wild =
-        wild_height(place->seed, (double)place->x * LAND_BLOCK + (double)x, (double)place->z * LAND_BLOCK + (double)z);
+        wild_height(place->seed, (double)place->x * block + (double)x, (double)place->z * block + (double)z);
     const double flat = place->kind != LAND_TOWN || wide >= 1.0 ? 0.0 : wide < 0.7 ? 1.0 : (1.0 - wide) / 0.3;
     return (float)(wild + flat * flat * (3.0 - 2.0 * flat) * ((double)place->level - wild));
 }
@@ -89,7 +90,7 @@ static void add_land(tl_sample_mesh *mesh, const block_place *place)
 // A strip of quads a hand above the land, from edge to edge through the middle.
 static void add_road(tl_sample_mesh *mesh, const block_place *place, bool along_x)
 {
-    const float middle = 0.5f * LAND_BLOCK, half = 3.0f;
+    const float middle = 0.5f * (float)LAND_BLOCK, half = 3.0f;
     uint32_t before[2] = { 0, 0 };
     for (int i = 0; i <= LAND_BLOCK / LAND_ROAD_STEP; i++) {
         const float t = (float)(i * LAND_ROAD_STEP);

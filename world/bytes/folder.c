@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-#define _XOPEN_SOURCE 700
+#define _XOPEN_SOURCE     700
+#define _FILE_OFFSET_BITS 64 // 32-bit machines too know files of more than 2 GB, and folders with large numbers
 #ifdef __APPLE__
 #define _DARWIN_C_SOURCE // for st_mtimespec
 #endif

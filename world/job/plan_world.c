@@ -292,7 +292,7 @@ static tl_result make_tiles(planning *job)
     for (uint64_t i = 0; i < sums->count; i++) {
         const tl_world_tile_sum *row = &sums->rows[i];
         tl_world_tile tile = { row->tile % grid->tiles_x, row->tile / grid->tiles_x, row->triangles, 0, { 0, 0 } };
-        const double cost = side * side + COLUMNS_A_TRIANGLE * (double)row->triangles;
+        const double cost = side * side + (double)COLUMNS_A_TRIANGLE * (double)row->triangles;
         tile.cost = cost < 4e9 ? (uint32_t)cost : UINT32_C(4000000000);
         tile.key = tl_world_tile_key(settings, &tile, row->sum);
         job->plan.tiles[i] = tile;
