@@ -21,24 +21,6 @@ typedef struct scenario_reader {
     const tl_pack_frame *frame;
 } scenario_reader;
 
-static bool only_keys(scenario_reader *r, const tl_json_place *at, const char *const *known)
-{
-    const char *key;
-    json_t *value;
-    json_object_foreach(at->value, key, value)
-    {
-        const char *const *word = known;
-        while (*word != NULL && strcmp(*word, key) != 0) {
-            ++word;
-        }
-        if (*word == NULL) {
-            tl_json_fail(&r->json, TL_ERR_FORMAT, at, key, "is no key that is known");
-            return false;
-        }
-    }
-    return true;
-}
-
 // Leaves `value` as it is where the key is not there.
 static void take_number(scenario_reader *r, const tl_json_place *at, const char *key, double low, double high,
                         float *value)
@@ -104,7 +86,7 @@ static void take_group(scenario_reader *r, const tl_json_place *at, tl_crowd_gro
 {
     static const char *const known[] = { "name",    "count",  "at",     "goals", "start",    "repeat",
                                          "spacing", "radius", "height", "speed", "priority", NULL };
-    if (!only_keys(r, at, known)) {
+    if (!tl_json_keys_are_known(&r->json, at, known)) {
         return;
     }
     const tl_nav_agent_def def = tl_default_nav_agent_def();
@@ -134,7 +116,7 @@ static void take_group(scenario_reader *r, const tl_json_place *at, tl_crowd_gro
 static void take_vehicle(scenario_reader *r, const tl_json_place *at, tl_crowd_vehicle *vehicle)
 {
     static const char *const known[] = { "from", "to", "start", "speed", "radius", "height", NULL };
-    if (!only_keys(r, at, known)) {
+    if (!tl_json_keys_are_known(&r->json, at, known)) {
         return;
     }
     vehicle->speed = 4.0f;
@@ -168,7 +150,7 @@ static void take_scenario(scenario_reader *r, const tl_json_place *root, tl_crow
     static const char *const known[] = { "seconds", "step", "groups", "vehicles", NULL };
     tl_json_place list, item;
     void *items;
-    if (!only_keys(r, root, known)) {
+    if (!tl_json_keys_are_known(&r->json, root, known)) {
         return;
     }
     take_number(r, root, "seconds", 0.001, 1e6, &s->seconds);

@@ -80,6 +80,24 @@ tl_result tl_json_load(tl_json_reader *json, const void *text, size_t length, tl
     }
 }
 
+bool tl_json_keys_are_known(tl_json_reader *json, const tl_json_place *at, const char *const *known)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach(at->value, key, value)
+    {
+        const char *const *word = known;
+        while (*word != NULL && strcmp(*word, key) != 0) {
+            word++;
+        }
+        if (*word == NULL) {
+            tl_json_fail(json, TL_ERR_FORMAT, at, key, "is no key that is known");
+            return false;
+        }
+    }
+    return true;
+}
+
 // The value of a key, or NULL; also after an error.
 static json_t *find_value(const tl_json_reader *json, const tl_json_place *at, const char *key)
 {

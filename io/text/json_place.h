@@ -39,6 +39,9 @@ tl_result tl_json_load(tl_json_reader *json, const void *text, size_t length, tl
 tl_result tl_json_fail(tl_json_reader *json, tl_result result, const tl_json_place *at, const char *key,
                        const char *what);
 
+/// Whether each key of the object is one of `known`, a list that ends with NULL; the first that is not is an error.
+bool tl_json_keys_are_known(tl_json_reader *json, const tl_json_place *at, const char *const *known);
+
 /// Whether the object `key` is there; anything else of this name is an error.
 bool tl_json_object(tl_json_reader *json, const tl_json_place *at, const char *key, tl_json_place *out);
 

@@ -14,24 +14,6 @@
 
 enum { MANIFEST_MIB = 1024 };
 
-static bool keys_are_known(tl_json_reader *json, const tl_json_place *at, const char *const *known)
-{
-    const char *key;
-    json_t *value;
-    json_object_foreach(at->value, key, value)
-    {
-        const char *const *word = known;
-        while (*word != NULL && strcmp(*word, key) != 0) {
-            word++;
-        }
-        if (*word == NULL) {
-            tl_json_fail(json, TL_ERR_FORMAT, at, key, "is no key that is known");
-            return false;
-        }
-    }
-    return true;
-}
-
 static bool take_area(tl_json_reader *json, const tl_json_place *at, const char *key, const json_t *value,
                       uint8_t *area)
 {
@@ -123,7 +105,7 @@ static bool take_axes(tl_json_reader *json, const tl_json_place *at, tl_world_in
 static bool take_input(tl_json_reader *json, const tl_json_place *at, const char *path, tl_world_input *input)
 {
     static const char *const known[] = { "file", "matrix", "translate", "up", "scale", "area", "areas", NULL };
-    if (!keys_are_known(json, at, known)) {
+    if (!tl_json_keys_are_known(json, at, known)) {
         return false;
     }
     const char *file = tl_json_string(json, at, "file");
@@ -146,7 +128,7 @@ static void take_inputs(tl_json_reader *json, const tl_json_place *root, const t
 {
     static const char *const known[] = { "inputs", NULL };
     tl_json_place list, item;
-    if (!keys_are_known(json, root, known)) {
+    if (!tl_json_keys_are_known(json, root, known)) {
         return;
     }
     const size_t count = tl_json_list(json, root, "inputs", &list);
