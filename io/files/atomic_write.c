@@ -133,7 +133,7 @@ uint64_t tl_atomic_file_size(const tl_atomic_file *file)
     return file->size;
 }
 
-tl_result tl_atomic_write(const char *path, const void *bytes, size_t size, tl_io_error *error_out)
+static tl_result write_whole(const char *path, const void *bytes, size_t size, bool flush, tl_io_error *error_out)
 {
     tl_atomic_file *file;
     tl_result result = tl_atomic_file_open(path, &file, error_out);
@@ -145,5 +145,15 @@ tl_result tl_atomic_write(const char *path, const void *bytes, size_t size, tl_i
         tl_atomic_file_abort(file);
         return result;
     }
-    return tl_atomic_file_commit(file, error_out);
+    return put_in_place(file, flush, error_out);
+}
+
+tl_result tl_atomic_write(const char *path, const void *bytes, size_t size, tl_io_error *error_out)
+{
+    return write_whole(path, bytes, size, true, error_out);
+}
+
+tl_result tl_atomic_write_unflushed(const char *path, const void *bytes, size_t size, tl_io_error *error_out)
+{
+    return write_whole(path, bytes, size, false, error_out);
 }

@@ -49,6 +49,9 @@ uint64_t tl_atomic_file_size(const tl_atomic_file *file);
 /// All in one call.
 tl_result tl_atomic_write(const char *path, const void *bytes, size_t size, tl_io_error *error_out);
 
+/// All in one call, with tl_atomic_file_commit_unflushed.
+tl_result tl_atomic_write_unflushed(const char *path, const void *bytes, size_t size, tl_io_error *error_out);
+
 #ifdef __cplusplus
 }
 #endif

@@ -56,7 +56,6 @@ tl_result tl_world_tile_write(const char *path, const tl_world_tile *tile, const
         size += (size_t)stack->tiles[i]->blob.size;
     }
     unsigned char *bytes = calloc(1, size);
-    tl_atomic_file *file;
     if (bytes == NULL) {
         return tl_io_fail(error_out, TL_ERR_MEMORY, path, 0, "", "out of memory");
     }
@@ -64,15 +63,7 @@ tl_result tl_world_tile_write(const char *path, const tl_world_tile *tile, const
     if (result != TL_OK) {
         result = tl_io_fail(error_out, result, path, 0, "", "cannot be turned to the file's byte order");
     } else {
-        result = tl_atomic_file_open(path, &file, error_out);
-    }
-    if (result == TL_OK) {
-        result = tl_atomic_file_write(file, bytes, size, error_out);
-        if (result == TL_OK) {
-            result = tl_atomic_file_commit_unflushed(file, error_out);
-        } else {
-            tl_atomic_file_abort(file);
-        }
+        result = tl_atomic_write_unflushed(path, bytes, size, error_out);
     }
     free(bytes);
     return result;

@@ -190,7 +190,6 @@ static tl_result save_sums(const char *path, const tl_world_tile_sums *sums, tl_
 {
     const size_t size = SUMS_HEAD + (size_t)sums->count * SUM_BYTES + 8;
     unsigned char *bytes = malloc(size);
-    tl_atomic_file *file;
     if (bytes == NULL) {
         return tl_io_fail(error_out, TL_ERR_MEMORY, path, 0, "", "out of memory");
     }
@@ -204,15 +203,7 @@ static tl_result save_sums(const char *path, const tl_world_tile_sums *sums, tl_
         tl_put_u64(at + 16, sums->rows[i].sum.high);
     }
     tl_put_u64(bytes + size - 8, tl_content_checksum(bytes, size - 8));
-    tl_result result = tl_atomic_file_open(path, &file, error_out);
-    if (result == TL_OK) {
-        result = tl_atomic_file_write(file, bytes, size, error_out);
-        if (result == TL_OK) {
-            result = tl_atomic_file_commit_unflushed(file, error_out);
-        } else {
-            tl_atomic_file_abort(file);
-        }
-    }
+    const tl_result result = tl_atomic_write_unflushed(path, bytes, size, error_out);
     free(bytes);
     return result;
 }
