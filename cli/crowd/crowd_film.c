@@ -5,6 +5,8 @@
 
 #include "cli/crowd/crowd_film.h"
 
+#include "cli/level/navmesh_query.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -96,23 +98,10 @@ static void add_everybody(tl_text *text, const tl_crowd_film *film, const tl_cro
     }
 }
 
-static tl_aabb bounds_of_tiles(const tl_navmesh *navmesh)
-{
-    tl_aabb bounds = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
-    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); ++slot) {
-        const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
-        if (tile != NULL) {
-            bounds.min = tl_min(bounds.min, tile->bounds.min);
-            bounds.max = tl_max(bounds.max, tile->bounds.max);
-        }
-    }
-    return bounds;
-}
-
 void tl_crowd_film_add_svg(const tl_crowd_film *film, const tl_crowd_scenario *scenario, const tl_navmesh *navmesh,
                            tl_text *text)
 {
-    const tl_aabb bounds = bounds_of_tiles(navmesh);
+    const tl_aabb bounds = tl_navmesh_bounds(navmesh);
     const float margin = 1.0f, width = bounds.max.x - bounds.min.x, depth = bounds.max.z - bounds.min.z;
     tl_text_add(text, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"");
     add_number(text, bounds.min.x - margin);

@@ -5,11 +5,12 @@
 
 #include "cli/crowd/crowd_run.h"
 
+#include "cli/shared/progress.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { TRIES_A_PLACE = 64 };
 
@@ -35,13 +36,6 @@ typedef struct crowd_run {
     tl_crowd_outcome *outcome;
     uint32_t *order; // of the film's people, by x
 } crowd_run;
-
-static double now_seconds(void)
-{
-    struct timespec time;
-    timespec_get(&time, TIME_UTC);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static bool locate(const crowd_run *run, tl_vec3 point, uint32_t group, const char *what, tl_nav_location *location,
                    tl_exit *exit_out)
@@ -324,9 +318,9 @@ static bool step_once(const crowd_run *run, float time)
         const tl_vec3 place = vehicle_place(&s->vehicles[i], time, &velocity);
         tl_nav_crowd_set_motion(run->crowd, run->vehicles[i], place, velocity);
     }
-    const double begin = now_seconds();
+    const double begin = tl_clock_seconds();
     tl_nav_crowd_step(run->crowd, run->navmesh, s->step, NULL);
-    run->outcome->compute_seconds += now_seconds() - begin;
+    run->outcome->compute_seconds += tl_clock_seconds() - begin;
     run->outcome->agent_steps += s->agent_count;
     return is_over;
 }

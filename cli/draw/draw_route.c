@@ -6,6 +6,7 @@
 
 #include "cli/draw/draw_stage.h"
 #include "cli/level/agent_route.h"
+#include "cli/level/navmesh_query.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -68,11 +69,7 @@ static tl_result find_given_route(const tl_navmesh *navmesh, const draw_route_en
 static tl_result find_longest_route(const draw_source *source, draw_route *route)
 {
     const tl_navmesh *navmesh = source->input.navmesh;
-    tl_aabb bounds = tl_aabb_empty();
-    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
-        const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
-        bounds = tile != NULL ? tl_aabb_union(bounds, tile->bounds) : bounds;
-    }
+    const tl_aabb bounds = tl_navmesh_bounds(navmesh);
     tl_vec3 size = tl_aabb_size(bounds);
     float longest = -1.0f;
     int best = 0;

@@ -28,3 +28,13 @@ tl_nav_query_def tl_whole_query_def(const tl_navmesh *navmesh)
     def.max_nodes = nodes < UINT32_MAX ? (uint32_t)nodes : UINT32_MAX;
     return def;
 }
+
+tl_aabb tl_navmesh_bounds(const tl_navmesh *navmesh)
+{
+    tl_aabb bounds = tl_aabb_empty();
+    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
+        const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
+        bounds = tile != NULL ? tl_aabb_union(bounds, tile->bounds) : bounds;
+    }
+    return bounds;
+}

@@ -16,4 +16,7 @@ bool tl_extents_read(tl_cli *cli, const char *text, tl_vec3 *extents, tl_exit *e
 /// Nodes for every link there is, so that no search gives up.
 tl_nav_query_def tl_whole_query_def(const tl_navmesh *navmesh);
 
+/// Around all tiles; tl_aabb_empty() without tiles.
+tl_aabb tl_navmesh_bounds(const tl_navmesh *navmesh);
+
 #endif
