@@ -46,27 +46,16 @@ static void test_courtyard(void **state)
     cli_free(&text);
 }
 
-static void check_same(const char *a, const char *b)
-{
-    size_t a_size, b_size;
-    char *a_bytes = cli_read_file(a, &a_size);
-    char *b_bytes = cli_read_file(b, &b_size);
-    assert_int_equal(a_size, b_size);
-    assert_memory_equal(a_bytes, b_bytes, a_size);
-    free(a_bytes);
-    free(b_bytes);
-}
-
 static void test_same_bytes(void **state)
 {
     (void)state;
     cli_do(0, "sample dungeon -n 12000 -o level.obj");
     cli_do(0, "bake level.obj -o one.talus --threads 1");
     cli_do(0, "bake ./level.obj -o two.talus --threads 2");
-    check_same("one.talus", "two.talus");
+    cli_check_same_files("one.talus", "two.talus");
     cli_do(0, "bake level.obj -o one.talus --threads 1 --tile-size 48");
     cli_do(0, "bake level.obj -o two.talus --threads 3 --tile-size 48");
-    check_same("one.talus", "two.talus");
+    cli_check_same_files("one.talus", "two.talus");
     cli_do(0, "check one.talus");
     json_t *info = cli_json(0, "info one.talus --json");
     TEST_CHECK(cli_number(info, "navmesh.tiles") > 20);

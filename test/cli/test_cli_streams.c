@@ -12,15 +12,6 @@ static int shell(const char *line)
     return WIFEXITED(status) ? WEXITSTATUS(status) : 256;
 }
 
-static void check_same_files(const char *a, const char *b)
-{
-    size_t a_size, b_size;
-    char *a_text = cli_read_file(a, &a_size), *b_text = cli_read_file(b, &b_size);
-    TEST_CHECK(a_size > 0 && a_size == b_size && memcmp(a_text, b_text, a_size) == 0);
-    free(a_text);
-    free(b_text);
-}
-
 static void test_baked_and_level_by_pipe(void **state)
 {
     (void)state;
@@ -28,11 +19,11 @@ static void test_baked_and_level_by_pipe(void **state)
     cli_do(0, "bake level.obj -o level.talus");
     assert_int_equal(shell("$T ray level.talus -3,1,0 1,0,0 > expected.txt"), 0);
     assert_int_equal(shell("$T bake level.obj -o - | $T ray - -3,1,0 1,0,0 > got.txt"), 0);
-    check_same_files("expected.txt", "got.txt");
+    cli_check_same_files("expected.txt", "got.txt");
     assert_int_equal(shell("cat level.obj | $T ray - -3,1,0 1,0,0 > got.txt"), 0);
-    check_same_files("expected.txt", "got.txt");
+    cli_check_same_files("expected.txt", "got.txt");
     assert_int_equal(shell("$T ray - -3,1,0 1,0,0 < level.talus > got.txt"), 0);
-    check_same_files("expected.txt", "got.txt");
+    cli_check_same_files("expected.txt", "got.txt");
     assert_int_equal(shell("cat level.talus | $T path - -3,0,-1 -3,0,2"), 0);
     assert_int_equal(shell("cat level.talus | $T check -"), 0);
     assert_int_equal(shell("cat level.talus | $T info - > got.txt"), 0);

@@ -7,17 +7,6 @@
 #include <dirent.h>
 #include <sys/resource.h>
 
-static void check_same(const char *a, const char *b)
-{
-    size_t a_size, b_size;
-    char *a_bytes = cli_read_file(a, &a_size);
-    char *b_bytes = cli_read_file(b, &b_size);
-    assert_int_equal(a_size, b_size);
-    assert_memory_equal(a_bytes, b_bytes, a_size);
-    free(a_bytes);
-    free(b_bytes);
-}
-
 static void shell(const char *line)
 {
     if (system(line) != 0) {
@@ -74,7 +63,7 @@ static void test_same_as_plain_bake(void **state)
         cli_do(0, line);
         cli_do(0, "world bake job");
         cli_do(0, "world merge job -o world.talus");
-        check_same("plain.talus", "world.talus");
+        cli_check_same_files("plain.talus", "world.talus");
         cli_do(0, "world check world.talus");
         cli_do(0, "check world.talus");
     }
@@ -100,8 +89,8 @@ static void test_shards_and_threads(void **state)
         snprintf(line, sizeof line, "world merge job -o by_%d.talus", counts[c]);
         cli_do(0, line);
     }
-    check_same("by_1.talus", "by_3.talus");
-    check_same("by_1.talus", "by_7.talus");
+    cli_check_same_files("by_1.talus", "by_3.talus");
+    cli_check_same_files("by_1.talus", "by_7.talus");
 }
 
 // The faces of an OBJ in the opposite order, in two files whose vertices are the same.
@@ -140,7 +129,7 @@ static void test_order_of_inputs(void **state)
     cli_do(0, "world plan parts/world.json -o shared --tile-size 64 --threads 1");
     TEST_CHECK(baked_now("world bake shared --json") == keys[0]);
     cli_do(0, "world merge shared -o fresh.talus");
-    check_same("parts.talus", "fresh.talus");
+    cli_check_same_files("parts.talus", "fresh.talus");
     // META counts the vertices of all files, which are there twice; the tiles are the same.
     cli_do(0, "world check whole.talus");
     size_t a_size, b_size;
@@ -218,7 +207,7 @@ static void test_kills(void **state)
     TEST_CHECK(baked_now("world bake often --json") == tiles - there);
     cli_do(0, "world status often");
     cli_do(0, "world merge often -o often.talus");
-    check_same("once.talus", "often.talus");
+    cli_check_same_files("once.talus", "often.talus");
 }
 
 // Two processes bake all tiles at the same time.
@@ -231,7 +220,7 @@ static void test_race(void **state)
     assert_int_equal(cli_wait(a), 0);
     assert_int_equal(cli_wait(b), 0);
     cli_do(0, "world merge raced -o raced.talus");
-    check_same("once.talus", "raced.talus");
+    cli_check_same_files("once.talus", "raced.talus");
     shell("test -z \"$(find raced -name '.talus*')\""); // nothing half written is left
 }
 
@@ -281,7 +270,7 @@ static void test_moved_building(void **state)
     cli_do(0, "world plan town.json -o fresh_town --tile-size 64");
     cli_do(0, "world bake fresh_town");
     cli_do(0, "world merge fresh_town -o fresh_town.talus");
-    check_same("moved.talus", "fresh_town.talus");
+    cli_check_same_files("moved.talus", "fresh_town.talus");
     write_town(10); // back: all of it is there
     cli_do(0, "world plan town.json -o town --tile-size 64");
     TEST_CHECK(baked_now("world bake town --json") == 0);
@@ -310,7 +299,7 @@ static void test_tile_faults(void **state)
     assert_int_equal(truncate(path, 50), 0); // what a loss of power leaves counts as missing
     TEST_CHECK(baked_now("world bake faults --json") == 1);
     cli_do(0, "world merge faults -o faults.talus");
-    check_same("whole.talus", "faults.talus");
+    cli_check_same_files("whole.talus", "faults.talus");
     damage("faults.talus", false);
     cli_check_error(3, "world check faults.talus", "faults.talus", "chunk");
 }
@@ -388,7 +377,7 @@ static void test_full_disk(void **state)
     cli_check_error(4, "world merge full -o /dev/full", "/dev/full", "cannot write");
     cli_do(0, "world merge full -o full.talus");
     cli_do(0, "bake full.obj --no-soup --tile-size 64 -o plain.talus");
-    check_same("plain.talus", "full.talus");
+    cli_check_same_files("plain.talus", "full.talus");
 }
 
 // The schedulers' variables, as the processes of a job see them.

@@ -62,6 +62,19 @@ static inline void cli_write_text(const char *path, const char *text)
     cli_write_file(path, text, strlen(text));
 }
 
+/// Fails unless the two files hold the same bytes, and some.
+static inline void cli_check_same_files(const char *a, const char *b)
+{
+    size_t a_size, b_size;
+    char *a_bytes = cli_read_file(a, &a_size);
+    char *b_bytes = cli_read_file(b, &b_size);
+    assert_true(a_size > 0);
+    assert_int_equal(a_size, b_size);
+    assert_memory_equal(a_bytes, b_bytes, a_size);
+    free(a_bytes);
+    free(b_bytes);
+}
+
 static inline bool cli_exists(const char *path)
 {
     struct stat status;
