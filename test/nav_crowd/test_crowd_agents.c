@@ -10,15 +10,6 @@
 
 #define DT 0.05f
 
-static tl_nav_crowd *make_crowd(uint32_t max_agents)
-{
-    tl_nav_crowd_def def = tl_default_nav_crowd_def();
-    tl_nav_crowd *crowd = NULL;
-    def.max_agents = max_agents;
-    TEST_RESULT(tl_nav_crowd_create(&def, &crowd, NULL), TL_OK);
-    return crowd;
-}
-
 static tl_nav_agent_state look(const tl_nav_crowd *crowd, tl_nav_agent agent)
 {
     tl_nav_agent_state state;
@@ -39,7 +30,7 @@ static void test_come_and_go(void **state)
     (void)state;
     enum { COUNT = 40 };
     tl_navmesh *navmesh = crowd_open_floor(15.0f, 15.0f);
-    tl_nav_crowd *crowd = make_crowd(COUNT);
+    tl_nav_crowd *crowd = crowd_make(COUNT);
     tl_nav_agent agents[COUNT], gone[200];
     uint32_t gone_count = 0;
     test_random random = { 8 };
@@ -90,7 +81,7 @@ static void test_head_on(void **state)
 {
     (void)state;
     tl_navmesh *navmesh = crowd_open_floor(12.0f, 12.0f);
-    tl_nav_crowd *crowd = make_crowd(2);
+    tl_nav_crowd *crowd = crowd_make(2);
     tl_nav_location west = crowd_place(navmesh, -10, 0, 0), east = crowd_place(navmesh, 10, 0, 0);
     tl_nav_agent a = crowd_send(crowd, navmesh, tl_default_nav_agent_def(), -10, 0, 0, &east);
     tl_nav_agent b = crowd_send(crowd, navmesh, tl_default_nav_agent_def(), 10, 0, 0, &west);
@@ -113,7 +104,7 @@ static void test_floors(void **state)
     tl_navmesh *navmesh = crowd_bake(&level, 0);
     uint64_t alone = 0;
     for (uint32_t run = 0; run < 2; run++) {
-        tl_nav_crowd *crowd = make_crowd(40);
+        tl_nav_crowd *crowd = crowd_make(40);
         tl_nav_agent last = TL_NAV_NO_AGENT;
         for (uint32_t i = 0; i < 20; i++) {
             tl_nav_location goal = crowd_place(navmesh, 9.0f, 0.0f, -9.0f + 0.9f * (float)i);
@@ -147,7 +138,7 @@ static void test_wide(void **state)
     audit_block(&level, -0.5f, -1, -13, 0.5f, 3, -2.0f); // a gap of 1 m at -1.5, and one of 3 m at the far end
     audit_block(&level, -0.5f, -1, -1.0f, 0.5f, 3, 9.0f);
     tl_navmesh *navmesh = crowd_bake(&level, 0);
-    tl_nav_crowd *crowd = make_crowd(30);
+    tl_nav_crowd *crowd = crowd_make(30);
     tl_nav_agent_def def = tl_default_nav_agent_def();
     uint32_t through_far_gap = 0;
     tl_nav_agent wide[10];
@@ -203,7 +194,7 @@ static void test_links(void **state)
     jump.end = tl_vec3_make(1.4f, 0, 0);
     jump.both_ways = true;
     TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &jump, &link, NULL), TL_OK);
-    tl_nav_crowd *crowd = make_crowd(20);
+    tl_nav_crowd *crowd = crowd_make(20);
     for (uint32_t i = 0; i < 12; i++) {
         float side = i % 3 == 0 ? -1.0f : 1.0f;
         tl_nav_location goal = crowd_place(navmesh, side * 6.0f, 0.0f, -5.0f + 0.9f * (float)i);
@@ -235,7 +226,7 @@ static void test_edits(void **state)
     memset(&level, 0, sizeof level);
     audit_floor(&level, -12, -3, 12, 3, 0.0f);
     tl_navmesh *navmesh = crowd_bake(&level, 60); // tiles of 6 m
-    tl_nav_crowd *crowd = make_crowd(4);
+    tl_nav_crowd *crowd = crowd_make(4);
     tl_nav_location goal = crowd_place(navmesh, 11, 0, 0);
     tl_nav_agent agent = crowd_send(crowd, navmesh, tl_default_nav_agent_def(), -11, 0, 0, &goal);
     TEST_CHECK(status_after(crowd, navmesh, agent, 20) == TL_NAV_AGENT_WALKING);
@@ -289,7 +280,7 @@ static void test_fixed(void **state)
 {
     (void)state;
     tl_navmesh *navmesh = crowd_open_floor(15.0f, 15.0f);
-    tl_nav_crowd *crowd = make_crowd(101);
+    tl_nav_crowd *crowd = crowd_make(101);
     for (uint32_t i = 0; i < 100; i++) {
         crowd_send(crowd, navmesh, tl_default_nav_agent_def(), -4.5f + (float)(i % 10), 0.0f, -4.5f + (float)(i / 10),
                    NULL);

@@ -6,15 +6,6 @@
 
 #define DT 0.05f
 
-static tl_nav_crowd *make_crowd(uint32_t max_agents)
-{
-    tl_nav_crowd_def def = tl_default_nav_crowd_def();
-    tl_nav_crowd *crowd = NULL;
-    def.max_agents = max_agents;
-    TEST_RESULT(tl_nav_crowd_create(&def, &crowd, NULL), TL_OK);
-    return crowd;
-}
-
 // Nobody off the mesh or in a wall; overlaps few and shallow: a fifth of a radius at most, and velocities steady.
 static void check_measure(const crowd_measure *m)
 {
@@ -28,7 +19,7 @@ static void test_circle(void **state)
     (void)state;
     enum { COUNT = 250 };
     tl_navmesh *navmesh = crowd_open_floor(45.0f, 45.0f);
-    tl_nav_crowd *crowd = make_crowd(COUNT);
+    tl_nav_crowd *crowd = crowd_make(COUNT);
     for (uint32_t i = 0; i < COUNT; i++) {
         double angle = 6.283185307179586 * i / COUNT;
         float x = (float)(40.0 * cos(angle)), z = (float)(40.0 * sin(angle));
@@ -47,7 +38,7 @@ static void test_circle(void **state)
 static void pass_door(float width, uint32_t count, uint32_t max_steps)
 {
     tl_navmesh *navmesh = crowd_door_world(width);
-    tl_nav_crowd *crowd = make_crowd(2 * count);
+    tl_nav_crowd *crowd = crowd_make(2 * count);
     for (uint32_t i = 0; i < 2 * count; i++) {
         float side = i % 2 == 0 ? 1.0f : -1.0f;
         float x = side * (5.0f + 1.2f * (float)(i / 2 / 10)), z = -9.0f + 2.0f * (float)(i / 2 % 10);
@@ -81,7 +72,7 @@ static void test_one_point(void **state)
     (void)state;
     enum { COUNT = 500 };
     tl_navmesh *navmesh = crowd_open_floor(40.0f, 40.0f);
-    tl_nav_crowd *crowd = make_crowd(COUNT);
+    tl_nav_crowd *crowd = crowd_make(COUNT);
     test_random random = { 5 };
     tl_nav_location goal = crowd_place(navmesh, 0.0f, 0.0f, 0.0f);
     for (uint32_t i = 0; i < COUNT; i++) {

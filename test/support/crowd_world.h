@@ -48,6 +48,15 @@ static inline tl_navmesh *crowd_door_world(float width)
     return crowd_bake(&level, 0);
 }
 
+static inline tl_nav_crowd *crowd_make(uint32_t max_agents)
+{
+    tl_nav_crowd_def def = tl_default_nav_crowd_def();
+    tl_nav_crowd *crowd = NULL;
+    def.max_agents = max_agents;
+    TEST_RESULT(tl_nav_crowd_create(&def, &crowd, NULL), TL_OK);
+    return crowd;
+}
+
 static inline tl_nav_location crowd_place(const tl_navmesh *navmesh, float x, float y, float z)
 {
     tl_nav_location at = { TL_NAV_NO_REF, { x, y, z } };
