@@ -7,6 +7,7 @@
 #   make amalgamation   the library as two files, build/amalgamation/talus.c and talus.h
 #   make package    the Debian packages, in build/package
 #   make rust-test  test the Rust crates (cargo)
+#   make csharp-test  test the C# binding under Mono, and make the Unity package
 #   make docs       the documentation site, in build/docs/html
 #   make viewer     set up, build the viewer's page, and serve it to the browser; talus view fills it with a level
 #   make bench      set up, build, and run every benchmark; make bench-rays runs one
@@ -30,7 +31,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench bench-simd bench-python bench-world sanitize tsan msan fuzz cross windows growth python-test docs amalgamation package rust-test format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
+.PHONY: all demo test benchmarks bench bench-simd bench-python bench-world sanitize tsan msan fuzz cross windows growth python-test docs amalgamation package rust-test csharp-test format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
 
 all:
 	tools/setup tools
@@ -147,6 +148,10 @@ package:
 rust-test:
 	tools/setup tools rust
 	tools/rust-test build/rust
+
+csharp-test:
+	tools/setup csharp
+	tools/csharp-test build/csharp
 
 format:
 	git ls-files '*.c' '*.h' '*.inl' '*.cpp' '*.hpp' | xargs clang-format -i
