@@ -8,6 +8,7 @@
 #   make package    the Debian packages, in build/package
 #   make rust-test  test the Rust crates (cargo)
 #   make csharp-test  test the C# binding under Mono, and make the Unity package
+#   make godot-test   build the extension for Godot 4, and test it in a stand-in for the engine
 #   make docs       the documentation site, in build/docs/html
 #   make viewer     set up, build the viewer's page, and serve it to the browser; talus view fills it with a level
 #   make bench      set up, build, and run every benchmark; make bench-rays runs one
@@ -31,7 +32,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench bench-simd bench-python bench-world sanitize tsan msan fuzz cross windows growth python-test docs amalgamation package rust-test csharp-test format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
+.PHONY: all demo test benchmarks bench bench-simd bench-python bench-world sanitize tsan msan fuzz cross windows growth python-test docs amalgamation package rust-test csharp-test godot-test format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
 
 all:
 	tools/setup tools
@@ -152,6 +153,10 @@ rust-test:
 csharp-test:
 	tools/setup csharp
 	tools/csharp-test build/csharp
+
+godot-test:
+	tools/setup godot
+	tools/godot-test build/godot
 
 format:
 	git ls-files '*.c' '*.h' '*.inl' '*.cpp' '*.hpp' | xargs clang-format -i
