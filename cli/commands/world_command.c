@@ -6,6 +6,7 @@
 #include "cli/options/parse_value.h"
 #include "cli/shared/command.h"
 #include "cli/shared/json_out.h"
+#include "cli/world/bake_shard.h"
 #include "world/job/merge_tiles.h"
 #include "world/job/plan_world.h"
 
@@ -117,74 +118,11 @@ static tl_exit run_plan(tl_cli *cli, world_options *options)
 
 // ---- bake, status ------------------------------------------------------------------------------------------
 
-static const char *look_up_environment(const char *name, void *user)
-{
-    (void)user;
-    return getenv(name);
-}
-
-static bool find_shard(tl_cli *cli, const world_options *options, tl_world_shard *shard, tl_exit *exit_out)
-{
-    tl_io_error error;
-    memset(&error, 0, sizeof error);
-    if (tl_world_shard_find(options->shard, options->shards, look_up_environment, NULL, shard, &error) != TL_OK) {
-        *exit_out = tl_cli_fail_io(cli, &error);
-        return false;
-    }
-    return true;
-}
-
-static json_t *shard_json(const tl_world_shard *shard)
-{
-    return json_pack("{si si so}", "number", (int)shard->index + 1, "of", (int)shard->count, "from",
-                     shard->source != NULL ? json_string(shard->source) : json_null());
-}
-
-static void print_shard(const tl_world_shard *shard)
-{
-    if (shard->source != NULL) {
-        printf("shard    %u of %u, says %s\n", shard->index + 1, shard->count, shard->source);
-    }
-}
-
 static tl_exit run_world_bake(tl_cli *cli, world_options *options)
 {
-    tl_world_bake_def def;
-    tl_world_bake_report report;
-    tl_io_error error;
-    tl_exit code;
-    memset(&def, 0, sizeof def);
-    memset(&error, 0, sizeof error);
-    if (!find_shard(cli, options, &def.shard, &code)) {
-        return code;
-    }
-    def.job = cli->arguments.words[1];
-    def.host = cli->host;
-    def.as_planned = options->as_planned;
-    def.fail = warn_of_tile;
-    def.user = cli;
-    const tl_result result = tl_world_bake(&def, &report, &error);
-    tl_progress_end(&cli->progress);
-    if (result != TL_OK && report.failed == 0) {
-        return tl_cli_fail_io(cli, &error);
-    }
-    code = TL_EXIT_OK;
-    if (cli->json) {
-        code = tl_cli_print_json(cli, json_pack("{so so sI sI sI sI sI sI}", "job", tl_json_text(def.job), "shard",
-                                                shard_json(&def.shard), "tiles", (json_int_t)report.tiles, "there",
-                                                (json_int_t)report.there, "baked", (json_int_t)report.baked, "failed",
-                                                (json_int_t)report.failed, "triangles", (json_int_t)report.triangles,
-                                                "bytes", (json_int_t)report.bytes));
-    } else {
-        print_shard(&def.shard);
-        printf("tiles    %llu: %llu were there, %llu baked now, %llu failed\n", (unsigned long long)report.tiles,
-               (unsigned long long)report.there, (unsigned long long)report.baked, (unsigned long long)report.failed);
-    }
-    if (report.failed > 0 && code == TL_EXIT_OK) {
-        code = tl_cli_fail(cli, tl_exit_of(error.result), "%s: %llu tiles failed; the others are done", def.job,
-                           (unsigned long long)report.failed);
-    }
-    return code;
+    const tl_world_bake_request request = { cli->arguments.words[1], options->shard, options->shards,
+                                            options->as_planned };
+    return tl_run_world_bake(cli, &request);
 }
 
 static tl_exit run_status(tl_cli *cli, world_options *options)
@@ -194,7 +132,7 @@ static tl_exit run_status(tl_cli *cli, world_options *options)
     tl_io_error error;
     tl_exit code;
     memset(&error, 0, sizeof error);
-    if (options->shard != NULL && !find_shard(cli, options, &shard, &code)) {
+    if (options->shard != NULL && !tl_find_world_shard(cli, options->shard, 0, false, &shard, &code)) {
         return code;
     }
     const char *job = cli->arguments.words[1];
@@ -204,8 +142,8 @@ static tl_exit run_status(tl_cli *cli, world_options *options)
     const bool complete = status.there == status.tiles;
     if (cli->json) {
         json_t *object =
-            json_pack("{so so sI sI so sI sI so sb}", "job", tl_json_text(job), "shard", shard_json(&shard), "inputs",
-                      (json_int_t)status.inputs, "triangles", (json_int_t)status.triangles, "grid",
+            json_pack("{so so sI sI so sI sI so sb}", "job", tl_json_text(job), "shard", tl_world_shard_json(&shard),
+                      "inputs", (json_int_t)status.inputs, "triangles", (json_int_t)status.triangles, "grid",
                       grid_json(status.tiles_x, status.tiles_z), "tiles", (json_int_t)status.tiles, "there",
                       (json_int_t)status.there, "cost_there",
                       tl_json_double(status.cost > 0 ? (double)status.cost_there / (double)status.cost : 1.0),
@@ -216,7 +154,7 @@ static tl_exit run_status(tl_cli *cli, world_options *options)
         code = tl_cli_print_json(cli, object);
         return code != TL_EXIT_OK || complete ? code : TL_EXIT_NEGATIVE;
     }
-    print_shard(&shard);
+    tl_print_world_shard(&shard);
     printf("inputs   %llu, %llu triangles\n", (unsigned long long)status.inputs, (unsigned long long)status.triangles);
     printf("tiles    %llu of %llu are there, about %.1f%% of the work\n", (unsigned long long)status.there,
            (unsigned long long)status.tiles, percent(status.cost_there, status.cost));
@@ -433,7 +371,8 @@ const tl_command tl_world_command = {
     "'talus bake --no-soup --tile-size' where that can run.\n"
     "\n"
     "The shard is taken from --shard, or from the variables of Slurm arrays, Open MPI, MPICH, Slurm steps,\n"
-    "Kubernetes indexed jobs and AWS Batch arrays. See docs/world.md for recipes.",
+    "Kubernetes indexed jobs and AWS Batch arrays. Under mpirun, where talus was built with MPI, the processes\n"
+    "share one list of tiles, and each takes the next when it is free. See docs/world.md for recipes.",
     "talus sample city --triangles 20000 -o city.obj\n"
     "talus world plan city.obj -o job --tile-size 64\n"
     "talus world bake job --shard 1/2\n"

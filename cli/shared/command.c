@@ -84,12 +84,22 @@ static bool hold_standard_input(tl_cli *cli, tl_exit *exit_out)
     return result == TL_OK;
 }
 
+// All processors; the processes that an mpirun starts on one machine share them.
+static uint32_t default_threads(void)
+{
+    const char *text = getenv("OMPI_COMM_WORLD_LOCAL_SIZE"); // Open MPI, and MPICH
+    text = text != NULL ? text : getenv("MPI_LOCALNRANKS");
+    const unsigned long processes = text != NULL ? strtoul(text, NULL, 10) : 1;
+    const uint32_t all = tl_online_processors();
+    return processes <= 1 ? all : processes >= all ? 1 : all / (uint32_t)processes;
+}
+
 bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t min_words, uint32_t max_words, tl_exit *exit_out)
 {
     static const char *const styles[] = { "auto", "none", "line", "json", NULL };
     int style = TL_PROGRESS_AUTO;
     bool help = false;
-    cli->threads = tl_online_processors();
+    cli->threads = default_threads();
     const tl_option common[] = {
         { "json", 0, TL_OPTION_FLAG, &cli->json, NULL, "print JSON; answers to lines of a file one object a line", NULL,
           0, 0, 0, 0 },

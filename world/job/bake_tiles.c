@@ -29,11 +29,12 @@ typedef struct bake_job {
     const tl_world_bake_def *def;
     tl_world_plan plan;
     tl_world_source source;
-    uint64_t *tiles; // of the shard
+    uint64_t *tiles; // of the shard, by falling cost
     uint64_t tile_count, first;
     bake_worker *workers;
     uint32_t worker_count;
-    bake_item *items; // of a batch
+    uint64_t *batch;  // the tiles of a batch, out of `tiles`
+    bake_item *items; // one for each
 } bake_job;
 
 tl_result tl_world_plan_of_job(const char *job, tl_world_plan *plan_out, tl_io_error *error_out)
@@ -105,7 +106,7 @@ static void bake_item_task(uint32_t index, uint32_t worker, void *user)
 {
     bake_job *job = user;
     bake_item *item = &job->items[index];
-    const uint64_t tile_index = job->tiles[job->first + index];
+    const uint64_t tile_index = job->batch[index];
     const tl_world_tile *tile = &job->plan.tiles[tile_index];
     memset(item, 0, sizeof *item);
     char *path = tl_world_tile_path(job->def->job, tile->key);
@@ -132,7 +133,7 @@ static void count_items(bake_job *job, uint32_t count, tl_world_bake_report *rep
         if (item->result == TL_OK) {
             report->there += item->was_there;
             report->baked += !item->was_there;
-            report->triangles += item->was_there ? 0 : job->plan.tiles[job->tiles[job->first + i]].triangles;
+            report->triangles += item->was_there ? 0 : job->plan.tiles[job->batch[i]].triangles;
             report->bytes += item->bytes;
             continue;
         }
@@ -147,14 +148,55 @@ static void count_items(bake_job *job, uint32_t count, tl_world_bake_report *rep
     }
 }
 
+static bool is_tile_there(const bake_job *job, uint64_t tile_index)
+{
+    const tl_world_tile *tile = &job->plan.tiles[tile_index];
+    char *path = tl_world_tile_path(job->def->job, tile->key);
+    const bool there = path != NULL && tl_world_tile_is_there(path, tile);
+    free(path);
+    return there;
+}
+
+// The next tiles: of a list whose tiles are all missing, or of the dealer's, where those that are there are counted.
+// Towards the end a dealer gives fewer at a time, so that no process waits long for the last. `*dealt_out`: how many
+// tiles of the list this was; 0: the list is at its end.
+static uint32_t next_batch(bake_job *job, tl_world_bake_report *report, uint64_t *dealt_out)
+{
+    const tl_world_dealer *dealer = job->def->dealer;
+    uint64_t wanted = (uint64_t)TILES_PER_WORKER * job->worker_count;
+    if (dealer != NULL) {
+        const uint64_t share = (job->tile_count - job->first) / (2 * (uint64_t)dealer->processes);
+        wanted = share < job->worker_count ? job->worker_count : share < wanted ? share : wanted;
+        job->first = dealer->take(wanted, dealer->user);
+    }
+    const uint64_t left = job->first < job->tile_count ? job->tile_count - job->first : 0;
+    const uint64_t dealt = left < wanted ? left : wanted;
+    uint32_t count = 0;
+    for (uint64_t i = 0; i < dealt; i++) {
+        const uint64_t tile = job->tiles[job->first + i];
+        if (dealer != NULL && is_tile_there(job, tile)) {
+            report->there++;
+        } else {
+            job->batch[count++] = tile;
+        }
+    }
+    job->first = dealt > 0 ? job->first + dealt : job->tile_count;
+    report->tiles += dealer != NULL ? dealt : 0;
+    *dealt_out = dealt;
+    return count;
+}
+
 static tl_result bake_all(bake_job *job, tl_world_bake_report *report, tl_io_error *error_out)
 {
     const tl_host *host = &job->def->host;
-    const uint32_t batch = TILES_PER_WORKER * job->worker_count;
+    const tl_world_dealer *dealer = job->def->dealer;
     tl_result first = TL_OK;
-    for (; job->first < job->tile_count; job->first += batch) {
-        const uint64_t left = job->tile_count - job->first;
-        const uint32_t count = left < batch ? (uint32_t)left : batch;
+    for (;;) {
+        uint64_t dealt;
+        const uint32_t count = next_batch(job, report, &dealt);
+        if (dealt == 0) {
+            return first;
+        }
         if (host->tasks != NULL) {
             host->tasks->run(bake_item_task, count, job, host->tasks->user);
         } else {
@@ -163,29 +205,32 @@ static tl_result bake_all(bake_job *job, tl_world_bake_report *report, tl_io_err
             }
         }
         count_items(job, count, report, &first, error_out);
-        if (host->progress != NULL &&
-            !host->progress->update("tiles", job->first + count, job->tile_count, host->progress->user)) {
+        const uint64_t done = dealer != NULL ? dealer->done(dealt, dealer->user) : job->first;
+        if (host->progress != NULL && !host->progress->update("tiles", done, job->tile_count, host->progress->user)) {
             return tl_io_fail(error_out, TL_ERR_CANCELLED, NULL, 0, "", "cancelled");
         }
     }
-    return first;
 }
 
-// Leaves only the tiles that are not there, so that a run with nothing to do opens no store.
-static void drop_tiles_there(bake_job *job, tl_world_bake_report *report)
+// Leaves only the tiles that are not there, so that a run with nothing to do opens no store. Those of a dealer are
+// numbers in the whole list, which stays: it is enough to know whether one is missing.
+static bool find_missing_tiles(bake_job *job, tl_world_bake_report *report)
 {
     uint64_t count = 0;
     for (uint64_t i = 0; i < job->tile_count; i++) {
-        const tl_world_tile *tile = &job->plan.tiles[job->tiles[i]];
-        char *path = tl_world_tile_path(job->def->job, tile->key);
-        if (path != NULL && tl_world_tile_is_there(path, tile)) {
-            report->there++;
-        } else {
+        const bool there = is_tile_there(job, job->tiles[i]);
+        if (!there && job->def->dealer != NULL) {
+            return true;
+        }
+        report->there += there && job->def->dealer == NULL;
+        if (!there) {
             job->tiles[count++] = job->tiles[i];
         }
-        free(path);
     }
-    job->tile_count = count;
+    if (job->def->dealer == NULL) {
+        job->tile_count = count;
+    }
+    return count > 0;
 }
 
 static tl_result bake_shard(bake_job *job, tl_world_bake_report *report, tl_io_error *error_out)
@@ -202,15 +247,15 @@ static tl_result bake_shard(bake_job *job, tl_world_bake_report *report, tl_io_e
     job->tiles = tl_world_shard_tiles(&job->plan, &def->shard, &job->tile_count);
     job->workers = calloc(job->worker_count, sizeof *job->workers);
     job->items = calloc((size_t)job->worker_count * TILES_PER_WORKER, sizeof *job->items);
-    if (job->tiles == NULL || job->workers == NULL || job->items == NULL) {
+    job->batch = calloc((size_t)job->worker_count * TILES_PER_WORKER, sizeof *job->batch);
+    if (job->tiles == NULL || job->workers == NULL || job->items == NULL || job->batch == NULL) {
         return tl_io_fail(error_out, TL_ERR_MEMORY, def->job, 0, "", "out of memory");
     }
-    report->tiles = job->tile_count;
-    drop_tiles_there(job, report);
-    if (job->tile_count == 0) {
-        return TL_OK;
+    report->tiles = def->dealer != NULL ? 0 : job->tile_count;
+    // A process that cannot open the store takes no tile: the others bake them.
+    if (find_missing_tiles(job, report)) {
+        result = tl_world_source_open(def->job, &job->plan, &job->source, error_out);
     }
-    result = tl_world_source_open(def->job, &job->plan, &job->source, error_out);
     return result == TL_OK ? bake_all(job, report, error_out) : result;
 }
 
@@ -226,6 +271,7 @@ tl_result tl_world_bake(const tl_world_bake_def *def, tl_world_bake_report *repo
     }
     free(job.workers);
     free(job.items);
+    free(job.batch);
     free(job.tiles);
     tl_world_source_close(&job.source);
     tl_world_plan_free(&job.plan);

@@ -8,7 +8,7 @@
 #include "world/job/shard.h"
 
 typedef struct tl_world_bake_report {
-    uint64_t tiles;     ///< of the shard
+    uint64_t tiles;     ///< of the shard; with a dealer, those that it dealt to this process
     uint64_t there;     ///< were there already
     uint64_t baked;     ///< now
     uint64_t failed;    ///< named one by one in `fail`
@@ -16,9 +16,20 @@ typedef struct tl_world_bake_report {
     uint64_t bytes;     ///< of the files written now
 } tl_world_bake_report;
 
+/// Several processes that bake one shard together: what deals its tiles out to them while they run.
+typedef struct tl_world_dealer {
+    /// Adds `count` to a number that the processes share and that began at 0; returns what it was.
+    uint64_t (*take)(uint64_t count, void *user);
+    /// Adds the tiles that this process has done; returns how many all have done, for its progress.
+    uint64_t (*done)(uint64_t count, void *user);
+    uint32_t processes;
+    void *user;
+} tl_world_dealer;
+
 typedef struct tl_world_bake_def {
     const char *job; ///< path
     tl_world_shard shard;
+    const tl_world_dealer *dealer; ///< NULL: this process bakes all of the shard
     tl_host host;
     bool as_planned; ///< do not look whether the inputs changed since the plan
     /// Told of each tile that fails, on the calling thread; the others are baked all the same.
