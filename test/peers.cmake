@@ -48,9 +48,15 @@ set(talus_test_ray_decide_needs talus_peer_gmp)
 set(talus_test_soup_bake_libraries pthread)
 set(talus_test_ray_batch_libraries pthread)
 foreach(stem frame options examples manual bake areas around audit prune ray soup_queries path hull polygonize draw detour bad_input
-        links outputs baked_options walkable precision axes streams path_costs view hand_links world crowd)
+        links outputs baked_options walkable precision axes streams path_costs view hand_links world ranks crowd)
     set(talus_test_cli_${stem}_needs talus_command_path)
 endforeach()
+# The module for mpirun, with its mpirun.
+if(TARGET talus_mpi AND MPIEXEC_EXECUTABLE)
+    add_library(talus_mpirun_path INTERFACE)
+    target_compile_definitions(talus_mpirun_path INTERFACE TALUS_MPIRUN="${MPIEXEC_EXECUTABLE}")
+    list(APPEND talus_test_cli_ranks_libraries talus_mpirun_path)
+endif()
 set(talus_test_hull_qhull_needs talus_peer_qhull)
 
 # Recast: the navmesh pipeline to compare with.

@@ -56,7 +56,7 @@ void tl_print_world_shard(const tl_world_shard *shard)
 
 // ---- What the ranks of a run tell one another ---------------------------------------------------------------
 
-static uint64_t take_tiles(uint64_t count, void *user)
+static uint64_t deal_tiles(uint64_t count, void *user)
 {
     const bake_run *run = user;
     return run->ranks.calls->add(TL_RANK_TAKEN, count);
@@ -80,7 +80,7 @@ static void name_rank(const bake_run *run, char text[32])
     }
 }
 
-static void warn_of_tile(const tl_io_error *error, void *user)
+static void warn_of_rank_tile(const tl_io_error *error, void *user)
 {
     bake_run *run = user;
     char text[TL_IO_PATH_BYTES + TL_IO_MESSAGE_BYTES + TL_IO_ADVICE_BYTES + 8], rank[32];
@@ -95,13 +95,13 @@ static tl_exit fail_run(bake_run *run, const tl_io_error *error)
     if (run->ranks.count == 1 || error->result == TL_ERR_CANCELLED) {
         return run->ranks.index == 0 ? tl_cli_fail_io(run->cli, error) : TL_EXIT_CANCELLED;
     }
-    warn_of_tile(error, run);
+    warn_of_rank_tile(error, run);
     return tl_exit_of(error->result);
 }
 
 static tl_exit bake_part(bake_run *run, const tl_world_bake_request *request, tl_world_bake_report *report)
 {
-    const tl_world_dealer dealer = { take_tiles, tell_done, run->ranks.count, run };
+    const tl_world_dealer dealer = { deal_tiles, tell_done, run->ranks.count, run };
     tl_world_bake_def def;
     tl_io_error error;
     memset(&def, 0, sizeof def);
@@ -111,7 +111,7 @@ static tl_exit bake_part(bake_run *run, const tl_world_bake_request *request, tl
     def.dealer = run->ranks.calls != NULL ? &dealer : NULL;
     def.host = run->cli->host;
     def.as_planned = request->as_planned;
-    def.fail = warn_of_tile;
+    def.fail = warn_of_rank_tile;
     def.user = run;
     const tl_result result = tl_world_bake(&def, report, &error);
     tl_progress_end(&run->cli->progress);
@@ -123,7 +123,8 @@ static tl_exit bake_part(bake_run *run, const tl_world_bake_request *request, tl
 
 // ---- The answer --------------------------------------------------------------------------------------------
 
-static tl_exit print_answer(bake_run *run, const char *job, const uint64_t sums[TL_RANK_NUMBERS], const uint64_t *all)
+static tl_exit print_bake_answer(bake_run *run, const char *job, const uint64_t sums[TL_RANK_NUMBERS],
+                                 const uint64_t *all)
 {
     const uint64_t tiles = sums[SAYS_THERE] + sums[SAYS_BAKED] + sums[SAYS_FAILED];
     if (!run->cli->json) {
@@ -166,7 +167,7 @@ static tl_exit answer_for_all(bake_run *run, const char *job, const uint64_t min
     if (code != TL_EXIT_OK && sums[SAYS_FAILED] == 0) {
         return code; // it is told already
     }
-    const tl_exit printed = print_answer(run, job, sums, all);
+    const tl_exit printed = print_bake_answer(run, job, sums, all);
     if (sums[SAYS_FAILED] > 0 && printed == TL_EXIT_OK) {
         return tl_cli_fail(run->cli, code, "%s: %llu tiles failed; the others are done", job,
                            (unsigned long long)sums[SAYS_FAILED]);
