@@ -2,184 +2,54 @@
 //
 // Crowds beside DetourCrowd's: the same polygons, agents, goals and steps, in one process.
 //
-//   bench_crowd [--seconds SIMULATED (40)] [--max AGENTS (2000)] [--json FILE]
+//   bench_crowd [--seconds SIMULATED (40)] [--max AGENTS (2000)] [--scenes 0|1 (1)] [--detour 0|1 (1)] [--json FILE]
 //
-// A square with pillars, six square metres an agent; everybody walks to a random place. CPU time of one thread. Besides
-// the time: pairs that overlap by more than a hundredth of both radii, agents off their polygon, changes of velocity
-// from step to step, and how many have arrived.
+// First what a step of an agent costs: squares with pillars and without, six square metres an agent, everybody to a
+// random place. CPU time of one thread. Then the scenes that crowds are judged by (support/crowd_scenes.hpp): pairs
+// that overlap by more than a hundredth of both radii, agents off their polygon, changes of velocity from step to step,
+// and when all have arrived.
 
-#include "base/random.h"
 #include "bench_options.h"
-#include "detour_mesh.hpp"
+#include "crowd_scenes.hpp"
 #include "measure.h"
 #include "report.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <recastnavigation/DetourCrowd.h>
 #include <string>
 #include <talus/nav_crowd.h>
-#include <vector>
 
 namespace
 {
 
-constexpr float RADIUS = 0.3f, HEIGHT = 1.8f, SPEED = 1.4f, ACCELERATION = 8.0f, DT = 0.05f;
-constexpr float AREA = 6.0f;     // square metres an agent
-constexpr float PILLARS = 10.0f; // metres from one to the next
-
-uint64_t random_state = 4;
-
-struct crowd_level {
-    std::vector<tl_vec3> vertices;
-    std::vector<uint32_t> indices;
-
-    void quad(tl_vec3 a, tl_vec3 b, tl_vec3 c, tl_vec3 d)
-    {
-        const uint32_t v = (uint32_t)vertices.size();
-        vertices.insert(vertices.end(), { a, b, c, d });
-        indices.insert(indices.end(), { v, v + 1, v + 2, v, v + 2, v + 3 });
-    }
-
-    void pillar(float x, float z)
-    {
-        const float x0 = x - 0.5f, x1 = x + 0.5f, z0 = z - 0.5f, z1 = z + 0.5f;
-        quad({ x0, 3, z0 }, { x0, 3, z1 }, { x1, 3, z1 }, { x1, 3, z0 });
-        quad({ x0, 0, z0 }, { x0, 3, z0 }, { x1, 3, z0 }, { x1, 0, z0 });
-        quad({ x1, 0, z1 }, { x1, 3, z1 }, { x0, 3, z1 }, { x0, 0, z1 });
-        quad({ x0, 0, z1 }, { x0, 3, z1 }, { x0, 3, z0 }, { x0, 0, z0 });
-        quad({ x1, 0, z0 }, { x1, 3, z0 }, { x1, 3, z1 }, { x1, 0, z1 });
-    }
-
-    explicit crowd_level(float side)
-    {
-        quad({ 0, 0, 0 }, { 0, 0, side }, { side, 0, side }, { side, 0, 0 });
-        for (float x = PILLARS / 2; x < side - 1; x += PILLARS) {
-            for (float z = PILLARS / 2; z < side - 1; z += PILLARS) {
-                pillar(x, z);
-            }
-        }
-    }
-};
-
-struct body {
-    float x, y, z, vx, vz;
-    bool off_mesh, arrived;
-};
-
-struct figures {
-    double seconds = 0;
-    uint64_t agent_steps = 0, overlaps = 0, off_mesh = 0;
-    float deepest = 0;
-    double turn = 0;
-    uint32_t arrived = 0;
-
-    void add(const std::vector<body> &now, const std::vector<body> &before)
-    {
-        arrived = 0;
-        for (size_t i = 0; i < now.size(); i++) {
-            agent_steps++;
-            off_mesh += now[i].off_mesh;
-            arrived += now[i].arrived;
-            turn += (double)std::hypot(now[i].vx - before[i].vx, now[i].vz - before[i].vz);
-        }
-        // Pairs by a sweep along x.
-        std::vector<uint32_t> order(now.size());
-        for (uint32_t i = 0; i < order.size(); i++) {
-            order[i] = i;
-        }
-        std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return now[a].x < now[b].x; });
-        for (size_t i = 0; i < order.size(); i++) {
-            for (size_t k = i + 1; k < order.size() && now[order[k]].x - now[order[i]].x < 2 * RADIUS; k++) {
-                const body &a = now[order[i]], &b = now[order[k]];
-                const float depth = 2 * RADIUS - std::hypot(a.x - b.x, a.z - b.z);
-                if (depth > 0.02f * RADIUS) {
-                    overlaps++;
-                    deepest = std::max(deepest, depth);
-                }
-            }
-        }
-    }
-};
-
-struct scene {
-    detour_level level;
-    std::vector<tl_nav_location> starts, goals;
-    std::vector<dtPolyRef> start_refs, goal_refs;
-
-    bool locate(const dtQueryFilter &filter, std::vector<tl_nav_location> *out, std::vector<dtPolyRef> *refs)
-    {
-        float point[3];
-        dtPolyRef ref = 0;
-        tl_nav_location at;
-        level.query->findRandomPoint(
-            &filter, [] { return tl_random_unit_float(&random_state); }, &ref, point);
-        if (tl_navmesh_find_nearest(level.twin.get(), nullptr, { point[0], point[1], point[2] }, { 0.5f, 1, 0.5f },
-                                    &at) != TL_OK) {
-            return false;
-        }
-        for (const tl_nav_location &other : *out) {
-            if (out == &starts && std::hypot(other.point.x - at.point.x, other.point.z - at.point.z) < 2.5f * RADIUS) {
-                return false;
-            }
-        }
-        out->push_back(at);
-        refs->push_back(ref);
-        return true;
-    }
-
-    bool build(uint32_t count)
-    {
-        const crowd_level soup(std::sqrt(AREA * (float)count));
-        const tl_mesh_view view = { soup.vertices.data(), (uint32_t)soup.vertices.size(), soup.indices.data(),
-                                    (uint32_t)soup.indices.size() / 3, nullptr };
-        tl_nav_def def = tl_default_nav_def();
-        def.cell_size = 0.15f;
-        def.agent_radius = RADIUS;
-        def.agent_height = HEIGHT;
-        def.tile_size = 128;
-        tl_aabb bounds = tl_aabb_empty();
-        for (const tl_vec3 &v : soup.vertices) {
-            bounds = tl_aabb_add_point(bounds, v);
-        }
-        if (!level.build(def, view, bounds)) {
-            return false;
-        }
-        dtQueryFilter filter;
-        while (starts.size() < count) {
-            locate(filter, &starts, &start_refs);
-        }
-        while (goals.size() < count) {
-            locate(filter, &goals, &goal_refs);
-        }
-        return true;
-    }
-};
-
-figures run_talus(const scene &s, uint32_t steps)
+crowd_figures run_talus(const crowd_scene &s)
 {
-    figures f;
+    crowd_figures f;
+    const tl_navmesh *navmesh = s.level.twin.get();
     tl_nav_crowd_def def = tl_default_nav_crowd_def();
     def.max_agents = (uint32_t)s.starts.size();
+    def.paths_per_step = std::max(64u, def.max_agents / 20); // all have one after a second
     tl_nav_crowd *crowd = nullptr;
-    tl_nav_crowd_create(&def, &crowd, nullptr);
+    if (tl_nav_crowd_create(&def, &crowd, nullptr) != TL_OK) {
+        return f;
+    }
     std::vector<tl_nav_agent> agents(s.starts.size());
     tl_nav_agent_def agent = tl_default_nav_agent_def();
-    agent.radius = RADIUS;
-    agent.height = HEIGHT;
-    agent.max_speed = SPEED;
-    agent.max_acceleration = ACCELERATION;
-    agent.arrive_distance = RADIUS;
+    agent.radius = CROWD_RADIUS;
+    agent.height = CROWD_HEIGHT;
+    agent.max_speed = CROWD_SPEED;
+    agent.max_acceleration = CROWD_ACCELERATION;
+    agent.reach = 0.5f;
     for (size_t i = 0; i < agents.size(); i++) {
         agent.position = s.starts[i].point;
-        tl_nav_crowd_add(crowd, s.level.twin.get(), &agent, &agents[i], nullptr);
+        tl_nav_crowd_add(crowd, navmesh, &agent, &agents[i], nullptr);
         tl_nav_crowd_set_goal(crowd, agents[i], &s.goals[i]);
     }
-    std::vector<body> now(agents.size()), before;
-    for (uint32_t step = 0; step < steps; step++) {
+    std::vector<crowd_body> now(agents.size()), before;
+    while (!f.is_over(s)) {
         const double begin = bench_thread_seconds();
-        tl_nav_crowd_step(crowd, s.level.twin.get(), DT, nullptr);
+        tl_nav_crowd_step(crowd, navmesh, CROWD_DT, nullptr);
         f.seconds += bench_thread_seconds() - begin;
         before = now;
         for (size_t i = 0; i < agents.size(); i++) {
@@ -187,34 +57,29 @@ figures run_talus(const scene &s, uint32_t steps)
             tl_vec3 on;
             bool inside = false;
             tl_nav_crowd_agent(crowd, agents[i], &state);
-            tl_navmesh_closest_point(s.level.twin.get(), state.polygon, state.position, &on, &inside);
-            now[i] = { state.position.x,
-                       state.position.y,
-                       state.position.z,
-                       state.velocity.x,
-                       state.velocity.z,
-                       std::hypot(on.x - state.position.x, on.z - state.position.z) > 1e-3f,
-                       state.status == TL_NAV_AGENT_ARRIVED };
+            tl_navmesh_closest_point(navmesh, state.polygon, state.position, &on, &inside);
+            now[i] = { state.position.x, state.position.y, state.position.z, state.velocity.x, state.velocity.z,
+                       std::hypot(on.x - state.position.x, on.z - state.position.z) > 1e-3f };
         }
-        f.add(now, step == 0 ? now : before);
+        f.add(s, now, before.empty() ? now : before);
     }
     tl_nav_crowd_destroy(crowd);
     return f;
 }
 
-figures run_detour(scene &s, uint32_t steps)
+crowd_figures run_detour(const crowd_scene &s)
 {
-    figures f;
+    crowd_figures f;
     dtCrowd *crowd = dtAllocCrowd();
-    crowd->init((int)s.starts.size(), RADIUS, s.level.mesh.get());
+    crowd->init((int)s.starts.size(), CROWD_RADIUS, s.level.mesh.get());
     dtCrowdAgentParams params;
     std::memset(&params, 0, sizeof params);
-    params.radius = RADIUS;
-    params.height = HEIGHT;
-    params.maxAcceleration = ACCELERATION;
-    params.maxSpeed = SPEED;
-    params.collisionQueryRange = RADIUS * 12.0f;
-    params.pathOptimizationRange = RADIUS * 30.0f;
+    params.radius = CROWD_RADIUS;
+    params.height = CROWD_HEIGHT;
+    params.maxAcceleration = CROWD_ACCELERATION;
+    params.maxSpeed = CROWD_SPEED;
+    params.collisionQueryRange = CROWD_RADIUS * 12.0f;
+    params.pathOptimizationRange = CROWD_RADIUS * 30.0f;
     params.separationWeight = 2.0f;
     params.obstacleAvoidanceType = 3;
     params.updateFlags = DT_CROWD_ANTICIPATE_TURNS | DT_CROWD_OPTIMIZE_VIS | DT_CROWD_OPTIMIZE_TOPO |
@@ -223,10 +88,10 @@ figures run_detour(scene &s, uint32_t steps)
         const int index = crowd->addAgent(&s.starts[i].point.x, &params);
         crowd->requestMoveTarget(index, s.goal_refs[i], &s.goals[i].point.x);
     }
-    std::vector<body> now(s.starts.size()), before;
-    for (uint32_t step = 0; step < steps; step++) {
+    std::vector<crowd_body> now(s.starts.size()), before;
+    while (!f.is_over(s)) {
         const double begin = bench_thread_seconds();
-        crowd->update(DT, nullptr);
+        crowd->update(CROWD_DT, nullptr);
         f.seconds += bench_thread_seconds() - begin;
         before = now;
         for (size_t i = 0; i < now.size(); i++) {
@@ -234,59 +99,102 @@ figures run_detour(scene &s, uint32_t steps)
             float on[3] = { 0, 0, 0 };
             bool over = false;
             s.level.query->closestPointOnPoly(agent->corridor.getFirstPoly(), agent->npos, on, &over);
-            const tl_vec3 goal = s.goals[i].point;
-            now[i] = { agent->npos[0],
-                       agent->npos[1],
-                       agent->npos[2],
-                       agent->vel[0],
-                       agent->vel[2],
-                       std::hypot(on[0] - agent->npos[0], on[2] - agent->npos[2]) > 1e-3f,
-                       std::hypot(goal.x - agent->npos[0], goal.z - agent->npos[2]) <= RADIUS };
+            now[i] = { agent->npos[0], agent->npos[1], agent->npos[2], agent->vel[0], agent->vel[2],
+                       std::hypot(on[0] - agent->npos[0], on[2] - agent->npos[2]) > 1e-3f };
         }
-        f.add(now, step == 0 ? now : before);
+        f.add(s, now, before.empty() ? now : before);
     }
     dtFreeCrowd(crowd);
     return f;
 }
 
-void print(const char *who, uint32_t count, const figures &f)
+double microseconds(const crowd_figures &f)
 {
-    std::printf("%7u  %-8s %7.2f us  %8.2f  %6.3f m  %6llu  %7.4f  %5.1f%%\n", count, who,
-                1e6 * f.seconds / (double)f.agent_steps, 1000.0 * (double)f.overlaps / (double)f.agent_steps,
-                (double)f.deepest, (unsigned long long)f.off_mesh, f.turn / (double)f.agent_steps,
-                100.0 * f.arrived / count);
+    return f.agent_steps > 0 ? 1e6 * f.seconds / (double)f.agent_steps : 0.0;
+}
+
+void print(const crowd_scene &s, const char *who, const crowd_figures &f)
+{
+    const size_t count = s.starts.size();
+    std::printf("%-20s %6zu %-7s %7.2f %9.2f %7.3f %8llu %6llu %8.4f %6u", s.name, count, who, microseconds(f),
+                1000.0 * (double)f.overlaps / (double)f.agent_steps, (double)f.deepest, (unsigned long long)f.off_mesh,
+                (unsigned long long)f.in_walls, f.turn / (double)f.agent_steps, f.arrived);
+    if (f.arrived == count) {
+        std::printf("  %.1f s\n", (double)f.last());
+    } else {
+        std::printf("  not all after %.0f s\n", (double)f.time);
+    }
+    std::fflush(stdout);
+}
+
+void run_scene(bench_report *report, const crowd_scene &s, bool with_detour, bool is_judged)
+{
+    const crowd_figures talus = run_talus(s);
+    print(s, "talus", talus);
+    bench_report_point(report, s.name, "talus", (double)s.starts.size(), microseconds(talus));
+    bench_report_at_most(report, (std::string(s.name) + ": agents off the mesh").c_str(), (double)talus.off_mesh, 0.0);
+    if (is_judged) {
+        bench_report_at_least(report, (std::string(s.name) + ": agents that arrive").c_str(), talus.arrived,
+                              (double)s.starts.size());
+    }
+    if (with_detour) {
+        const crowd_figures detour = run_detour(s);
+        print(s, "Detour", detour);
+        bench_report_point(report, s.name, "DetourCrowd", (double)s.starts.size(), microseconds(detour));
+        bench_report_speed(report, (std::string(s.name) + ", " + std::to_string(s.starts.size()) + " agents").c_str(),
+                           "DetourCrowd", detour.seconds / (double)detour.agent_steps * (double)talus.agent_steps /
+                                              talus.seconds, 1.0);
+    }
+}
+
+void run_squares(bench_report *report, float seconds, uint32_t most, bool with_detour)
+{
+    for (const bool pillars : { true, false }) {
+        for (const uint32_t count : { 100u, 500u, 2000u, 10000u, 100000u }) {
+            crowd_scene s;
+            s.name = pillars ? "square with pillars" : "open square";
+            s.seconds = seconds;
+            if (count <= most && s.square(count, pillars)) {
+                run_scene(report, s, with_detour && count <= 2000, false);
+            }
+        }
+    }
+}
+
+void run_scenes(bench_report *report, bool with_detour)
+{
+    crowd_scene circle, flows, one_way, point, floors;
+    circle.name = "circle";
+    flows.name = "two flows, 1.5 m";
+    one_way.name = "bottleneck, 1.5 m";
+    point.name = "one point";
+    floors.name = "two floors";
+    if (circle.circle(250) && flows.doorway(1.5f, 100, true) && one_way.doorway(1.5f, 200, false) &&
+        point.one_point(500) && floors.floors(80)) {
+        for (const crowd_scene *s : { &circle, &flows, &one_way, &point, &floors }) {
+            run_scene(report, *s, with_detour, true);
+        }
+    }
 }
 
 } // namespace
 
 int main(int argc, char **argv)
 {
-    uint32_t seconds = 40, most = 2000;
-    const bench_option options[] = { { "seconds", BENCH_COUNT, &seconds, "that are simulated" },
-                                     { "max", BENCH_COUNT, &most, "agents of the largest crowd" },
+    uint32_t seconds = 40, most = 2000, scenes = 1, detour = 1;
+    const bench_option options[] = { { "seconds", BENCH_COUNT, &seconds, "that are simulated in the squares" },
+                                     { "max", BENCH_COUNT, &most, "agents of the largest square; 1: none" },
+                                     { "scenes", BENCH_COUNT, &scenes, "1: the scenes too" },
+                                     { "detour", BENCH_COUNT, &detour, "1: DetourCrowd too" },
                                      { nullptr, BENCH_COUNT, nullptr, nullptr } };
     const char *json = nullptr;
     bench_parse(argc, argv, options, nullptr, &json);
     bench_report *report = bench_report_new("crowd", "us", "agents");
-    std::printf(" agents  who      an agent's step  overlaps   deepest  off mesh  turn m/s  arrived\n"
-                "                           per 1000 agent-steps\n");
-    for (const uint32_t count : { 100u, 500u, 2000u, 10000u }) {
-        scene s;
-        if (count > most || !s.build(count)) {
-            continue;
-        }
-        const uint32_t steps = (uint32_t)((float)seconds / DT);
-        const figures talus = run_talus(s, steps);
-        const figures detour = run_detour(s, steps);
-        print("talus", count, talus);
-        print("Detour", count, detour);
-        bench_report_point(report, "a step of an agent", "talus", count,
-                           1e6 * talus.seconds / (double)talus.agent_steps);
-        bench_report_point(report, "a step of an agent", "DetourCrowd", count,
-                           1e6 * detour.seconds / (double)detour.agent_steps);
-        bench_report_speed(report, (std::to_string(count) + " agents").c_str(), "DetourCrowd",
-                           detour.seconds / talus.seconds, 1.0);
-        bench_report_at_most(report, "agents off the mesh", (double)talus.off_mesh, 0.0);
+    std::printf("%-20s %6s %-7s %7s %9s %7s %8s %6s %8s %6s\n", "scene", "agents", "who", "us/step", "overlaps",
+                "deepest", "off mesh", "walls", "turn", "arrive");
+    run_squares(report, (float)seconds, most, detour != 0);
+    if (scenes != 0) {
+        run_scenes(report, detour != 0);
     }
     bench_report_print_claims(report);
     return bench_report_close(report, json);
