@@ -58,8 +58,9 @@ crowd_figures run_talus(const crowd_scene &s)
             bool inside = false;
             tl_nav_crowd_agent(crowd, agents[i], &state);
             tl_navmesh_closest_point(navmesh, state.polygon, state.position, &on, &inside);
-            now[i] = { state.position.x, state.position.y, state.position.z, state.velocity.x, state.velocity.z,
-                       std::hypot(on.x - state.position.x, on.z - state.position.z) > 1e-3f };
+            now[i] = { state.position.x, state.position.y,
+                       state.position.z, state.velocity.x,
+                       state.velocity.z, std::hypot(on.x - state.position.x, on.z - state.position.z) > 1e-3f };
         }
         f.add(s, now, before.empty() ? now : before);
     }
@@ -99,8 +100,9 @@ crowd_figures run_detour(const crowd_scene &s)
             float on[3] = { 0, 0, 0 };
             bool over = false;
             s.level.query->closestPointOnPoly(agent->corridor.getFirstPoly(), agent->npos, on, &over);
-            now[i] = { agent->npos[0], agent->npos[1], agent->npos[2], agent->vel[0], agent->vel[2],
-                       std::hypot(on[0] - agent->npos[0], on[2] - agent->npos[2]) > 1e-3f };
+            now[i] = { agent->npos[0], agent->npos[1],
+                       agent->npos[2], agent->vel[0],
+                       agent->vel[2],  std::hypot(on[0] - agent->npos[0], on[2] - agent->npos[2]) > 1e-3f };
         }
         f.add(s, now, before.empty() ? now : before);
     }
@@ -141,9 +143,9 @@ void run_scene(bench_report *report, const crowd_scene &s, bool with_detour, boo
         const crowd_figures detour = run_detour(s);
         print(s, "Detour", detour);
         bench_report_point(report, s.name, "DetourCrowd", (double)s.starts.size(), microseconds(detour));
-        bench_report_speed(report, (std::string(s.name) + ", " + std::to_string(s.starts.size()) + " agents").c_str(),
-                           "DetourCrowd", detour.seconds / (double)detour.agent_steps * (double)talus.agent_steps /
-                                              talus.seconds, 1.0);
+        bench_report_speed(
+            report, (std::string(s.name) + ", " + std::to_string(s.starts.size()) + " agents").c_str(), "DetourCrowd",
+            detour.seconds / (double)detour.agent_steps * (double)talus.agent_steps / talus.seconds, 1.0);
     }
 }
 

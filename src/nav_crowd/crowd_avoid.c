@@ -130,26 +130,39 @@ static bool avoid_wall(const tl_nav_crowd *crowd, uint32_t i, const float wall[4
     return true;
 }
 
-// Whether a wall stands between an agent and a neighbour.
-static bool is_behind_wall(const tl_nav_crowd *crowd, uint32_t i, float x, float z)
+// A wall of which the agent is on the walkable side, seen from the agent.
+typedef struct facing_wall {
+    float start_x, start_z, end_x, end_z;
+    float side; // of the agent: twice the area of the triangle that it forms with the wall, >= 0
+} facing_wall;
+
+static uint32_t find_facing_walls(const tl_nav_crowd *crowd, uint32_t i, facing_wall *out)
 {
     const crowd_fields *a = &crowd->a;
-    const float dx = x - a->x[i], dz = z - a->z[i];
+    uint32_t count = 0;
     for (uint32_t k = 0; k < a->wall_count[i]; k++) {
         const float *wall = &a->walls[(size_t)i * 4 * CROWD_MAX_WALLS + 4 * k];
-        float wx = wall[2] - wall[0], wz = wall[3] - wall[1];
-        float side_self = (a->x[i] - wall[0]) * wz - (a->z[i] - wall[1]) * wx;
-        float side_other = (x - wall[0]) * wz - (z - wall[1]) * wx;
-        if (side_self < 0.0f || side_other >= 0.0f) {
-            continue;
-        }
-        float start = (wall[0] - a->x[i]) * dz - (wall[1] - a->z[i]) * dx;
-        float end = (wall[2] - a->x[i]) * dz - (wall[3] - a->z[i]) * dx;
-        if ((start > 0.0f) != (end > 0.0f)) {
-            return true;
-        }
+        const facing_wall facing = { wall[0] - a->x[i], wall[1] - a->z[i], wall[2] - a->x[i], wall[3] - a->z[i],
+                                     (a->x[i] - wall[0]) * (wall[3] - wall[1]) -
+                                         (a->z[i] - wall[1]) * (wall[2] - wall[0]) };
+        out[count] = facing;
+        count += facing.side >= 0.0f;
     }
-    return false;
+    return count;
+}
+
+// Whether a wall stands between an agent and a neighbour, `x` and `z` from it.
+static bool is_behind_wall(const facing_wall *walls, uint32_t count, float x, float z)
+{
+    bool is_hidden = false;
+    for (uint32_t k = 0; k < count; k++) {
+        const facing_wall *w = &walls[k];
+        const float side = w->side + x * (w->end_z - w->start_z) - z * (w->end_x - w->start_x);
+        const float start = w->start_x * z - w->start_z * x;
+        const float end = w->end_x * z - w->end_z * x;
+        is_hidden |= (side < 0.0f) & ((start > 0.0f) != (end > 0.0f));
+    }
+    return is_hidden;
 }
 
 // A direction for two agents in the same place with the same velocity, each the other's opposite.
@@ -216,11 +229,14 @@ void tl_crowd_avoid(const crowd_step *step, uint32_t k, float velocity_out[2])
     const uint32_t i = crowd->seen.agent[k];
     crowd_neighbor neighbors[CROWD_MAX_NEIGHBORS];
     uint32_t count = tl_crowd_find_neighbors(crowd, k, neighbors);
+    facing_wall walls[CROWD_MAX_WALLS];
+    const uint32_t wall_count = find_facing_walls(crowd, i, walls);
     uint32_t seen_count = 0;
     for (uint32_t n = 0; n < count; n++) {
         const uint32_t other = neighbors[n].snapshot;
         // Rim to rim about a corner they see one another, though no line leads from center to center.
-        if (neighbors[n].gap < a->radius[i] || !is_behind_wall(crowd, i, crowd->seen.x[other], crowd->seen.z[other])) {
+        if (neighbors[n].gap < a->radius[i] ||
+            !is_behind_wall(walls, wall_count, crowd->seen.x[other] - a->x[i], crowd->seen.z[other] - a->z[i])) {
             neighbors[seen_count++] = neighbors[n];
         }
     }

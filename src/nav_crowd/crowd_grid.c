@@ -17,7 +17,7 @@
 
 // Cells across the distance at which agents see one another: few agents stand in the cells around one, and a row of
 // them is one run.
-enum { CELLS_PER_REACH = 4 };
+enum { CELLS_PER_REACH = 2 };
 
 static uint32_t grid_cell(const crowd_grid *grid, float x, float z)
 {

@@ -3,10 +3,24 @@
 // The nearest neighbours of an agent, from the grid: first the cells around its own, which are enough in a throng; else
 // all cells in reach. Which of them are nearest is a total order (by gap, then place), so the order of the scan does
 // not count.
+//
+// Rows are scanned from the agent's own outward, each no farther than the circle in which agents still count, which
+// shrinks with what is found. The first sixteen that are found are put in order at once, by counting how many come
+// before each: no branch of that depends on the data, while each insertion costs a mispredicted one.
 
 #include "nav_crowd/crowd_neighbors.h"
 
 #include "base/min_max.h"
+
+#include <string.h>
+
+enum {
+    FIRST_FOUND = 16,            // are put in order at once
+    IN_ORDER = FIRST_FOUND + 1u, // `first_count` after that
+};
+
+// Half of a row's part is a root of a product of sums, times the cells of a metre: six roundings of half an ulp.
+#define HALF_ROUNDING (8.0f * FLT_EPSILON)
 
 typedef struct neighbor_search {
     const tl_nav_crowd *crowd;
@@ -15,9 +29,54 @@ typedef struct neighbor_search {
     float rounding; // metres: of distances
     crowd_neighbor *found;
     uint32_t count, capacity;
+    uint32_t first_count;
+    crowd_neighbor first[FIRST_FOUND];
 } neighbor_search;
 
-static void keep_nearest(neighbor_search *search, crowd_neighbor neighbor)
+// A gap and the place that breaks ties, as a number in the same order. A gap is a difference, hence never -0.
+static uint64_t order_of(const crowd_neighbor *neighbor)
+{
+    uint32_t bits;
+    memcpy(&bits, &neighbor->gap, sizeof bits);
+    bits = (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+    return (uint64_t)bits << 32 | neighbor->agent;
+}
+
+// Nothing farther than the last one counts; by no less than the rounding of a distance.
+static void shrink_reach(neighbor_search *search)
+{
+    if (search->count == search->capacity) {
+        search->reach = search->found[search->count - 1].gap + search->rounding;
+    }
+}
+
+static void order_first(neighbor_search *search)
+{
+    const uint32_t count = search->first_count;
+    uint64_t order[FIRST_FOUND];
+    uint32_t rank[FIRST_FOUND];
+    for (uint32_t i = 0; i < count; i++) {
+        const uint64_t mine = order_of(&search->first[i]);
+        uint32_t before = 0;
+        for (uint32_t k = 0; k < i; k++) {
+            const uint32_t is_before = order[k] < mine;
+            before += is_before;
+            rank[k] += 1 - is_before;
+        }
+        order[i] = mine;
+        rank[i] = before;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (rank[i] < search->capacity) {
+            search->found[rank[i]] = search->first[i];
+        }
+    }
+    search->count = tl_min_u32(count, search->capacity);
+    search->first_count = IN_ORDER;
+    shrink_reach(search);
+}
+
+static void insert(neighbor_search *search, crowd_neighbor neighbor)
 {
     if (search->count == search->capacity) {
         const crowd_neighbor *last = &search->found[search->count - 1];
@@ -33,9 +92,32 @@ static void keep_nearest(neighbor_search *search, crowd_neighbor neighbor)
         at--;
     }
     search->found[at] = neighbor;
-    if (search->count == search->capacity) {
-        // Nothing farther than the last one counts; by no less than the rounding of a distance.
-        search->reach = search->found[search->count - 1].gap + search->rounding;
+    shrink_reach(search);
+}
+
+static void keep_nearest(neighbor_search *search, crowd_neighbor neighbor)
+{
+    if (search->first_count == FIRST_FOUND) {
+        order_first(search);
+    }
+    if (search->first_count < FIRST_FOUND) {
+        search->first[search->first_count++] = neighbor;
+    } else {
+        insert(search, neighbor);
+    }
+}
+
+static void begin_search(neighbor_search *search, float reach)
+{
+    search->reach = reach;
+    search->count = 0;
+    search->first_count = 0;
+}
+
+static void end_search(neighbor_search *search)
+{
+    if (search->first_count != IN_ORDER) {
+        order_first(search);
     }
 }
 
@@ -74,22 +156,47 @@ static void scan_row(neighbor_search *search, int32_t row, int32_t x0, int32_t x
     }
 }
 
-// Scans all cells that are at most `cells` columns and rows away, each once.
-static void scan_around(neighbor_search *search, int32_t x, int32_t z, int32_t cells)
+// The agent's cell, and how far it stands within that.
+typedef struct cell_place {
+    int32_t x, z;
+    float in_x, in_z; // metres, 0 to a cell
+    float per_metre;  // cells
+    float slack;      // metres: what rounding may do to distances
+} cell_place;
+
+// Scans row `z + away` as far as the circle cuts it; false: it does not.
+static bool scan_cut_row(neighbor_search *search, const cell_place *at, int32_t away)
+{
+    const crowd_snapshot *seen = &search->crowd->seen;
+    const float cell = search->crowd->grid.cell_size;
+    const float far = search->reach + seen->radius[search->self] + seen->max_radius + at->slack;
+    float off = away > 0 ? (float)away * cell - at->in_z : away < 0 ? at->in_z - (float)(away + 1) * cell : 0.0f;
+    off = tl_max_f32(off - at->slack, 0.0f);
+    if (!(off < far)) {
+        return false;
+    }
+    const float half = sqrtf((far - off) * (far + off)) * (1.0f + HALF_ROUNDING) + at->slack;
+    const float left = half - at->in_x;
+    const int32_t x0 = left > 0.0f ? -1 - (int32_t)(left * at->per_metre) : 0;
+    scan_row(search, at->z + away, at->x + x0, at->x + (int32_t)((at->in_x + half) * at->per_metre));
+    return true;
+}
+
+// All cells that the circle meets, each once.
+static void scan_circle(neighbor_search *search, const cell_place *at)
 {
     const crowd_grid *grid = &search->crowd->grid;
-    const int32_t columns = tl_min_i32(cells, (int32_t)(grid->mask_x / 2));
-    const int32_t rows = tl_min_i32(cells, (int32_t)(grid->mask_z / 2));
-    search->count = 0;
-    // Where the ring of cells closes, its last column or row is reached from one side alone.
-    const int32_t last_x = x + columns + (columns < cells ? 1 : 0);
-    const int32_t last_z = z + rows + (rows < cells ? 1 : 0);
-    // From the middle outward: the nearest come first, and those after them are soon out of reach.
-    for (int32_t far = 0; far <= last_z - z; far++) {
-        scan_row(search, z + far, x - columns, last_x);
-        if (far > 0 && far <= rows) {
-            scan_row(search, z - far, x - columns, last_x);
-        }
+    const crowd_snapshot *seen = &search->crowd->seen;
+    const float far = search->reach + seen->radius[search->self] + seen->max_radius + at->slack;
+    if (!(2.0f * (far + at->slack) / grid->cell_size + 4.0f < (float)tl_min_u32(grid->mask_x, grid->mask_z))) {
+        scan_cells(search, 0, seen->count); // the grid goes round within it
+        return;
+    }
+    bool is_up = true, is_down = true;
+    scan_cut_row(search, at, 0);
+    for (int32_t away = 1; is_up || is_down; away++) {
+        is_up = is_up && scan_cut_row(search, at, away);
+        is_down = is_down && scan_cut_row(search, at, -away);
     }
 }
 
@@ -108,25 +215,45 @@ static uint32_t count_near(const tl_nav_crowd *crowd, int32_t x, int32_t z)
     return count;
 }
 
+// How far a coordinate lies within its cell.
+static float in_cell(float at, float cell_size)
+{
+    return (float)((double)at - floor((double)at / (double)cell_size) * (double)cell_size);
+}
+
 uint32_t tl_crowd_find_neighbors(const tl_nav_crowd *crowd, uint32_t k, crowd_neighbor *neighbors_out)
 {
     const crowd_snapshot *seen = &crowd->seen;
     const float cell = crowd->grid.cell_size;
     const float widest = crowd->def.neighbor_distance + seen->radius[k] + seen->max_radius;
-    // Distances are sums and a root, of numbers up to the widest: four roundings.
-    neighbor_search search = { crowd,         k, crowd->def.neighbor_distance, 8.0f * FLT_EPSILON * widest,
-                               neighbors_out, 0, crowd->def.max_neighbors };
-    const int32_t x = tl_crowd_cell(seen->x[k], cell);
-    const int32_t z = tl_crowd_cell(seen->z[k], cell);
-    // Beyond the cells around it every center is more than a cell away.
-    const float unseen = cell - seen->radius[k] - seen->max_radius;
-    const bool is_dense = count_near(crowd, x, z) > search.capacity;
-    if (is_dense) {
-        scan_around(&search, x, z, 1);
+    neighbor_search search;
+    search.crowd = crowd;
+    search.self = k;
+    search.rounding = 8.0f * FLT_EPSILON * widest; // distances are sums and a root of numbers up to it: four roundings
+    search.found = neighbors_out;
+    search.capacity = crowd->def.max_neighbors;
+    // A place in a cell is a difference of doubles, rounded to a float.
+    const double largest = fmax(fabs((double)seen->x[k]), fabs((double)seen->z[k]));
+    const cell_place at = { tl_crowd_cell(seen->x[k], cell),
+                            tl_crowd_cell(seen->z[k], cell),
+                            in_cell(seen->x[k], cell),
+                            in_cell(seen->z[k], cell),
+                            1.0f / cell,
+                            search.rounding + (float)(4.0 * DBL_EPSILON * largest) };
+    begin_search(&search, crowd->def.neighbor_distance);
+    if (count_near(crowd, at.x, at.z) > search.capacity) {
+        for (int32_t row = -1; row <= 1; row++) {
+            scan_row(&search, at.z + row, at.x - 1, at.x + 1);
+        }
+        end_search(&search);
+        // Beyond the cells around it every center is more than a cell away.
+        if (search.count == search.capacity &&
+            search.found[search.count - 1].gap < cell - seen->radius[k] - seen->max_radius) {
+            return search.count;
+        }
+        begin_search(&search, search.reach);
     }
-    if (!is_dense || search.count < search.capacity || search.found[search.count - 1].gap >= unseen) {
-        search.reach = crowd->def.neighbor_distance;
-        scan_around(&search, x, z, (int32_t)tl_min_f32(widest / cell + 1.0f, 1048576.0f));
-    }
+    scan_circle(&search, &at);
+    end_search(&search);
     return search.count;
 }

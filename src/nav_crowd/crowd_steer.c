@@ -88,7 +88,7 @@ static void note_progress(const crowd_step *step, uint32_t i, float x, float z)
 }
 
 // Steps between looks for the corner, while it is far and the agent stays in one polygon.
-enum { CORNER_STEPS = 4 };
+enum { CORNER_STEPS = 8 };
 
 static void head_for(const crowd_step *step, uint32_t i, float x, float z, float speed)
 {
