@@ -27,7 +27,7 @@ enum {
 
 #define CROWD_NO_PLACE   UINT32_MAX
 #define CROWD_MAGIC      0x44574f52u ///< "ROWD"
-#define CROWD_VERSION    1u
+#define CROWD_VERSION    2u
 
 // Flags of an agent.
 #define CROWD_HAS_GOAL  1u
@@ -41,6 +41,11 @@ enum {
 #define CROWD_LEFT      256u
 #define CROWD_RIGHT     512u
 #define CROWD_ALL_FLAGS 1023u
+
+// The upper half of the flags, and of what others see: where the agent travels, past its next corner. Two signed bytes,
+// x and z of a direction in parts of 127: enough to tell who comes the other way. Both 0: nowhere.
+#define CROWD_TRAVEL_SHIFT 16
+#define CROWD_TRAVEL_MASK  0xffff0000u
 
 /// The state's fields: type, name, items for each agent. 64-bit fields come first.
 #define CROWD_FIELDS(FIELD)                                                                                            \
@@ -217,6 +222,14 @@ static inline void tl_crowd_set3(float *items, uint32_t i, tl_vec3 value)
     v[0] = value.x;
     v[1] = value.y;
     v[2] = value.z;
+}
+
+/// The direction in the upper half of `flags`, in parts of 127.
+static inline void tl_crowd_travel(uint32_t flags, float out[2])
+{
+    const int32_t x = (int32_t)(flags >> CROWD_TRAVEL_SHIFT & 255u), z = (int32_t)(flags >> 24);
+    out[0] = (float)(x < 128 ? x : x - 256);
+    out[1] = (float)(z < 128 ? z : z - 256);
 }
 
 /// Whether an agent stands, and wants to.

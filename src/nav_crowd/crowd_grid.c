@@ -55,7 +55,7 @@ static void copy_agent(tl_nav_crowd *crowd, uint32_t i, uint32_t to)
     seen->wanted_x[to] = a->wanted_x[i];
     seen->wanted_z[to] = a->wanted_z[i];
     seen->agent[to] = i;
-    seen->kind[to] = kind_of(a, i);
+    seen->kind[to] = kind_of(a, i) | (a->flags[i] & CROWD_TRAVEL_MASK);
 }
 
 void tl_crowd_fill_grid(tl_nav_crowd *crowd)

@@ -4,13 +4,16 @@
 // stand. Four rules change what agents want, never what they may do:
 //
 //   right    whoever meets others that come the other way keeps to the right, so that flows divide into lanes
-//   yield    where that is not enough, the flow whose direction is farther from a common one goes back a little, until
-//            the others are through. That direction turns every few seconds by the golden angle: each flow gets its
-//            turn, and nobody needs to know who is in which
+//   yield    where that is not enough, whoever is held up by one that still gets on goes back until those have passed:
+//   a
+//            flow keeps a door as long as it moves through it. Where neither gets on, the flow goes back whose travel
+//            is farther from a common direction, which turns by the golden angle: nobody needs to know who is in which
 //   aside    whoever stands in the way of one that is held up steps aside, and returns later
 //   settle   whoever is held up by those that have arrived at its goal has arrived too
 //
-// All agents of a flow decide alike, as they compare directions, not themselves; those behind follow those in front.
+// All agents of a flow decide alike, as they compare where they travel past their next corner, not themselves; those
+// behind follow those in front. Directions that took turns by the clock alone were slower by half: each turn cut off a
+// flow that moved.
 
 #include "base/min_max.h"
 #include "nav_crowd/crowd_neighbors.h"
@@ -26,12 +29,12 @@
 #define RIGHT_SINE   0.342f
 
 // Seconds that an agent is held up before it goes back, how long it does so at most, and before it settles.
-#define YIELD_AFTER  1.5f
-#define YIELD_FOR    8.0f
+#define YIELD_AFTER  0.5f
+#define YIELD_FOR    28.0f
 #define SETTLE_AFTER 0.5f
 
-#define YIELD_SPEED  0.5f  // of the top speed
-#define TURN_MS      6000u // how long one direction has the right of way
+#define YIELD_SPEED  0.5f   // of the top speed
+#define TURN_MS      24000u // how long one direction has the right of way where neither flow moves
 
 // An agent that stands steps aside for those within so many of its radii, at a part of its speed: a little along their
 // way, and off it.
@@ -64,11 +67,29 @@ static void preferred_direction(uint64_t milliseconds, float out[2])
 
 typedef struct crowd_traffic {
     bool meets;   // others that come the other way
-    bool loses;   // the right of way to one of them
+    bool loses;   // the right of way to one of them: one that gets on, or goes the preferred direction
     bool follows; // one that yields
 } crowd_traffic;
 
-static crowd_traffic look_at_traffic(const tl_nav_crowd *crowd, uint32_t k, const float ahead[2],
+// Where one of the others goes, and whether it is the other way. Fixed ones go where they move.
+static bool comes_against(const crowd_snapshot *seen, uint32_t other, const float travel[2], float its[2])
+{
+    tl_crowd_travel(seen->kind[other], its);
+    if ((seen->kind[other] & CROWD_SEEN_FIXED) != 0) {
+        its[0] = seen->vx[other];
+        its[1] = seen->vz[other];
+    }
+    const float length = sqrtf(its[0] * its[0] + its[1] * its[1]);
+    if (!(length > 0.0f)) {
+        return false;
+    }
+    its[0] /= length;
+    its[1] /= length;
+    return its[0] * travel[0] + its[1] * travel[1] < AGAINST_COSINE;
+}
+
+// `ahead`: where the agent heads now, `travel`: past its corner; both unit.
+static crowd_traffic look_at_traffic(const tl_nav_crowd *crowd, uint32_t k, const float ahead[2], const float travel[2],
                                      const crowd_neighbor *neighbors, uint32_t count)
 {
     const crowd_snapshot *seen = &crowd->seen;
@@ -81,20 +102,18 @@ static crowd_traffic look_at_traffic(const tl_nav_crowd *crowd, uint32_t k, cons
         if (dx * ahead[0] + dz * ahead[1] <= 0.0f || (seen->kind[other] & CROWD_SEEN_STILL) != 0) {
             continue;
         }
-        const bool is_fixed = (seen->kind[other] & CROWD_SEEN_FIXED) != 0;
-        float x = is_fixed ? seen->vx[other] : seen->wanted_x[other];
-        float z = is_fixed ? seen->vz[other] : seen->wanted_z[other];
-        float length = sqrtf(x * x + z * z);
-        float dot = x * ahead[0] + z * ahead[1];
+        float its[2];
+        const bool is_against = comes_against(seen, other, travel, its);
         if ((seen->kind[other] & CROWD_SEEN_YIELDS) != 0) {
-            // It goes back, so it came the way that this one goes.
+            // It goes back the way that this one comes.
             bool is_before = dx * ahead[0] + dz * ahead[1] > BEFORE_COSINE * sqrtf(dx * dx + dz * dz);
-            traffic.follows = traffic.follows || (is_before && dot < AGAINST_COSINE * length);
-        } else if (length > 0.0f && dot < AGAINST_COSINE * length) {
+            float back = seen->wanted_x[other] * ahead[0] + seen->wanted_z[other] * ahead[1];
+            traffic.follows = traffic.follows || (is_before && !is_against && back < 0.0f);
+        } else if (is_against) {
             traffic.meets = true;
-            float mine = ahead[0] * preferred[0] + ahead[1] * preferred[1];
-            float its = (x * preferred[0] + z * preferred[1]) / length;
-            traffic.loses = traffic.loses || is_fixed || its > mine;
+            float mine = travel[0] * preferred[0] + travel[1] * preferred[1];
+            traffic.loses = traffic.loses || (seen->kind[other] & CROWD_SEEN_STALLED) == 0 ||
+                            its[0] * preferred[0] + its[1] * preferred[1] > mine;
         }
     }
     return traffic;
@@ -193,7 +212,12 @@ void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor 
     }
     ahead[0] /= length;
     ahead[1] /= length;
-    const crowd_traffic traffic = look_at_traffic(crowd, k, ahead, neighbors, count);
+    float travel[2];
+    tl_crowd_travel(a->flags[i], travel);
+    const float far = sqrtf(travel[0] * travel[0] + travel[1] * travel[1]);
+    travel[0] = far > 0.0f ? travel[0] / far : ahead[0];
+    travel[1] = far > 0.0f ? travel[1] / far : ahead[1];
+    const crowd_traffic traffic = look_at_traffic(crowd, k, ahead, travel, neighbors, count);
     // In the open they pass one another: only where walls leave little room somebody must go back.
     const bool is_narrow = a->wall_count[i] > 0;
     const bool loses = traffic.loses && is_narrow;

@@ -87,7 +87,7 @@ static bool is_agent_sound(const crowd_fields *a, uint32_t i, uint32_t max_path)
     const uint32_t status = a->status[i];
     const bool is_fixed = status == TL_NAV_AGENT_FIXED;
     return status <= TL_NAV_AGENT_FIXED && a->generation[i] != 0 && a->filter[i] < TL_NAV_CROWD_FILTER_COUNT &&
-           (a->flags[i] & ~CROWD_ALL_FLAGS) == 0 && a->path_count[i] <= max_path &&
+           (a->flags[i] & ~(CROWD_ALL_FLAGS | CROWD_TRAVEL_MASK)) == 0 && a->path_count[i] <= max_path &&
            (a->path_count[i] > 0) != is_fixed && a->wall_count[i] <= CROWD_MAX_WALLS && a->radius[i] > 0.0f &&
            a->radius[i] <= CROWD_MAX_SIZE && a->height[i] > 0.0f && a->height[i] <= CROWD_MAX_SIZE &&
            a->max_speed[i] >= 0.0f && a->max_speed[i] <= CROWD_MAX_SIZE && a->max_acceleration[i] > 0.0f &&

@@ -18,7 +18,7 @@
 // third of that time.
 #define PROGRESS_SHARE 0.25f
 #define RECOVERY       3.0f
-#define MAX_STALLED    10.0f // seconds
+#define MAX_STALLED    30.0f // seconds: more than anybody goes back for (crowd_right_of_way.c)
 
 // The corner that the path turns at, `x` and `z` from here, to its left (side 1) or right (-1): moved aside by the room
 // that is left there: the point where a tangent touches the circle around it.
@@ -120,12 +120,23 @@ static bool head_on(const crowd_step *step, uint32_t i)
     return true;
 }
 
-static void keep_corner(crowd_fields *a, uint32_t i, const tl_nav_corner *corner)
+// Where an agent travels, for others to see: to the corner after the next one. Those who come to a door along its wall
+// from both sides face one another, but travel the same way.
+static uint32_t travel_flags(const crowd_fields *a, uint32_t i, const tl_nav_corner *corner)
 {
-    uint32_t flags = CROWD_CORNER;
+    const float x = corner->point.x - a->x[i], z = corner->point.z - a->z[i];
+    const float length = sqrtf(x * x + z * z);
+    const float scale = length > 0.0f ? 127.0f / length : 0.0f;
+    const uint32_t bytes = ((uint32_t)(int32_t)(x * scale) & 255u) | ((uint32_t)(int32_t)(z * scale) & 255u) << 8;
+    return bytes << CROWD_TRAVEL_SHIFT;
+}
+
+static void keep_corner(crowd_fields *a, uint32_t i, const tl_nav_corner *corner, const tl_nav_corner *after)
+{
+    uint32_t flags = CROWD_CORNER | travel_flags(a, i, after);
     flags |= (corner->flags & TL_NAV_CORNER_LEFT) != 0 ? CROWD_LEFT : 0;
     flags |= (corner->flags & TL_NAV_CORNER_RIGHT) != 0 ? CROWD_RIGHT : 0;
-    a->flags[i] = (a->flags[i] & ~(CROWD_LEFT | CROWD_RIGHT)) | flags;
+    a->flags[i] = (a->flags[i] & ~(CROWD_LEFT | CROWD_RIGHT | CROWD_TRAVEL_MASK)) | flags;
     a->corner[2 * (size_t)i] = corner->point.x;
     a->corner[2 * (size_t)i + 1] = corner->point.z;
 }
@@ -171,7 +182,7 @@ static void walk(const crowd_step *step, uint32_t i)
         speed = tl_min_f32(speed, sqrtf(2.0f * a->max_acceleration[i] * distance));
         speed = tl_min_f32(speed, distance / step->dt);
     }
-    keep_corner(a, i, next);
+    keep_corner(a, i, next, count >= 3 && !links_here ? &corners[2] : next);
     head_for(step, i, x, z, speed);
 }
 

@@ -57,14 +57,22 @@ static void pass_door(float width, uint32_t count, uint32_t max_steps)
 static void test_door(void **state)
 {
     (void)state;
-    pass_door(1.5f, 100, 8000);
+    pass_door(1.5f, 100, 5000);
 }
 
 // Where only one fits through at a time.
 static void test_narrow_door(void **state)
 {
     (void)state;
-    pass_door(0.9f, 40, 12000);
+    pass_door(0.9f, 40, 4000);
+}
+
+// Widths at which two may just not pass one another, and at which lanes form.
+static void test_other_doors(void **state)
+{
+    (void)state;
+    pass_door(1.2f, 50, 4000);
+    pass_door(2.4f, 50, 3000);
 }
 
 static void test_one_point(void **state)
@@ -94,6 +102,7 @@ static void test_one_point(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_circle), cmocka_unit_test(test_door),
-                                        cmocka_unit_test(test_narrow_door), cmocka_unit_test(test_one_point) };
+                                        cmocka_unit_test(test_narrow_door), cmocka_unit_test(test_other_doors),
+                                        cmocka_unit_test(test_one_point) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
