@@ -3,43 +3,12 @@
 // crowd_state.c, and that steps are a function of the state: the same bytes for any number of threads, from a saved
 // state again, and after hostile bytes were refused.
 
+#include "crowd_threads.h" // pthread
 #include "crowd_world.h"
 
 #include "nav_crowd/crowd.h"
 
-#include <pthread.h>
 #include <talus/nav_state.h>
-
-typedef struct thread_job {
-    tl_task_fn *task;
-    uint32_t first, count, stride;
-    void *user;
-} thread_job;
-
-static void *run_stride(void *argument)
-{
-    thread_job *job = argument;
-    for (uint32_t i = job->first; i < job->count; i += job->stride) {
-        job->task(i, job->first, job->user);
-    }
-    return NULL;
-}
-
-// Worker w takes every n-th item from w on.
-static void run_on_threads(tl_task_fn *task, uint32_t count, void *task_user, void *user)
-{
-    const uint32_t workers = *(const uint32_t *)user;
-    pthread_t threads[8];
-    thread_job jobs[8];
-    for (uint32_t w = 0; w < workers; w++) {
-        thread_job job = { task, w, count, workers, task_user };
-        jobs[w] = job;
-        TEST_CHECK(pthread_create(&threads[w], NULL, run_stride, &jobs[w]) == 0);
-    }
-    for (uint32_t w = 0; w < workers; w++) {
-        pthread_join(threads[w], NULL);
-    }
-}
 
 enum { COUNT = 240 };
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// Tasks on threads of their own for each call: slow, but any number of them, and no thread lives between calls.
+
+#ifndef TALUS_TEST_CROWD_THREADS_H
+#define TALUS_TEST_CROWD_THREADS_H
+
+#include "talus_test.h"
+
+#include <pthread.h>
+#include <talus/base.h>
+
+enum { CROWD_MAX_THREADS = 8 };
+
+typedef struct thread_job {
+    tl_task_fn *task;
+    uint32_t first, count, stride;
+    void *user;
+} thread_job;
+
+static inline void *run_stride(void *argument)
+{
+    thread_job *job = argument;
+    for (uint32_t i = job->first; i < job->count; i += job->stride) {
+        job->task(i, job->first, job->user);
+    }
+    return NULL;
+}
+
+/// For tl_tasks; `user` points to the number of workers. Worker w takes every n-th item from w on.
+static inline void run_on_threads(tl_task_fn *task, uint32_t count, void *task_user, void *user)
+{
+    const uint32_t workers = *(const uint32_t *)user;
+    pthread_t threads[CROWD_MAX_THREADS];
+    thread_job jobs[CROWD_MAX_THREADS];
+    TEST_CHECK(workers <= CROWD_MAX_THREADS);
+    for (uint32_t w = 0; w < workers; w++) {
+        thread_job job = { task, w, count, workers, task_user };
+        jobs[w] = job;
+        TEST_CHECK(pthread_create(&threads[w], NULL, run_stride, &jobs[w]) == 0);
+    }
+    for (uint32_t w = 0; w < workers; w++) {
+        pthread_join(threads[w], NULL);
+    }
+}
+
+#endif
