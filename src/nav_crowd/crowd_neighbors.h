@@ -26,7 +26,7 @@ static inline int32_t tl_crowd_cell(float at, float cell_size)
 /// the def's max_neighbors. Agents whose heights do not overlap are none.
 uint32_t tl_crowd_find_neighbors(const tl_nav_crowd *crowd, uint32_t k, crowd_neighbor *neighbors_out);
 
-/// Whether two agents have one goal: no farther apart than a radius of the first.
+/// Whether two agents have one goal: so near that they cannot both stand at theirs.
 bool tl_crowd_has_goal_of(const tl_nav_crowd *crowd, uint32_t i, uint32_t other);
 
 /// Keeps to the right of those who come the other way, lets them pass where neither gets on, and settles an agent that

@@ -32,6 +32,7 @@
 #define YIELD_AFTER  0.5f
 #define YIELD_FOR    28.0f
 #define SETTLE_AFTER 0.5f
+#define SETTLE_LATE  3.0f // beside those who stand there for another goal
 
 #define YIELD_SPEED  0.5f   // of the top speed
 #define TURN_MS      24000u // how long one direction has the right of way where neither flow moves
@@ -124,12 +125,13 @@ bool tl_crowd_has_goal_of(const tl_nav_crowd *crowd, uint32_t i, uint32_t other)
     const crowd_fields *a = &crowd->a;
     const tl_vec3 goal = tl_crowd_get3(a->goal, i), its = tl_crowd_get3(a->goal, other);
     float x = its.x - goal.x, z = its.z - goal.z;
-    return (a->flags[i] & CROWD_HAS_GOAL) != 0 && x * x + z * z <= a->radius[i] * a->radius[i] &&
-           fabsf(its.y - goal.y) < a->height[i];
+    const float rims = a->radius[i] + a->radius[other];
+    return (a->flags[i] & CROWD_HAS_GOAL) != 0 && x * x + z * z <= rims * rims && fabsf(its.y - goal.y) < a->height[i];
 }
 
 // Whether an agent touches one that has arrived at the same goal and stands nearer to it; or any that wants to get
-// there, where it stands at the goal itself.
+// there, where it stands at the goal itself. Who stands there for another goal steps aside: where that does not help
+// for long, the agent has come as near as it can, too.
 static bool stands_before_goal(const tl_nav_crowd *crowd, uint32_t k, const crowd_neighbor *neighbors, uint32_t count)
 {
     const crowd_snapshot *seen = &crowd->seen;
@@ -141,7 +143,11 @@ static bool stands_before_goal(const tl_nav_crowd *crowd, uint32_t k, const crow
         const uint32_t other = neighbors[n].snapshot;
         float ox = goal.x - seen->x[other], oz = goal.z - seen->z[other];
         const bool is_before = (seen->kind[other] & CROWD_SEEN_STILL) != 0 && ox * ox + oz * oz < x * x + z * z;
-        if ((is_before || x * x + z * z < diameter * diameter) && tl_crowd_has_goal_of(crowd, i, neighbors[n].agent)) {
+        const bool is_near = x * x + z * z < diameter * diameter;
+        if (is_near && (seen->kind[other] & CROWD_SEEN_STILL) != 0 && crowd->a.stalled[i] > SETTLE_LATE) {
+            return true;
+        }
+        if ((is_before || is_near) && tl_crowd_has_goal_of(crowd, i, neighbors[n].agent)) {
             return true;
         }
     }

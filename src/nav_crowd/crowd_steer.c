@@ -87,6 +87,10 @@ static void note_progress(const crowd_step *step, uint32_t i, float x, float z)
     a->stalled[i] = tl_clamp_f32(stalled, 0.0f, MAX_STALLED);
 }
 
+// Before its goal an agent goes so slowly that the square of its speed is this share of acceleration times distance. 2
+// is enough to stop there; with 1 or more, one that was pushed aside may go round its goal for ever.
+#define BRAKE_SHARE 0.5f
+
 // Steps between looks for the corner, while it is far and the agent stays in one polygon.
 enum { CORNER_STEPS = 8 };
 
@@ -179,7 +183,7 @@ static void walk(const crowd_step *step, uint32_t i)
             arrive(step, i);
             return;
         }
-        speed = tl_min_f32(speed, sqrtf(2.0f * a->max_acceleration[i] * distance));
+        speed = tl_min_f32(speed, sqrtf(BRAKE_SHARE * a->max_acceleration[i] * distance));
         speed = tl_min_f32(speed, distance / step->dt);
     }
     keep_corner(a, i, next, count >= 3 && !links_here ? &corners[2] : next);

@@ -275,6 +275,35 @@ static void test_edits(void **state)
     free(copy);
 }
 
+// Goals so near to one another that not all can be stood on: those who come later stand beside the others, and all
+// stay arrived, instead of changing places for ever.
+static void test_near_goals(void **state)
+{
+    (void)state;
+    enum { COUNT = 4 };
+    tl_navmesh *navmesh = crowd_open_floor(15.0f, 15.0f);
+    for (uint32_t round = 1; round < 12; round++) {
+        tl_nav_crowd *crowd = crowd_make(COUNT);
+        const float apart = 0.05f * (float)round;
+        tl_nav_agent agents[COUNT];
+        for (uint32_t i = 0; i < COUNT; i++) {
+            const float away = 2.0f + 2.0f * (float)i;
+            const tl_nav_location goal = crowd_place(navmesh, apart * (float)(i % 2), 0.0f, apart * (float)(i / 2));
+            agents[i] = crowd_send(crowd, navmesh, tl_default_nav_agent_def(), i % 2 == 0 ? away : -away, 0.0f,
+                                   i / 2 == 0 ? away : -away, &goal);
+        }
+        (void)status_after(crowd, navmesh, agents[0], 600);
+        for (uint32_t step = 0; step < 200; step++) {
+            (void)status_after(crowd, navmesh, agents[0], 1);
+            for (uint32_t i = 0; i < COUNT; i++) {
+                TEST_CHECK(look(crowd, agents[i]).status == TL_NAV_AGENT_ARRIVED);
+            }
+        }
+        tl_nav_crowd_destroy(crowd);
+    }
+    tl_navmesh_destroy(navmesh);
+}
+
 // A vehicle drives through a crowd that stands: everyone makes way, nobody is run over.
 static void test_fixed(void **state)
 {
@@ -313,6 +342,7 @@ int main(void)
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_come_and_go), cmocka_unit_test(test_names),
                                         cmocka_unit_test(test_head_on),     cmocka_unit_test(test_floors),
                                         cmocka_unit_test(test_wide),        cmocka_unit_test(test_links),
-                                        cmocka_unit_test(test_edits),       cmocka_unit_test(test_fixed) };
+                                        cmocka_unit_test(test_edits),       cmocka_unit_test(test_near_goals),
+                                        cmocka_unit_test(test_fixed) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,6 +28,7 @@ static uint32_t step_count = 1200, agent_count = 150;
 
 typedef struct edit_world {
     float half; // metres, of the square
+    float door; // metres, half of a doorway: wider in a larger square, for more agents
     test_level level;
     tl_nav_obstacles *obstacles;
     tl_navmesh *navmesh;
@@ -60,7 +61,7 @@ static void choose_kernels(uint32_t which)
 // Four rooms; a wall along each axis with a door on either side of the middle.
 static void make_level(edit_world *w)
 {
-    const float h = w->half, q = 0.5f * h, door = 1.0f;
+    const float h = w->half, q = 0.5f * h, door = w->door;
     memset(&w->level, 0, sizeof w->level);
     audit_floor(&w->level, -h, -h, h, h, 0.0f);
     const float ends[4] = { -h - 0.5f, -q - door, -q + door, q - door };
@@ -77,6 +78,7 @@ static void make_world(edit_world *w)
     memset(w, 0, sizeof *w);
     w->random.state = 21;
     w->half = 0.5f * sqrtf(7.0f * (float)agent_count);
+    w->door = fmaxf(1.0f, w->half / 16.0f);
     make_level(w);
     tl_nav_def def = tl_default_nav_def();
     def.cell_size = 0.15f;
@@ -146,7 +148,7 @@ static void toggle_door(edit_world *w, uint32_t door)
         return;
     }
     const float at = (door & 1u) != 0 ? 0.5f * w->half : -0.5f * w->half;
-    const tl_nav_obstacle leaf = door < 2 ? box_at(0.0f, at, 0.1f, 1.0f) : box_at(at, 0.0f, 1.0f, 0.1f);
+    const tl_nav_obstacle leaf = door < 2 ? box_at(0.0f, at, 0.1f, w->door) : box_at(at, 0.0f, w->door, 0.1f);
     TEST_RESULT(tl_nav_obstacles_add(w->obstacles, &leaf, &w->doors[door], NULL), TL_OK);
 }
 
@@ -261,6 +263,15 @@ static uint32_t settle(edit_world *w, uint32_t step)
     uint32_t taken = 0;
     for (; taken < SETTLE_STEPS && report.arrived < agent_count; taken++) {
         step_all(w, step + taken, &report);
+    }
+    for (uint32_t i = 0; i < agent_count && report.arrived < agent_count; i++) {
+        tl_nav_agent_state state;
+        TEST_RESULT(tl_nav_crowd_agent(w->crowds[0], w->agents[0][i], &state), TL_OK);
+        if (state.status != TL_NAV_AGENT_ARRIVED) {
+            print_message("agent %u at %.2f, %.2f %s, goal %.2f, %.2f, wants %.2f, %.2f\n", i, (double)state.position.x,
+                          (double)state.position.z, tl_nav_agent_status_name(state.status), (double)state.goal.x,
+                          (double)state.goal.z, (double)state.wanted.x, (double)state.wanted.z);
+        }
     }
     TEST_CHECK(report.arrived == agent_count);
     return taken;
