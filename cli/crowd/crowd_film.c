@@ -81,12 +81,10 @@ static void add_everybody(tl_text *text, const tl_crowd_film *film, const tl_cro
     for (uint32_t who = 0; who < film->who_count; ++who) {
         const uint32_t group = film->group_of[who];
         const bool is_vehicle = group == scenario->group_count;
-        const float radius =
-            is_vehicle ? scenario->vehicles[who - scenario->agent_count].radius : scenario->groups[group].radius;
         tl_text_add(text, "<circle fill=\"");
         tl_text_add(text, is_vehicle ? "#222222" : group_colors[group % GROUP_COLORS]);
         tl_text_add(text, "\"");
-        add_attribute(text, "r", radius);
+        add_attribute(text, "r", film->radius[who]);
         add_attribute(text, "cx", film->places[who].x);
         add_attribute(text, "cy", film->places[who].z);
         tl_text_add(text, ">");

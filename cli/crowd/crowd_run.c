@@ -167,8 +167,11 @@ static bool set_up(crowd_run *run, tl_exit *exit_out)
     run->vehicles = calloc((size_t)s->vehicle_count + 1, sizeof(*run->vehicles));
     run->order = calloc(def.max_agents, sizeof(*run->order));
     run->film->group_of = calloc(def.max_agents, sizeof(*run->film->group_of));
+    run->film->radius = calloc(def.max_agents, sizeof(*run->film->radius));
+    run->film->height = calloc(def.max_agents, sizeof(*run->film->height));
     if (run->goals == NULL || run->walkers == NULL || run->vehicles == NULL || run->order == NULL ||
-        run->film->group_of == NULL || tl_nav_crowd_create(&def, &run->crowd, NULL) != TL_OK) {
+        run->film->group_of == NULL || run->film->radius == NULL || run->film->height == NULL ||
+        tl_nav_crowd_create(&def, &run->crowd, NULL) != TL_OK) {
         *exit_out = tl_cli_fail(run->cli, TL_EXIT_MEMORY, "out of memory");
         return false;
     }
@@ -180,7 +183,11 @@ static bool set_up(crowd_run *run, tl_exit *exit_out)
         placed += s->groups[i].count;
     }
     for (uint32_t i = 0; i < def.max_agents; ++i) {
-        run->film->group_of[i] = i < placed ? run->walkers[i].group : s->group_count;
+        const bool walks = i < placed;
+        const uint32_t group = walks ? run->walkers[i].group : s->group_count;
+        run->film->group_of[i] = group;
+        run->film->radius[i] = walks ? s->groups[group].radius : s->vehicles[i - placed].radius;
+        run->film->height[i] = walks ? s->groups[group].height : s->vehicles[i - placed].height;
     }
     return add_vehicles(run, exit_out);
 }
@@ -258,18 +265,6 @@ static bool record(const crowd_run *run)
     return true;
 }
 
-static float radius_of(const crowd_run *run, uint32_t who)
-{
-    const tl_crowd_scenario *s = run->scenario;
-    return who < s->agent_count ? s->groups[run->walkers[who].group].radius : s->vehicles[who - s->agent_count].radius;
-}
-
-static float height_of(const crowd_run *run, uint32_t who)
-{
-    const tl_crowd_scenario *s = run->scenario;
-    return who < s->agent_count ? s->groups[run->walkers[who].group].height : s->vehicles[who - s->agent_count].height;
-}
-
 // Insertion sort: from one frame to the next the order hardly changes.
 static void sort_by_x(uint32_t *order, uint32_t count, const tl_vec3 *places)
 {
@@ -285,18 +280,19 @@ static void sort_by_x(uint32_t *order, uint32_t count, const tl_vec3 *places)
 
 static void count_overlaps(const crowd_run *run, float largest_radius)
 {
-    const uint32_t count = run->film->who_count;
-    const tl_vec3 *places = run->film->places + (size_t)(run->film->frame_count - 1) * count;
+    const tl_crowd_film *film = run->film;
+    const uint32_t count = film->who_count;
+    const tl_vec3 *places = film->places + (size_t)(film->frame_count - 1) * count;
     sort_by_x(run->order, count, places);
     for (uint32_t i = 0; i < count; ++i) {
         const uint32_t a = run->order[i];
-        const float reach = radius_of(run, a) + largest_radius;
+        const float reach = film->radius[a] + largest_radius;
         for (uint32_t k = i + 1; k < count && places[run->order[k]].x - places[a].x < reach; ++k) {
             const uint32_t b = run->order[k];
             const float dx = places[a].x - places[b].x, dz = places[a].z - places[b].z;
-            const float depth = radius_of(run, a) + radius_of(run, b) - sqrtf(dx * dx + dz * dz);
+            const float depth = film->radius[a] + film->radius[b] - sqrtf(dx * dx + dz * dz);
             const bool same_floor =
-                places[a].y < places[b].y + height_of(run, b) && places[b].y < places[a].y + height_of(run, a);
+                places[a].y < places[b].y + film->height[b] && places[b].y < places[a].y + film->height[a];
             if (depth > TOUCH && same_floor) {
                 run->outcome->pairs++;
                 run->outcome->deepest = depth > run->outcome->deepest ? depth : run->outcome->deepest;
@@ -330,7 +326,7 @@ static bool run_steps(crowd_run *run, tl_exit *exit_out)
     const tl_crowd_scenario *s = run->scenario;
     float largest_radius = 0.0f;
     for (uint32_t i = 0; i < run->film->who_count; ++i) {
-        largest_radius = fmaxf(largest_radius, radius_of(run, i));
+        largest_radius = fmaxf(largest_radius, run->film->radius[i]);
         run->order[i] = i;
     }
     const tl_progress *progress = run->cli->host.progress;
@@ -415,6 +411,8 @@ bool tl_crowd_run(tl_cli *cli, const tl_navmesh *navmesh, const tl_crowd_scenari
 void tl_crowd_film_free(tl_crowd_film *film)
 {
     free(film->group_of);
+    free(film->radius);
+    free(film->height);
     free(film->places);
     free(film->status);
     memset(film, 0, sizeof(*film));

@@ -14,7 +14,8 @@
 typedef struct tl_crowd_film {
     float interval;
     uint32_t who_count;
-    uint32_t *group_of; ///< [who_count]; a vehicle's is group_count
+    uint32_t *group_of;     ///< [who_count]; a vehicle's is group_count
+    float *radius, *height; ///< [who_count], metres
     uint32_t frame_count, frame_capacity;
     tl_vec3 *places; ///< [frame_count * who_count], metres
     uint8_t *status; ///< tl_nav_agent_status, as places
