@@ -76,7 +76,7 @@ static void order_first(neighbor_search *search)
     shrink_reach(search);
 }
 
-static void insert(neighbor_search *search, crowd_neighbor neighbor)
+static void insert_neighbor(neighbor_search *search, crowd_neighbor neighbor)
 {
     if (search->count == search->capacity) {
         const crowd_neighbor *last = &search->found[search->count - 1];
@@ -103,7 +103,7 @@ static void keep_nearest(neighbor_search *search, crowd_neighbor neighbor)
     if (search->first_count < FIRST_FOUND) {
         search->first[search->first_count++] = neighbor;
     } else {
-        insert(search, neighbor);
+        insert_neighbor(search, neighbor);
     }
 }
 
