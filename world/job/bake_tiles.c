@@ -33,8 +33,8 @@ typedef struct bake_job {
     uint64_t tile_count, first;
     bake_worker *workers;
     uint32_t worker_count;
-    uint64_t *batch;  // the tiles of a batch, out of `tiles`
-    bake_item *items; // one for each
+    const uint64_t *batch; // the tiles of a batch, in `tiles`
+    bake_item *items;      // one for each
 } bake_job;
 
 tl_result tl_world_plan_of_job(const char *job, tl_world_plan *plan_out, tl_io_error *error_out)
@@ -148,19 +148,17 @@ static void count_items(bake_job *job, uint32_t count, tl_world_bake_report *rep
     }
 }
 
-static bool is_tile_there(const bake_job *job, uint64_t tile_index)
+static bool is_tile_there(const char *job, const tl_world_tile *tile)
 {
-    const tl_world_tile *tile = &job->plan.tiles[tile_index];
-    char *path = tl_world_tile_path(job->def->job, tile->key);
+    char *path = tl_world_tile_path(job, tile->key);
     const bool there = path != NULL && tl_world_tile_is_there(path, tile);
     free(path);
     return there;
 }
 
-// The next tiles: of a list whose tiles are all missing, or of the dealer's, where those that are there are counted.
-// Towards the end a dealer gives fewer at a time, so that no process waits long for the last. `*dealt_out`: how many
-// tiles of the list this was; 0: the list is at its end.
-static uint32_t next_batch(bake_job *job, tl_world_bake_report *report, uint64_t *dealt_out)
+// The next tiles of the list, or the dealer's; 0: it is at its end. Towards the end a dealer gives fewer at a time, so
+// that no process waits long for the last.
+static uint32_t next_batch(bake_job *job)
 {
     const tl_world_dealer *dealer = job->def->dealer;
     uint64_t wanted = (uint64_t)TILES_PER_WORKER * job->worker_count;
@@ -168,22 +166,13 @@ static uint32_t next_batch(bake_job *job, tl_world_bake_report *report, uint64_t
         const uint64_t share = (job->tile_count - job->first) / (2 * (uint64_t)dealer->processes);
         wanted = share < job->worker_count ? job->worker_count : share < wanted ? share : wanted;
         job->first = dealer->take(wanted, dealer->user);
+        job->first = job->first < job->tile_count ? job->first : job->tile_count;
     }
-    const uint64_t left = job->first < job->tile_count ? job->tile_count - job->first : 0;
-    const uint64_t dealt = left < wanted ? left : wanted;
-    uint32_t count = 0;
-    for (uint64_t i = 0; i < dealt; i++) {
-        const uint64_t tile = job->tiles[job->first + i];
-        if (dealer != NULL && is_tile_there(job, tile)) {
-            report->there++;
-        } else {
-            job->batch[count++] = tile;
-        }
-    }
-    job->first = dealt > 0 ? job->first + dealt : job->tile_count;
-    report->tiles += dealer != NULL ? dealt : 0;
-    *dealt_out = dealt;
-    return count;
+    const uint64_t left = job->tile_count - job->first;
+    const uint64_t count = left < wanted ? left : wanted;
+    job->batch = job->tiles + job->first;
+    job->first += count;
+    return (uint32_t)count;
 }
 
 static tl_result bake_all(bake_job *job, tl_world_bake_report *report, tl_io_error *error_out)
@@ -192,11 +181,11 @@ static tl_result bake_all(bake_job *job, tl_world_bake_report *report, tl_io_err
     const tl_world_dealer *dealer = job->def->dealer;
     tl_result first = TL_OK;
     for (;;) {
-        uint64_t dealt;
-        const uint32_t count = next_batch(job, report, &dealt);
-        if (dealt == 0) {
+        const uint32_t count = next_batch(job);
+        if (count == 0) {
             return first;
         }
+        report->tiles += dealer != NULL ? count : 0;
         if (host->tasks != NULL) {
             host->tasks->run(bake_item_task, count, job, host->tasks->user);
         } else {
@@ -205,32 +194,36 @@ static tl_result bake_all(bake_job *job, tl_world_bake_report *report, tl_io_err
             }
         }
         count_items(job, count, report, &first, error_out);
-        const uint64_t done = dealer != NULL ? dealer->done(dealt, dealer->user) : job->first;
+        const uint64_t done = dealer != NULL ? dealer->done(count, dealer->user) : job->first;
         if (host->progress != NULL && !host->progress->update("tiles", done, job->tile_count, host->progress->user)) {
             return tl_io_fail(error_out, TL_ERR_CANCELLED, NULL, 0, "", "cancelled");
         }
     }
 }
 
-// Leaves only the tiles that are not there, so that a run with nothing to do opens no store. Those of a dealer are
-// numbers in the whole list, which stays: it is enough to know whether one is missing.
-static bool find_missing_tiles(bake_job *job, tl_world_bake_report *report)
+// Leaves only the tiles that are not there.
+static void drop_tiles_there(bake_job *job, tl_world_bake_report *report)
 {
     uint64_t count = 0;
     for (uint64_t i = 0; i < job->tile_count; i++) {
-        const bool there = is_tile_there(job, job->tiles[i]);
-        if (!there && job->def->dealer != NULL) {
-            return true;
-        }
-        report->there += there && job->def->dealer == NULL;
-        if (!there) {
+        if (is_tile_there(job->def->job, &job->plan.tiles[job->tiles[i]])) {
+            report->there++;
+        } else {
             job->tiles[count++] = job->tiles[i];
         }
     }
-    if (job->def->dealer == NULL) {
-        job->tile_count = count;
+    job->tile_count = count;
+}
+
+// A dealer's numbers are places in the whole list, which stays as it is.
+static bool lacks_a_tile(const bake_job *job)
+{
+    for (uint64_t i = 0; i < job->tile_count; i++) {
+        if (!is_tile_there(job->def->job, &job->plan.tiles[job->tiles[i]])) {
+            return true;
+        }
     }
-    return count > 0;
+    return false;
 }
 
 static tl_result bake_shard(bake_job *job, tl_world_bake_report *report, tl_io_error *error_out)
@@ -247,13 +240,15 @@ static tl_result bake_shard(bake_job *job, tl_world_bake_report *report, tl_io_e
     job->tiles = tl_world_shard_tiles(&job->plan, &def->shard, &job->tile_count);
     job->workers = calloc(job->worker_count, sizeof *job->workers);
     job->items = calloc((size_t)job->worker_count * TILES_PER_WORKER, sizeof *job->items);
-    job->batch = calloc((size_t)job->worker_count * TILES_PER_WORKER, sizeof *job->batch);
-    if (job->tiles == NULL || job->workers == NULL || job->items == NULL || job->batch == NULL) {
+    if (job->tiles == NULL || job->workers == NULL || job->items == NULL) {
         return tl_io_fail(error_out, TL_ERR_MEMORY, def->job, 0, "", "out of memory");
     }
-    report->tiles = def->dealer != NULL ? 0 : job->tile_count;
-    // A process that cannot open the store takes no tile: the others bake them.
-    if (find_missing_tiles(job, report)) {
+    if (def->dealer == NULL) {
+        report->tiles = job->tile_count;
+        drop_tiles_there(job, report);
+    }
+    // With nothing to do no store is opened. A process that cannot open it takes no tile: the others bake them.
+    if (def->dealer != NULL ? lacks_a_tile(job) : job->tile_count > 0) {
         result = tl_world_source_open(def->job, &job->plan, &job->source, error_out);
     }
     return result == TL_OK ? bake_all(job, report, error_out) : result;
@@ -271,7 +266,6 @@ tl_result tl_world_bake(const tl_world_bake_def *def, tl_world_bake_report *repo
     }
     free(job.workers);
     free(job.items);
-    free(job.batch);
     free(job.tiles);
     tl_world_source_close(&job.source);
     tl_world_plan_free(&job.plan);
@@ -292,9 +286,7 @@ tl_result tl_world_look(const char *job, const tl_world_shard *shard, tl_world_s
     uint64_t missing = UINT64_MAX;
     for (uint64_t i = 0; i < count && tiles != NULL; i++) {
         const tl_world_tile *tile = &plan.tiles[tiles[i]];
-        char *path = tl_world_tile_path(job, tile->key);
-        const bool there = path != NULL && tl_world_tile_is_there(path, tile);
-        free(path);
+        const bool there = is_tile_there(job, tile);
         status_out->cost += tile->cost;
         status_out->cost_there += there ? tile->cost : 0;
         status_out->there += there;
