@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What talus asks of MPI: five calls. The module that makes them is a file of its own, so that the program starts
+// What talus asks of MPI: four calls. The module that makes them is a file of its own, so that the program starts
 // without MPI's libraries, and runs where there are none.
 
 #ifndef TALUS_CLI_RANK_CALLS_H

@@ -11,12 +11,17 @@
 // Containers run as root, and have fewer processors than ranks are tried.
 #define MPIRUN "timeout 300 " TALUS_MPIRUN " --allow-run-as-root --oversubscribe"
 
-static bool lacks_mpirun(void)
+static bool has_mpirun(void)
 {
-    if (TALUS_MPIRUN[0] == '\0') {
+    return TALUS_MPIRUN[0] != '\0';
+}
+
+static void need_mpirun(void)
+{
+    if (!has_mpirun()) {
         print_message("SKIPPED: built without MPI (TALUS_MPI), or there is no mpirun\n");
+        skip();
     }
-    return TALUS_MPIRUN[0] == '\0';
 }
 
 // Runs `mpirun OPTIONS talus LINE`; returns the exit code. What it says goes to ranks.out and ranks.err.
@@ -65,19 +70,19 @@ static double status_of(const char *job, const char *key)
 static int make_land(void **state)
 {
     const int code = cli_enter_folder(state);
-    cli_do(0, "sample world -n 100000 -o land");
-    cli_do(0, "world plan land -o alone");
-    cli_do(0, "world bake alone");
-    cli_do(0, "world merge alone -o alone.talus");
+    if (has_mpirun()) {
+        cli_do(0, "sample world -n 100000 -o land");
+        cli_do(0, "world plan land -o alone");
+        cli_do(0, "world bake alone");
+        cli_do(0, "world merge alone -o alone.talus");
+    }
     return code;
 }
 
 static void test_ranks(void **state)
 {
     (void)state;
-    if (lacks_mpirun()) {
-        skip();
-    }
+    need_mpirun();
     // The last is a cluster of plain Ethernet: no memory is shared, and rank 0 must answer while it bakes.
     static const char *const options[] = { "-n 1", "-n 2", "-n 4", "--mca btl tcp,self -n 3" };
     static const size_t counts[] = { 1, 2, 4, 3 };
@@ -109,9 +114,7 @@ static void test_ranks(void **state)
 static void test_ranks_of_shards(void **state)
 {
     (void)state;
-    if (lacks_mpirun()) {
-        skip();
-    }
+    need_mpirun();
     plan_anew("parts");
     expect_ranks(0, "-n 2", "world bake parts --shard 1/2");
     const double half = status_of("parts", "there"), tiles = status_of("parts", "tiles");
@@ -124,9 +127,7 @@ static void test_ranks_of_shards(void **state)
 static void test_failing_tile(void **state)
 {
     (void)state;
-    if (lacks_mpirun()) {
-        skip();
-    }
+    need_mpirun();
     plan_anew("broken");
     // A byte of a record in the middle of the store.
     assert_int_equal(system("f=$(ls broken/store/*.segment | head -n 1); cp $f kept; s=$(stat -c %s $f); "
@@ -150,9 +151,7 @@ static void test_failing_tile(void **state)
 static void test_killed_rank(void **state)
 {
     (void)state;
-    if (lacks_mpirun()) {
-        skip();
-    }
+    need_mpirun();
     plan_anew("killed");
     cli_write_text("rank.sh", "if [ \"$OMPI_COMM_WORLD_RANK\" = 1 ]; then\n"
                               "    (while [ $(find killed/tiles -name '*.tile' | wc -l) -lt 10 ]; do :; done\n"
