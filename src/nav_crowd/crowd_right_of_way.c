@@ -171,18 +171,21 @@ static void step_aside(const crowd_step *step, uint32_t k, const crowd_neighbor 
     bool is_free = true;
     for (uint32_t n = 0; n < count && neighbors[n].gap < ASIDE_RADII * seen->radius[k]; n++) {
         const uint32_t other = neighbors[n].snapshot;
-        if (tl_crowd_has_goal_of(crowd, i, neighbors[n].agent)) {
-            continue;
-        }
         float x = seen->wanted_x[other], z = seen->wanted_z[other];
         float length = sqrtf(x * x + z * z);
+        // One that stands and wants to move makes way itself: it is let out where it goes.
+        const bool makes_way = (seen->kind[other] & CROWD_SEEN_STILL) != 0 && length > 0.0f;
+        if (!makes_way && tl_crowd_has_goal_of(crowd, i, neighbors[n].agent)) {
+            continue;
+        }
         float dx = seen->x[k] - seen->x[other], dz = seen->z[k] - seen->z[other];
         is_free = is_free && !(length > 0.0f);
-        if ((seen->kind[other] & CROWD_SEEN_STALLED) != 0 && x * dx + z * dz > 0.0f) {
+        if (((seen->kind[other] & CROWD_SEEN_STALLED) != 0 || makes_way) && x * dx + z * dz > 0.0f) {
             float side = x * dz - z * dx >= 0.0f ? 1.0f : -1.0f;
             float speed = ASIDE_SPEED * a->max_speed[i] / length;
-            a->wanted_x[i] = speed * (ASIDE_ALONG * x - side * z);
-            a->wanted_z[i] = speed * (ASIDE_ALONG * z + side * x);
+            float across = makes_way ? ASIDE_ALONG * side : side, along = makes_way ? 1.0f : ASIDE_ALONG;
+            a->wanted_x[i] = speed * (along * x - across * z);
+            a->wanted_z[i] = speed * (along * z + across * x);
             return;
         }
     }

@@ -304,6 +304,36 @@ static void test_near_goals(void **state)
     tl_navmesh_destroy(navmesh);
 }
 
+// One in the middle of a throng that stands is let out: those around it make way, and those around them for them.
+static void test_let_out(void **state)
+{
+    (void)state;
+    enum { COUNT = 150 };
+    tl_navmesh *navmesh = crowd_open_floor(15.0f, 15.0f);
+    tl_nav_crowd *crowd = crowd_make(COUNT);
+    const tl_nav_location middle = crowd_place(navmesh, 0.0f, 0.0f, 0.0f),
+                          out = crowd_place(navmesh, 12.0f, 0.0f, 0.0f);
+    tl_nav_agent agents[COUNT];
+    for (uint32_t i = 0; i < COUNT; i++) {
+        agents[i] = crowd_send(crowd, navmesh, tl_default_nav_agent_def(), -13.0f + 2.0f * (float)(i % 14), 0.0f,
+                               -13.0f + 2.0f * (float)(i / 14), &middle);
+    }
+    (void)status_after(crowd, navmesh, agents[0], 700);
+    uint32_t inmost = 0;
+    float least = INFINITY;
+    for (uint32_t i = 0; i < COUNT; i++) {
+        const tl_nav_agent_state now = look(crowd, agents[i]);
+        TEST_CHECK(now.status == TL_NAV_AGENT_ARRIVED);
+        inmost = hypotf(now.position.x, now.position.z) < least ? i : inmost;
+        least = fminf(least, hypotf(now.position.x, now.position.z));
+    }
+    TEST_RESULT(tl_nav_crowd_set_goal(crowd, agents[inmost], &out), TL_OK);
+    TEST_CHECK(status_after(crowd, navmesh, agents[inmost], 1200) == TL_NAV_AGENT_ARRIVED);
+    TEST_CHECK(look(crowd, agents[inmost]).position.x > 11.5f);
+    tl_nav_crowd_destroy(crowd);
+    tl_navmesh_destroy(navmesh);
+}
+
 // A vehicle drives through a crowd that stands: everyone makes way, nobody is run over.
 static void test_fixed(void **state)
 {
@@ -343,6 +373,6 @@ int main(void)
                                         cmocka_unit_test(test_head_on),     cmocka_unit_test(test_floors),
                                         cmocka_unit_test(test_wide),        cmocka_unit_test(test_links),
                                         cmocka_unit_test(test_edits),       cmocka_unit_test(test_near_goals),
-                                        cmocka_unit_test(test_fixed) };
+                                        cmocka_unit_test(test_let_out),     cmocka_unit_test(test_fixed) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
