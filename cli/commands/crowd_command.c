@@ -70,25 +70,43 @@ static tl_exit report_outcome(tl_cli *cli, const tl_crowd_scenario *scenario, co
     return TL_EXIT_OK;
 }
 
-static tl_exit run_scenario(tl_cli *cli, const crowd_settings *settings, const tl_navmesh *navmesh,
-                            const tl_crowd_scenario *scenario)
+static tl_exit run_on_stage(tl_cli *cli, const crowd_settings *settings, const tl_crowd_stage *stage)
 {
     tl_crowd_film film;
     tl_crowd_outcome outcome;
     tl_exit code = TL_EXIT_OK;
-    if (tl_crowd_run(cli, navmesh, scenario, settings->every, &film, &outcome, &code)) {
+    if (tl_crowd_run(cli, stage, settings->every, &film, &outcome, &code)) {
         tl_progress_end(&cli->progress);
         if (settings->output != NULL) {
-            code = write_film(cli, settings->output, &film, scenario, navmesh);
+            code = write_film(cli, settings->output, &film, stage->scenario, stage->navmesh);
         }
         if (code == TL_EXIT_OK && (settings->output == NULL || strcmp(settings->output, "-") != 0)) {
-            code = report_outcome(cli, scenario, &outcome);
+            code = report_outcome(cli, stage->scenario, &outcome);
         }
-        if (code == TL_EXIT_OK && outcome.arrived < scenario->agent_count) {
+        if (code == TL_EXIT_OK && outcome.arrived < stage->scenario->agent_count) {
             code = TL_EXIT_NEGATIVE;
         }
     }
     tl_crowd_film_free(&film);
+    return code;
+}
+
+static tl_exit run_scenario(tl_cli *cli, const crowd_settings *settings, const tl_input *input,
+                            const tl_crowd_scenario *scenario)
+{
+    tl_crowd_stage stage = { input->navmesh, NULL, scenario };
+    if (scenario->obstacle_count == 0) {
+        return run_on_stage(cli, settings, &stage);
+    }
+    tl_crowd_obstacles obstacles;
+    tl_exit code = TL_EXIT_OK;
+    if (tl_crowd_obstacles_make(cli, input, &settings->bake, scenario, &obstacles, &code) &&
+        tl_crowd_obstacles_set_time(cli, &obstacles, 0.0f, &code)) {
+        stage.navmesh = obstacles.navmesh;
+        stage.obstacles = &obstacles;
+        code = run_on_stage(cli, settings, &stage);
+    }
+    tl_crowd_obstacles_free(&obstacles);
     return code;
 }
 
@@ -118,7 +136,7 @@ static tl_exit run_crowd(tl_cli *cli)
         tl_io_error error;
         memset(&error, 0, sizeof(error));
         if (tl_crowd_scenario_read(cli->arguments.words[1], cli->frame, &scenario, &error) == TL_OK) {
-            code = run_scenario(cli, &settings, input.navmesh, &scenario);
+            code = run_scenario(cli, &settings, &input, &scenario);
         } else {
             code = tl_cli_fail_io(cli, &error);
         }
@@ -137,12 +155,17 @@ const tl_command tl_crowd_command = {
     "file, or a level, which is then baked in memory. The run ends when all have arrived, at the latest after the\n"
     "scenario's seconds; exits with 1 when some have not.\n"
     "\n"
-    "SCENARIO is JSON: { \"seconds\": 60, \"step\": 0.05, \"groups\": [...], \"vehicles\": [...] }. A group has "
-    "\"at\"\n"
+    "SCENARIO is JSON: { \"seconds\": 60, \"step\": 0.05, \"groups\": [...], \"vehicles\": [...], \"obstacles\": [...] "
+    "}.\n"
+    "A group has \"at\"\n"
     "[x, y, z], \"goals\" [[x, y, z], ...], which each agent visits in order, and may have \"count\", \"name\",\n"
     "\"start\" (seconds), \"repeat\", \"spacing\", \"radius\", \"height\", \"speed\" and \"priority\". A vehicle goes "
     "straight\n"
-    "from \"from\" to \"to\" and evades nobody; it may have \"start\", \"speed\", \"radius\" and \"height\".",
+    "from \"from\" to \"to\" and evades nobody; it may have \"start\", \"speed\", \"radius\" and \"height\". An "
+    "obstacle\n"
+    "stands \"at\" a place, with a \"size\" [x, z] or a \"radius\", \"from\" a second \"until\" another: a door that "
+    "is\n"
+    "shut, a crate; it may have \"turn\" (degrees) and \"height\". Obstacles need a level, not a baked file.",
     "talus sample courtyard -o courtyard.obj\n"
     "talus bake courtyard.obj -o courtyard.talus\n"
     "echo '{\"groups\": [{\"count\": 9, \"at\": [2, 0, 20], \"goals\": [[20, 5, 20]]}]}' > guests.json\n"

@@ -96,6 +96,63 @@ static void add_everybody(tl_text *text, const tl_crowd_film *film, const tl_cro
     }
 }
 
+// Shown from one time to another, again and again.
+static void add_presence(tl_text *text, const tl_crowd_obstacle *obstacle, float duration)
+{
+    if (!(duration > 0.0f) || (obstacle->from <= 0.0f && obstacle->until > duration)) {
+        return; // always
+    }
+    if (obstacle->from >= duration) {
+        tl_text_add(text, "<set attributeName=\"visibility\" to=\"hidden\"/>");
+        return;
+    }
+    tl_text_add(text, "<animate attributeName=\"visibility\" calcMode=\"discrete\" repeatCount=\"indefinite\"");
+    add_attribute(text, "dur", duration);
+    tl_text_add(text, " values=\"");
+    tl_text_add(text, obstacle->from > 0.0f ? "hidden;visible" : "visible");
+    tl_text_add(text, obstacle->until < duration ? ";hidden\" keyTimes=\"0" : "\" keyTimes=\"0");
+    const float times[2] = { obstacle->from, obstacle->until };
+    for (uint32_t i = 0; i < 2; ++i) {
+        if (times[i] > 0.0f && times[i] < duration) {
+            char share[32];
+            snprintf(share, sizeof(share), ";%.6f", (double)times[i] / (double)duration);
+            tl_text_add(text, share);
+        }
+    }
+    tl_text_add(text, "\"/>");
+}
+
+static void add_obstacles(tl_text *text, const tl_crowd_film *film, const tl_crowd_scenario *scenario)
+{
+    const float duration = film->interval * (float)(film->frame_count - 1);
+    for (uint32_t i = 0; i < scenario->obstacle_count; ++i) {
+        const tl_crowd_obstacle *it = &scenario->obstacles[i];
+        const bool is_round = it->radius > 0.0f;
+        tl_text_add(text, is_round ? "<circle" : "<rect");
+        tl_text_add(text, " fill=\"#7a6a58\"");
+        if (is_round) {
+            add_attribute(text, "r", it->radius);
+            add_attribute(text, "cx", it->at.x);
+            add_attribute(text, "cy", it->at.z);
+        } else {
+            add_attribute(text, "x", it->at.x - 0.5f * it->size[0]);
+            add_attribute(text, "y", it->at.z - 0.5f * it->size[1]);
+            add_attribute(text, "width", it->size[0]);
+            add_attribute(text, "height", it->size[1]);
+            tl_text_add(text, " transform=\"rotate(");
+            add_number(text, -it->turn); // SVG turns clockwise
+            tl_text_add(text, " ");
+            add_number(text, it->at.x);
+            tl_text_add(text, " ");
+            add_number(text, it->at.z);
+            tl_text_add(text, ")\"");
+        }
+        tl_text_add(text, ">");
+        add_presence(text, it, duration);
+        tl_text_add(text, is_round ? "</circle>\n" : "</rect>\n");
+    }
+}
+
 void tl_crowd_film_add_svg(const tl_crowd_film *film, const tl_crowd_scenario *scenario, const tl_navmesh *navmesh,
                            tl_text *text)
 {
@@ -120,6 +177,7 @@ void tl_crowd_film_add_svg(const tl_crowd_film *film, const tl_crowd_scenario *s
         }
     }
     tl_text_add(text, "\"/>\n");
+    add_obstacles(text, film, scenario);
     add_everybody(text, film, scenario);
     tl_text_add(text, "</svg>\n");
 }

@@ -9,7 +9,7 @@
 #include "cli/shared/text_buffer.h"
 
 /// The navmesh seen from above, x to the right and z down, as it was baked; everybody as a circle of their radius, in
-/// the colour of their group.
+/// the colour of their group; obstacles while they are there.
 void tl_crowd_film_add_svg(const tl_crowd_film *film, const tl_crowd_scenario *scenario, const tl_navmesh *navmesh,
                            tl_text *text);
 

@@ -28,13 +28,15 @@ typedef struct crowd_run {
     tl_cli *cli;
     const tl_navmesh *navmesh;
     const tl_crowd_scenario *scenario;
+    tl_crowd_obstacles *obstacles; // NULL: none
     tl_nav_crowd *crowd;
     tl_nav_location **goals; // [group] on the navmesh
     walker *walkers;
     tl_nav_agent *vehicles;
     tl_crowd_film *film;
     tl_crowd_outcome *outcome;
-    uint32_t *order; // of the film's people, by x
+    uint32_t *order;  // of the film's people, by x
+    uint32_t waiting; // paths that are still to be searched after the last step
 } crowd_run;
 
 static bool locate(const crowd_run *run, tl_vec3 point, uint32_t group, const char *what, tl_nav_location *location,
@@ -207,6 +209,14 @@ static void head_for_next(const crowd_run *run, walker *who)
     tl_nav_crowd_set_goal(run->crowd, who->agent, &run->goals[who->group][who->next_goal++]);
 }
 
+// Whether what is unreachable may become reachable: an obstacle comes or goes later, or that has not been looked at
+// yet.
+static bool may_open(const crowd_run *run, float time)
+{
+    return run->obstacles != NULL &&
+           (time <= run->obstacles->last_change + 2.0f * run->scenario->step || run->waiting > 0);
+}
+
 // Sends a walker on: at its start, and from each goal to the next.
 static void guide(const crowd_run *run, walker *who, float time)
 {
@@ -224,6 +234,9 @@ static void guide(const crowd_run *run, walker *who, float time)
     tl_nav_agent_state state;
     tl_nav_crowd_agent(run->crowd, who->agent, &state);
     if (state.status == TL_NAV_AGENT_UNREACHABLE || state.status == TL_NAV_AGENT_GAVE_UP) {
+        if (may_open(run, time)) {
+            return; // it stands as near as it came, and tries again when the level changes
+        }
         who->is_done = true;
         run->outcome->unreachable++;
     } else if (state.status == TL_NAV_AGENT_ARRIVED) {
@@ -301,7 +314,7 @@ static void count_overlaps(const crowd_run *run, float largest_radius)
     }
 }
 
-static bool step_once(const crowd_run *run, float time)
+static bool step_once(crowd_run *run, float time)
 {
     const tl_crowd_scenario *s = run->scenario;
     bool is_over = true;
@@ -315,7 +328,9 @@ static bool step_once(const crowd_run *run, float time)
         tl_nav_crowd_set_motion(run->crowd, run->vehicles[i], place, velocity);
     }
     const double begin = tl_clock_seconds();
-    tl_nav_crowd_step(run->crowd, run->navmesh, s->step, NULL);
+    tl_nav_crowd_step_report report;
+    tl_nav_crowd_step(run->crowd, run->navmesh, s->step, &report);
+    run->waiting = report.waiting;
     run->outcome->compute_seconds += tl_clock_seconds() - begin;
     run->outcome->agent_steps += s->agent_count;
     return is_over;
@@ -344,6 +359,9 @@ static bool run_steps(crowd_run *run, tl_exit *exit_out)
                 return false;
             }
             count_overlaps(run, largest_radius);
+        }
+        if (run->obstacles != NULL && !tl_crowd_obstacles_set_time(run->cli, run->obstacles, (float)time, exit_out)) {
+            return false;
         }
         run->outcome->seconds = (float)time;
         is_over = i < steps && step_once(run, (float)time);
@@ -383,20 +401,23 @@ static bool sum_up(const crowd_run *run, tl_exit *exit_out)
     return true;
 }
 
-bool tl_crowd_run(tl_cli *cli, const tl_navmesh *navmesh, const tl_crowd_scenario *scenario, float interval,
-                  tl_crowd_film *film_out, tl_crowd_outcome *outcome_out, tl_exit *exit_out)
+bool tl_crowd_run(tl_cli *cli, const tl_crowd_stage *stage, float interval, tl_crowd_film *film_out,
+                  tl_crowd_outcome *outcome_out, tl_exit *exit_out)
 {
+    const tl_crowd_scenario *scenario = stage->scenario;
     memset(film_out, 0, sizeof(*film_out));
     memset(outcome_out, 0, sizeof(*outcome_out));
     film_out->interval = interval;
     crowd_run run;
     memset(&run, 0, sizeof(run));
     run.cli = cli;
-    run.navmesh = navmesh;
+    run.navmesh = stage->navmesh;
     run.scenario = scenario;
+    run.obstacles = stage->obstacles;
     run.film = film_out;
     run.outcome = outcome_out;
-    const bool good = set_up(&run, exit_out) && run_steps(&run, exit_out) && sum_up(&run, exit_out);
+    const bool good = set_up(&run, exit_out) && run_steps(&run, exit_out) && sum_up(&run, exit_out) &&
+                      (run.obstacles == NULL || tl_crowd_obstacles_set_time(cli, run.obstacles, -1.0f, exit_out));
     tl_nav_crowd_destroy(run.crowd);
     for (uint32_t i = 0; run.goals != NULL && i < scenario->group_count; ++i) {
         free(run.goals[i]);

@@ -5,7 +5,7 @@
 #ifndef TALUS_CLI_CROWD_RUN_H
 #define TALUS_CLI_CROWD_RUN_H
 
-#include "cli/crowd/crowd_scenario.h"
+#include "cli/crowd/crowd_obstacles.h"
 #include "cli/shared/command.h"
 
 #include <talus/nav_crowd.h>
@@ -34,9 +34,16 @@ typedef struct tl_crowd_outcome {
     uint64_t hash;          ///< of the crowd at the end
 } tl_crowd_outcome;
 
-/// False: reported. Free the film with tl_crowd_film_free in any case.
-bool tl_crowd_run(tl_cli *cli, const tl_navmesh *navmesh, const tl_crowd_scenario *scenario, float interval,
-                  tl_crowd_film *film_out, tl_crowd_outcome *outcome_out, tl_exit *exit_out);
+/// What a scenario runs on.
+typedef struct tl_crowd_stage {
+    const tl_navmesh *navmesh;
+    tl_crowd_obstacles *obstacles; ///< NULL: none; else theirs is the navmesh
+    const tl_crowd_scenario *scenario;
+} tl_crowd_stage;
+
+/// False: reported. Free the film with tl_crowd_film_free in any case. The obstacles have gone at the end.
+bool tl_crowd_run(tl_cli *cli, const tl_crowd_stage *stage, float interval, tl_crowd_film *film_out,
+                  tl_crowd_outcome *outcome_out, tl_exit *exit_out);
 void tl_crowd_film_free(tl_crowd_film *film);
 
 #endif

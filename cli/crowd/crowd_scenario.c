@@ -130,6 +130,44 @@ static void take_vehicle(scenario_reader *r, const tl_json_place *at, tl_crowd_v
     take_number(r, at, "height", 0.01, 1000.0, &vehicle->height);
 }
 
+static void take_size(scenario_reader *r, const tl_json_place *at, float size[2])
+{
+    const json_t *given = json_object_get(at->value, "size");
+    for (size_t i = 0; i < 2; ++i) {
+        const json_t *number = json_array_get(given, i);
+        const double n = json_is_number(number) ? json_number_value(number) : (double)NAN;
+        if (!(n >= 0.01 && n <= 1000.0) || json_array_size(given) != 2) {
+            tl_json_fail(&r->json, TL_ERR_FORMAT, at, "size", "is no size; give [x, z] from 0.01 to 1000, or a radius");
+            return;
+        }
+        size[i] = (float)n;
+    }
+}
+
+static void take_obstacle(scenario_reader *r, const tl_json_place *at, tl_crowd_obstacle *obstacle)
+{
+    static const char *const known[] = { "at", "size", "radius", "turn", "height", "from", "until", NULL };
+    if (!tl_json_keys_are_known(&r->json, at, known)) {
+        return;
+    }
+    obstacle->height = 2.0f;
+    obstacle->until = INFINITY;
+    take_point(r, at, "at", &obstacle->at);
+    if (json_object_get(at->value, "radius") == NULL) {
+        take_size(r, at, obstacle->size);
+    } else if (json_object_get(at->value, "size") != NULL) {
+        tl_json_fail(&r->json, TL_ERR_FORMAT, at, "radius", "is given beside a size; leave one out");
+    }
+    take_number(r, at, "radius", 0.01, 1000.0, &obstacle->radius);
+    take_number(r, at, "turn", -360.0, 360.0, &obstacle->turn);
+    take_number(r, at, "height", 0.01, 1000.0, &obstacle->height);
+    take_number(r, at, "from", 0.0, 1e6, &obstacle->from);
+    take_number(r, at, "until", 0.0, 1e6, &obstacle->until);
+    if (r->json.result == TL_OK && !(obstacle->from < obstacle->until)) {
+        tl_json_fail(&r->json, TL_ERR_FORMAT, at, "until", "is not after from");
+    }
+}
+
 // Room for the items of a list; NULL and 0 for none. False: out of memory.
 static bool make_room(scenario_reader *r, const tl_json_place *root, const char *key, size_t size, void **items,
                       tl_json_place *list, uint32_t *count)
@@ -147,7 +185,7 @@ static bool make_room(scenario_reader *r, const tl_json_place *root, const char 
 
 static void take_scenario(scenario_reader *r, const tl_json_place *root, tl_crowd_scenario *s)
 {
-    static const char *const known[] = { "seconds", "step", "groups", "vehicles", NULL };
+    static const char *const known[] = { "seconds", "step", "groups", "vehicles", "obstacles", NULL };
     tl_json_place list, item;
     void *items;
     if (!tl_json_keys_are_known(&r->json, root, known)) {
@@ -167,6 +205,12 @@ static void take_scenario(scenario_reader *r, const tl_json_place *root, tl_crow
     s->vehicle_count = good ? s->vehicle_count : 0;
     for (uint32_t i = 0; good && i < s->vehicle_count && tl_json_item(&r->json, &list, i, &item); ++i) {
         take_vehicle(r, &item, &s->vehicles[i]);
+    }
+    good = good && make_room(r, root, "obstacles", sizeof(*s->obstacles), &items, &list, &s->obstacle_count);
+    s->obstacles = good ? items : NULL;
+    s->obstacle_count = good ? s->obstacle_count : 0;
+    for (uint32_t i = 0; good && i < s->obstacle_count && tl_json_item(&r->json, &list, i, &item); ++i) {
+        take_obstacle(r, &item, &s->obstacles[i]);
     }
     if (r->json.result == TL_OK && (agents == 0 || agents + s->vehicle_count > TL_NAV_CROWD_MAX_AGENTS)) {
         tl_json_fail(&r->json, agents == 0 ? TL_ERR_FORMAT : TL_ERR_LIMIT, root, "groups",
@@ -203,5 +247,6 @@ void tl_crowd_scenario_free(tl_crowd_scenario *scenario)
     }
     free(scenario->groups);
     free(scenario->vehicles);
+    free(scenario->obstacles);
     memset(scenario, 0, sizeof(*scenario));
 }

@@ -5,10 +5,11 @@
 //   { "seconds": 40, "step": 0.05,
 //     "groups": [ { "name": "west", "count": 40, "at": [4, 0, 20], "goals": [[36, 0, 20]], "start": 2, "repeat": true,
 //                   "spacing": 0.9, "radius": 0.3, "height": 1.8, "speed": 1.4, "priority": 0.5 } ],
-//     "vehicles": [ { "from": [0, 0, 10], "to": [30, 0, 10], "start": 5, "speed": 4, "radius": 1, "height": 1.5 } ] }
+//     "vehicles": [ { "from": [0, 0, 10], "to": [30, 0, 10], "start": 5, "speed": 4, "radius": 1, "height": 1.5 } ],
+//     "obstacles": [ { "at": [18, 0, 20], "size": [0.4, 2], "turn": 0, "height": 2, "from": 10, "until": 20 } ] }
 //
 // A group stands around "at", and each of its agents walks to all goals, one after the other. A vehicle drives straight
-// and evades nobody.
+// and evades nobody. An obstacle stands from one time to another: a door that is shut, a crate, with "radius" a pillar.
 
 #ifndef TALUS_CLI_CROWD_SCENARIO_H
 #define TALUS_CLI_CROWD_SCENARIO_H
@@ -34,12 +35,23 @@ typedef struct tl_crowd_vehicle {
     float start, speed, radius, height;
 } tl_crowd_vehicle;
 
+typedef struct tl_crowd_obstacle {
+    tl_vec3 at;        ///< the centre of its base
+    float size[2];     ///< metres along x and z, before it is turned
+    float radius;      ///< metres; > 0: a cylinder, without size
+    float turn;        ///< degrees about the vertical, counter-clockwise from above
+    float height;      ///< metres
+    float from, until; ///< seconds; until INFINITY: to the end
+} tl_crowd_obstacle;
+
 typedef struct tl_crowd_scenario {
     float seconds, step;
     tl_crowd_group *groups;
     uint32_t group_count;
     tl_crowd_vehicle *vehicles;
     uint32_t vehicle_count;
+    tl_crowd_obstacle *obstacles;
+    uint32_t obstacle_count;
     uint32_t agent_count; ///< of all groups
 } tl_crowd_scenario;
 

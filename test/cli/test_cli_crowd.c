@@ -87,6 +87,70 @@ static void test_films(void **state)
     TEST_CHECK(cli_exists("film.jsonl"));
 }
 
+// A bar across the floor that goes after 20 s: nobody is past it before, all arrive later, and the film shows when it
+// is there. The same for any number of threads; another that stays for ever leaves the goal unreachable.
+static void test_obstacles(void **state)
+{
+    (void)state;
+    cli_write_text("bar.json",
+                   "{ \"seconds\": 90, \"groups\": [ { \"count\": 6, \"at\": [4, 0, 20], \"goals\": [[16, 0, 20]] } ],"
+                   " \"obstacles\": [ { \"at\": [10, 0, 20], \"size\": [1, 200], \"until\": 20 },"
+                   " { \"at\": [4, 0, 30], \"radius\": 1, \"from\": 5 } ] }");
+    json_t *one = cli_json(0, "crowd floor.obj bar.json --json --threads 1");
+    json_t *many = cli_json(0, "crowd floor.obj bar.json --json --threads 3");
+    TEST_CHECK(cli_number(one, "arrived") == 6 && cli_number(one, "unreachable") == 0);
+    TEST_CHECK(cli_number(one, "half_arrived_after") > 23 && cli_number(one, "last_arrived_after") < 60);
+    assert_string_equal(json_string_value(json_object_get(one, "hash")),
+                        json_string_value(json_object_get(many, "hash")));
+    json_decref(one);
+    json_decref(many);
+    cli_result lines = cli_expect(0, "crowd floor.obj bar.json -o - --every 1");
+    uint32_t frames = 0, past = 0;
+    for (char *line = strtok(lines.out, "\n"); line != NULL; line = strtok(NULL, "\n"), ++frames) {
+        json_t *frame = json_loads(line, 0, NULL);
+        for (size_t i = 0; i < 6; ++i) {
+            const double x = json_number_value(json_array_get(json_array_get(json_object_get(frame, "places"), i), 0));
+            past += x > 9.5;
+            TEST_CHECK(frames > 20 || x < 9.5);
+        }
+        json_decref(frame);
+    }
+    TEST_CHECK(frames > 23 && past > 0);
+    cli_free(&lines);
+    cli_do(0, "crowd floor.obj bar.json -o bar.svg");
+    size_t size;
+    char *svg = cli_read_file("bar.svg", &size);
+    TEST_CHECK(strstr(svg, "values=\"visible;hidden\" keyTimes=\"0;0.") != NULL);
+    TEST_CHECK(strstr(svg, "values=\"hidden;visible\" keyTimes=\"0;0.") != NULL && strstr(svg, "nan") == NULL);
+    free(svg);
+    cli_write_text("shut.json", "{ \"seconds\": 30, \"groups\": [ { \"at\": [4, 0, 20], \"goals\": [[16, 0, 20]] } ],"
+                                " \"obstacles\": [ { \"at\": [10, 0, 20], \"size\": [1, 200] } ] }");
+    json_t *shut = cli_json(1, "crowd floor.obj shut.json --json");
+    TEST_CHECK(cli_number(shut, "arrived") == 0 && cli_number(shut, "unreachable") == 1);
+    TEST_CHECK(cli_number(shut, "seconds") < 30);
+    json_decref(shut);
+    cli_check_error(3, "crowd floor.talus shut.json", "a baked file", "give the level itself");
+    cli_check_error(2, "crowd floor.obj shut.json --drop-inside-solids", "pruned", "leave those options out");
+    cli_check_error(2, "crowd floor.obj shut.json --link 4,0,20,16,0,20", "linked by hand", "");
+}
+
+// The scenarios that come with the sources.
+static void test_examples(void **state)
+{
+    (void)state;
+    static const char *const runs[] = { "halls.obj door.json", "halls.obj patrol.json" };
+    for (size_t i = 0; i < sizeof(runs) / sizeof(runs[0]); ++i) {
+        char level[32], scenario[32], line[1024];
+        TEST_CHECK(sscanf(runs[i], "%31s %31s", level, scenario) == 2);
+        snprintf(line, sizeof(line),
+                 "crowd %s/examples/crowds/%s %s/examples/crowds/%s --agent-radius 0.3 --cell-size 0.15 --json",
+                 TALUS_SOURCE_DIR, level, TALUS_SOURCE_DIR, scenario);
+        json_t *outcome = cli_json(0, line);
+        TEST_CHECK(cli_number(outcome, "arrived") == cli_number(outcome, "agents"));
+        json_decref(outcome);
+    }
+}
+
 static void test_not_all_arrive(void **state)
 {
     (void)state;
@@ -114,6 +178,11 @@ static void test_faults(void **state)
         { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 90, 9]]}]}", "no navmesh within 2 m of its goals[0]" },
         { "{\"step\": 2, \"groups\": []}", "step is no number from 0.001 to 1" },
         { "{\"groups\": [], \"vehicles\": [{\"from\": [0, 0, 0]}]}", "vehicles[0].to is no place" },
+        { "{\"groups\": [], \"obstacles\": [{\"at\": [0, 0, 0]}]}", "obstacles[0].size is no size" },
+        { "{\"groups\": [], \"obstacles\": [{\"at\": [0, 0, 0], \"size\": [1, 0]}]}", "obstacles[0].size is no size" },
+        { "{\"groups\": [], \"obstacles\": [{\"at\": [0, 0, 0], \"size\": [1, 1], \"radius\": 1}]}", "beside a size" },
+        { "{\"groups\": [], \"obstacles\": [{\"at\": [0, 0, 0], \"radius\": 1, \"from\": 5, \"until\": 5}]}",
+          "until is not after from" },
         { "{\"groups\": [", "cut short" },
     };
     for (size_t i = 0; i < sizeof(faults) / sizeof(faults[0]); ++i) {
@@ -131,7 +200,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_all_arrive), cmocka_unit_test(test_goals_and_vehicles),
-        cmocka_unit_test(test_films),      cmocka_unit_test(test_not_all_arrive),
+        cmocka_unit_test(test_films),      cmocka_unit_test(test_obstacles),
+        cmocka_unit_test(test_examples),   cmocka_unit_test(test_not_all_arrive),
         cmocka_unit_test(test_faults),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
