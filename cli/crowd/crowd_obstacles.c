@@ -12,8 +12,8 @@ enum { TILE_CELLS = 64 }; // where the options give none
 
 #define DEGREE 0.017453292519943295 // radians
 
-static bool bake_tiles(tl_cli *cli, const tl_input *input, const tl_bake_settings *settings, tl_crowd_obstacles *o,
-                       tl_exit *exit_out)
+static bool bake_changing_tiles(tl_cli *cli, const tl_input *input, const tl_bake_settings *settings,
+                                tl_crowd_obstacles *o, tl_exit *exit_out)
 {
     tl_level_areas areas;
     if (!tl_level_areas_make(cli, &input->level, &settings->areas, &areas, exit_out)) {
@@ -67,7 +67,7 @@ bool tl_crowd_obstacles_make(tl_cli *cli, const tl_input *input, const tl_bake_s
         *exit_out = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
         return false;
     }
-    return bake_tiles(cli, input, settings, o, exit_out);
+    return bake_changing_tiles(cli, input, settings, o, exit_out);
 }
 
 static tl_nav_obstacle shape_of(const tl_crowd_obstacle *it)

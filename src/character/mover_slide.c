@@ -15,14 +15,18 @@
 // position, as the gap is sixteen at least.
 #define SHORT_SHARE 0.125
 
-// Planes are kept to so much of the gap; and motions shorter than this are none.
+// Shares of the gap, 2 mm by default. 2^-20 of it: planes are kept to that, a thousand times what doubles lose at 10 km
+// (1e-12 m). 2^-16: motions shorter than that are none, so that what a plane's slack lets through is never a motion.
 #define SLACK_SHARE 9.5367431640625e-07
 #define STILL_SHARE 1.52587890625e-05
+
+// Pushed out is who has this share of the gap free.
+#define ENOUGH_SHARE 0.25
 
 // Walking, a metre up counts as an eighth of one ahead: at 45 degrees 1.5 % of the speed is lost.
 #define HEIGHT_SHARE 0.125
 
-// Normals within this are one: 1 - cosine.
+// Normals within this are one: 1 - cosine, of 1.4e-5 radians.
 #define SAME_NORMAL 1e-10
 
 // Upright: a hundredth of a degree or so.
@@ -191,7 +195,7 @@ void tl_mover_slide_along(tl_character_mover *m, tl_mover_slide *slide)
 void tl_mover_push_out(tl_character_mover *m, tl_vec3d *feet)
 {
     tl_mover_plane planes[TL_MAX_MOVER_PLANES];
-    const double slack = SLACK_SHARE * m->gap, enough = 0.25 * m->gap, still = STILL_SHARE * m->gap;
+    const double slack = SLACK_SHARE * m->gap, enough = ENOUGH_SHARE * m->gap, still = STILL_SHARE * m->gap;
     const tl_vec3d begin = *feet;
     tl_mover_slide none = { *feet, { 0, 0, 0 }, { 0, 0, 0 }, false, true, 0.0, false };
     for (uint32_t i = 0; i < MAX_PUSHES && tl_mover_find_contacts(m, *feet) < enough; i++) {

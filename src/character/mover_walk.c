@@ -10,11 +10,16 @@
 
 #include "character/mover.h"
 
-// Walls that lean by less than this do not carry: the way down leads along them. Edges of steps do.
+// The cosine of a wall's normal to the vertical, 84 degrees: walls that lean by less do not carry, and the way down
+// leads along them. Edges of steps do.
 #define LEAN_COSINE 0.1
 
-// A step leads farther when it does by this share of the gap.
+// A step leads farther when it does by this share of the gap: far above rounding, far below what a frame walks.
 #define FARTHER_SHARE 0.0625
+
+// Triangles are collected for a look one radius ahead: as far as that reaches, in radii, with room for the capsule's
+// gap.
+#define AHEAD_RADII 1.5
 
 enum { MAX_DESCENTS = 4 };
 
@@ -121,7 +126,7 @@ static bool leads_farther(const tl_character_mover *m, tl_vec3d to, tl_vec3d tha
 static bool climbs_side(tl_character_mover *m, const tl_mover_slide *slid, tl_vec3d from, tl_vec3d lifted,
                         tl_vec3d wish, tl_vec3d *feet)
 {
-    double length = flat_length(wish), reach = 1.5 * m->radius;
+    double length = flat_length(wish), reach = AHEAD_RADII * m->radius;
     tl_vec3d room = tl_vec3d_make(reach, 0.0, reach), far = tl_vec3d_scale(wish, m->radius / length);
     m->crowded = m->crowded || !tl_mover_collect(m, tl_vec3d_sub(m->feet_low, room), tl_vec3d_add(m->feet_high, room));
     tl_mover_slide probe = { lifted, far, { 0, 0, 0 }, true, true, slid->highest, false };

@@ -22,6 +22,12 @@ enum {
 // Half of a row's part is a root of a product of sums, times the cells of a metre: six roundings of half an ulp.
 #define HALF_ROUNDING (8.0f * FLT_EPSILON)
 
+// Distances are sums and a root of numbers up to the widest one: a share of it, four roundings and as many again.
+#define DISTANCE_ROUNDING (8.0f * FLT_EPSILON)
+
+// A place in a cell is a quotient, a product and a difference of doubles: a share of the coordinate.
+#define PLACE_ROUNDING (4.0 * DBL_EPSILON)
+
 typedef struct neighbor_search {
     const tl_nav_crowd *crowd;
     uint32_t self;
@@ -229,17 +235,16 @@ uint32_t tl_crowd_find_neighbors(const tl_nav_crowd *crowd, uint32_t k, crowd_ne
     neighbor_search search;
     search.crowd = crowd;
     search.self = k;
-    search.rounding = 8.0f * FLT_EPSILON * widest; // distances are sums and a root of numbers up to it: four roundings
+    search.rounding = DISTANCE_ROUNDING * widest;
     search.found = neighbors_out;
     search.capacity = crowd->def.max_neighbors;
-    // A place in a cell is a difference of doubles, rounded to a float.
     const double largest = fmax(fabs((double)seen->x[k]), fabs((double)seen->z[k]));
     const cell_place at = { tl_crowd_cell(seen->x[k], cell),
                             tl_crowd_cell(seen->z[k], cell),
                             in_cell(seen->x[k], cell),
                             in_cell(seen->z[k], cell),
                             1.0f / cell,
-                            search.rounding + (float)(4.0 * DBL_EPSILON * largest) };
+                            search.rounding + (float)(PLACE_ROUNDING * largest) };
     begin_search(&search, crowd->def.neighbor_distance);
     if (count_near(crowd, at.x, at.z) > search.capacity) {
         for (int32_t row = -1; row <= 1; row++) {

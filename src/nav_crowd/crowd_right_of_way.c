@@ -46,12 +46,16 @@
 // Rims that are so near touch, as a share of the radius.
 #define RIM_TOUCH_SHARE 0.5f
 
+// Of the golden angle, 2.39996 radians: multiples of it come near no direction too often.
+#define GOLDEN_COSINE (-0.7373688780783197)
+#define GOLDEN_SINE   0.6754902942615238
+
 // The direction that has the right of way now: the golden angle, again and again.
 static void preferred_direction(uint64_t milliseconds, float out[2])
 {
-    // Powers of a rotation by 2.39996 radians, without a sine: squared and multiplied.
+    // Powers of a rotation, without a sine: squared and multiplied.
     double x = 1.0, z = 0.0;
-    double c = -0.7373688780783197, s = 0.6754902942615238;
+    double c = GOLDEN_COSINE, s = GOLDEN_SINE;
     for (uint32_t turn = (uint32_t)(milliseconds / TURN_MS % 1024); turn != 0; turn >>= 1) {
         if ((turn & 1) != 0) {
             double t = x * c - z * s;
