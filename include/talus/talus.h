@@ -25,6 +25,7 @@
 #include <talus/nav_sight.h>
 #include <talus/nav_state.h>
 #include <talus/nav_tile.h>
+#include <talus/nav_versions.h>
 #include <talus/nav_wide.h>
 #include <talus/pack.h>
 #include <talus/polygon.h>

@@ -80,6 +80,7 @@ void tl_nav_area_table_change(tl_navmesh *navmesh, uint32_t slot, int sign)
     uint64_t area = slot_area(&navmesh->slots[slot]);
     for (uint32_t i = slot + 1; i <= navmesh->slot_capacity; i += lowest_bit(i)) {
         navmesh->area_table[i] += sign > 0 ? area : ~area + 1u;
+        tl_nav_touch(navmesh->history, TL_NAV_PAGED_AREAS, i);
     }
 }
 

@@ -10,6 +10,8 @@
 // there count as places to turn at, walls or not.
 
 #include "nav_query/navmesh/fans.h"
+
+#include "base/assert.h"
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 
@@ -29,6 +31,7 @@ typedef struct vertex_fan {
 static tl_nav_ring_edge *ring_at(tl_navmesh *navmesh, tl_nav_ring_place place, uint32_t *count_out)
 {
     tl_nav_rings *rings = &navmesh->slots[place.slot].rings;
+    TL_ASSERT(!tl_nav_is_shared(navmesh->history, rings->block));
     tl_nav_ring_of(rings, place.polygon, count_out);
     return rings->edges + rings->cells[place.polygon].first;
 }

@@ -151,7 +151,10 @@ static void finish_split(island_splitter *s, uint32_t count)
         uint32_t new_label = pieces[group_of(pieces, i)].new_label;
         for (uint32_t index = pieces[i].first; index != TL_NAV_NO_ISLAND; index = nodes[index].next) {
             nodes[index].piece = TL_NAV_NO_ISLAND;
-            nodes[index].labels[s->kind] = new_label != TL_NAV_NO_ISLAND ? new_label : nodes[index].labels[s->kind];
+            if (new_label != TL_NAV_NO_ISLAND) {
+                nodes[index].labels[s->kind] = new_label;
+                tl_nav_touch(s->islands->history, TL_NAV_PAGED_ISLAND_NODES, index);
+            }
         }
         s->labels[pieces[i].label].groups = 0;
         s->labels[pieces[i].label].open = 0;

@@ -90,6 +90,10 @@ tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
     }
     free_arrays(allocator, &navmesh->islands);
     navmesh->islands = grown;
+    tl_nav_touch_all(grown.history, TL_NAV_PAGED_ISLAND_NODES, capacity);
+    for (uint32_t kind = 0; kind < TL_NAV_ISLAND_KINDS; kind++) {
+        tl_nav_touch_all(grown.history, TL_NAV_PAGED_LABELS + kind, 2 * capacity);
+    }
     return TL_OK;
 }
 
@@ -97,6 +101,8 @@ tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
 static void name_anew(tl_nav_islands *islands, tl_nav_island_kind kind)
 {
     tl_nav_island_label *labels = islands->labels[kind];
+    tl_nav_touch_all(islands->history, TL_NAV_PAGED_ISLAND_NODES, islands->capacity);
+    tl_nav_touch_all(islands->history, TL_NAV_PAGED_LABELS + (uint32_t)kind, 2 * (uint64_t)islands->capacity);
     for (uint32_t i = 0; i < islands->label_count[kind]; i++) {
         labels[i].parent = tl_nav_label_root(labels, i);
         labels[i].size = UINT32_MAX;
@@ -129,14 +135,17 @@ uint32_t tl_nav_new_label(tl_nav_islands *islands, tl_nav_island_kind kind)
     uint32_t index = islands->label_count[kind]++;
     tl_nav_island_label label = { index, 1, 0, 0 };
     islands->labels[kind][index] = label;
+    tl_nav_touch(islands->history, TL_NAV_PAGED_LABELS + (uint32_t)kind, index);
     return index;
 }
 
 // The root, with every second label on the way hung higher; for the writer, who may.
-static uint32_t find_label_root(tl_nav_island_label *labels, uint32_t label)
+static uint32_t find_label_root(tl_nav_islands *islands, tl_nav_island_kind kind, uint32_t label)
 {
+    tl_nav_island_label *labels = islands->labels[kind];
     while (labels[label].parent != label) {
         labels[label].parent = labels[labels[label].parent].parent;
+        tl_nav_touch(islands->history, TL_NAV_PAGED_LABELS + (uint32_t)kind, label);
         label = labels[label].parent;
     }
     return label;
@@ -145,8 +154,8 @@ static uint32_t find_label_root(tl_nav_island_label *labels, uint32_t label)
 static void join_labels(tl_nav_islands *islands, tl_nav_island_kind kind, uint32_t node_a, uint32_t node_b)
 {
     tl_nav_island_label *labels = islands->labels[kind];
-    uint32_t a = find_label_root(labels, islands->nodes[node_a].labels[kind]);
-    uint32_t b = find_label_root(labels, islands->nodes[node_b].labels[kind]);
+    uint32_t a = find_label_root(islands, kind, islands->nodes[node_a].labels[kind]);
+    uint32_t b = find_label_root(islands, kind, islands->nodes[node_b].labels[kind]);
     if (a == b) {
         return;
     }
@@ -156,6 +165,8 @@ static void join_labels(tl_nav_islands *islands, tl_nav_island_kind kind, uint32
     uint32_t child = a_stays ? b : a;
     labels[child].parent = root;
     labels[root].size += labels[child].size;
+    tl_nav_touch(islands->history, TL_NAV_PAGED_LABELS + (uint32_t)kind, child);
+    tl_nav_touch(islands->history, TL_NAV_PAGED_LABELS + (uint32_t)kind, root);
 }
 
 static void make_nodes(tl_navmesh *navmesh, uint32_t slot)
@@ -184,6 +195,7 @@ static void make_nodes(tl_navmesh *navmesh, uint32_t slot)
                                     TL_NAV_NO_ISLAND,
                                     TL_NAV_NO_ISLAND };
         islands->nodes[index] = node;
+        tl_nav_touch(islands->history, TL_NAV_PAGED_ISLAND_NODES, index);
         rings->island[made++] = index;
     }
 }
@@ -235,6 +247,7 @@ void tl_nav_leave_islands(tl_navmesh *navmesh, uint32_t slot)
     islands->seam_seed_count = islands->seed_count;
     for (uint32_t c = 0; c < own->rings.component_count; c++) {
         tl_nav_island_node *node = &islands->nodes[own->rings.island[c]];
+        tl_nav_touch(islands->history, TL_NAV_PAGED_ISLAND_NODES, own->rings.island[c]);
         node->slot = TL_NAV_NO_SLOT;
         node->next = islands->free;
         islands->free = own->rings.island[c];

@@ -5,6 +5,8 @@
 #ifndef TALUS_SRC_NAV_QUERY_ISLANDS_H
 #define TALUS_SRC_NAV_QUERY_ISLANDS_H
 
+#include "nav_query/history/history.h"
+
 #include <talus/nav_query.h>
 
 /// No node, no piece.
@@ -44,6 +46,7 @@ typedef struct tl_nav_island_piece {
 } tl_nav_island_piece;
 
 typedef struct tl_nav_islands {
+    tl_nav_history *history;                          ///< the navmesh's
     tl_nav_island_node *nodes;                        ///< [capacity]
     tl_nav_island_piece *pieces;                      ///< [capacity]
     uint32_t *seeds;                                  ///< [capacity]: nodes that have lost a way

@@ -5,6 +5,7 @@
 #ifndef TALUS_SRC_NAV_QUERY_NAVMESH_H
 #define TALUS_SRC_NAV_QUERY_NAVMESH_H
 
+#include "nav_query/history/history.h"
 #include "nav_query/navmesh/islands.h"
 #include "nav_query/navmesh/offmesh.h"
 #include "nav_query/navmesh/rings.h"
@@ -41,6 +42,8 @@ typedef struct tl_nav_slot {
     uint32_t next;            ///< in the chain of its bucket, or of the free slots
     tl_nav_edit last_edit;    ///< that changed what a search sees here
     uint64_t inner_links;     ///< ways between polygons of the tile
+    uint64_t changed_in;      ///< the draft that made `changed`
+    void *keeper;             ///< memory of a history that frees an owned tile; NULL: there is none
     tl_nav_tile_ownership ownership;
     uint32_t anchor_count; ///< ends of off-mesh links on its polygons
     tl_nav_side_links sides[TL_NAV_SIDE_COUNT];
@@ -78,6 +81,7 @@ typedef struct tl_nav_flag_counts {
 
 struct tl_navmesh {
     tl_allocator allocator;
+    tl_nav_history *history; ///< NULL: it is no version of several (versions/)
     tl_nav_slot *slots;
     uint32_t *buckets; ///< heads of chains of slots by tile place; bucket_count is a power of two
     uint32_t slot_count, slot_capacity;
@@ -91,7 +95,8 @@ struct tl_navmesh {
     tl_nav_islands islands;
     tl_nav_offmesh_table offmesh;
     const tl_nav_derived *derived[TL_NAV_DERIVED_KINDS]; ///< NULL: there is none
-    tl_nav_visibility_graph *graph;                      ///< NULL, or that of the edit whose number it holds
+    tl_nav_visibility_graph *graph;                      ///< NULL, or that of the edit `graph_edit`
+    uint64_t graph_edit;
     uint32_t last_fan;                                   ///< the last number that fans.c gave
     tl_nav_flag_counts flags;                            ///< of all polygons and off-mesh links
     float extent;                                        ///< metres: the largest |x| or |z| of any tile so far
@@ -129,6 +134,14 @@ void tl_nav_count_tile_flags(tl_navmesh *navmesh, const tl_nav_tile *tile, int s
 
 /// Makes a slot's tile the one that was added.
 void tl_nav_drop_changes(tl_nav_slot *slot);
+/// Frees a navmesh whose arrays are its own, with all that it owns; of a history that ends, with all of its memory.
+void tl_nav_free_content(tl_navmesh *navmesh);
+
+/// Notes that a slot is changed, for the versions after this one (history.h).
+static inline void tl_nav_touch_slot(const tl_navmesh *navmesh, uint32_t slot)
+{
+    tl_nav_touch(navmesh->history, TL_NAV_PAGED_SLOTS, slot);
+}
 
 enum { TL_NAV_REF_POLYGON_BITS = 28, TL_NAV_REF_SLOT_BITS = 20 };
 
@@ -136,6 +149,13 @@ static inline tl_nav_ref tl_nav_make_ref(const tl_navmesh *navmesh, uint32_t slo
 {
     return (uint64_t)navmesh->slots[slot].salt << (TL_NAV_REF_POLYGON_BITS + TL_NAV_REF_SLOT_BITS) |
            (uint64_t)slot << TL_NAV_REF_POLYGON_BITS | polygon;
+}
+
+/// The chain of slots that a place belongs to; there are some.
+static inline uint32_t tl_nav_place_bucket(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+{
+    const uint64_t place = (uint64_t)(uint32_t)tile_x << 32 | (uint32_t)tile_z;
+    return (uint32_t)tl_hash_mix(place) & (navmesh->bucket_count - 1);
 }
 
 /// Begins a change of the tile at a place.
@@ -149,6 +169,7 @@ static inline void tl_nav_begin_edit(tl_navmesh *navmesh, int32_t tile_x, int32_
 /// Notes that the change under way is one of what a search sees in a slot (sliced_path.c asks).
 static inline void tl_nav_note_edit(tl_navmesh *navmesh, uint32_t slot)
 {
+    tl_nav_touch_slot(navmesh, slot);
     navmesh->slots[slot].last_edit = navmesh->edit;
 }
 

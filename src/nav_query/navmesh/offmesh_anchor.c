@@ -89,6 +89,8 @@ static void release(tl_navmesh *navmesh, uint32_t end)
     if (anchor->slot == TL_NAV_NO_SLOT) {
         return;
     }
+    tl_nav_touch_offmesh(navmesh->history);
+    tl_nav_touch_slot(navmesh, anchor->slot);
     if (tl_nav_is_anchored(entry)) {
         close_link(navmesh, end / 2);
     }
@@ -114,6 +116,8 @@ static void anchor_end(tl_navmesh *navmesh, uint32_t end)
     }
     tl_nav_anchor *anchor = &entry->ends[end % 2];
     tl_nav_split_ref(navmesh, found.polygon, &anchor->slot, &anchor->polygon);
+    tl_nav_touch_offmesh(navmesh->history);
+    tl_nav_touch_slot(navmesh, anchor->slot);
     anchor->point = found.point;
     put_in_bucket(&navmesh->offmesh, end);
     navmesh->slots[anchor->slot].anchor_count++;

@@ -66,6 +66,7 @@ static tl_result grow_offmesh(tl_navmesh *navmesh)
         navmesh->offmesh.free = UINT32_MAX;
     }
     tl_nav_fill_buckets(&navmesh->offmesh);
+    tl_nav_touch_offmesh(navmesh->history);
     return TL_OK;
 }
 
@@ -118,6 +119,7 @@ tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmesh *offm
     if (is_full) {
         TL_TRY(grow_offmesh(navmesh));
     }
+    tl_nav_touch_offmesh(navmesh->history);
     uint32_t index = table->free != UINT32_MAX ? table->free : table->used++;
     tl_nav_offmesh_entry *entry = &table->entries[index];
     if (index == table->free) {
@@ -156,6 +158,7 @@ tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link)
         tl_nav_seed_island(navmesh, entry->ends[0].slot, entry->ends[0].polygon);
         tl_nav_seed_island(navmesh, entry->ends[1].slot, entry->ends[1].polygon);
     }
+    tl_nav_touch_offmesh(navmesh->history);
     uint32_t index = (uint32_t)(entry - table->entries);
     tl_nav_release_anchors(navmesh, index);
     tl_nav_count_flags(&navmesh->flags, entry->offmesh.flags, -1);

@@ -203,19 +203,12 @@ static void label_tree_nodes(const tl_nav_tile *tile, tl_nav_rings *rings)
     }
 }
 
-// Room for the arrays, one behind the other: the widest alignment any of them needs is that of their numbers.
-static bool allocate_rings(const tl_allocator *allocator, const tl_nav_tile *tile, uint64_t edges, uint64_t seams,
-                           tl_nav_rings *rings)
+// Where the arrays stand in their block, one behind the other: the widest alignment any of them needs is that of their
+// numbers.
+static void place_arrays(tl_nav_rings *rings, void *block, uint64_t edges, uint64_t seams, uint64_t polygons)
 {
-    const uint64_t polygons = tile->polygon_count;
-    uint64_t size = edges * (sizeof(tl_nav_ring_edge) + sizeof(tl_nav_ring_walls)) + seams * sizeof(tl_nav_ring_seam) +
-                    (polygons + 1) * sizeof(tl_nav_ring_cell) + (3 * polygons + tile->node_count) * sizeof(uint32_t);
-    char *at = tl_allocate_array(allocator, size, 1);
-    if (at == NULL) {
-        return false;
-    }
-    rings->block = at;
-    rings->block_size = size;
+    char *at = (char *)block;
+    rings->block = block;
     rings->edges = (tl_nav_ring_edge *)(void *)at;
     at += edges * sizeof(tl_nav_ring_edge);
     rings->walls = (tl_nav_ring_walls *)(void *)at;
@@ -228,6 +221,20 @@ static bool allocate_rings(const tl_allocator *allocator, const tl_nav_tile *til
     rings->island = rings->component + polygons;
     rings->next_member = rings->island + polygons;
     rings->node_component = rings->next_member + polygons;
+}
+
+static bool allocate_rings(const tl_allocator *allocator, const tl_nav_tile *tile, uint64_t edges, uint64_t seams,
+                           tl_nav_rings *rings)
+{
+    const uint64_t polygons = tile->polygon_count;
+    uint64_t size = edges * (sizeof(tl_nav_ring_edge) + sizeof(tl_nav_ring_walls)) + seams * sizeof(tl_nav_ring_seam) +
+                    (polygons + 1) * sizeof(tl_nav_ring_cell) + (3 * polygons + tile->node_count) * sizeof(uint32_t);
+    void *block = tl_allocate_array(allocator, size, 1);
+    if (block == NULL) {
+        return false;
+    }
+    rings->block_size = size;
+    place_arrays(rings, block, edges, seams, polygons);
     return true;
 }
 
@@ -327,6 +334,21 @@ void tl_nav_rings_free(const tl_allocator *allocator, tl_nav_rings *rings)
 {
     tl_release_array(allocator, rings->block, rings->block_size, 1);
     memset(rings, 0, sizeof *rings);
+}
+
+tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings)
+{
+    void *block = tl_allocate_array(allocator, rings->block_size, 1);
+    if (block == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    const uint64_t edges = (uint64_t)((char *)rings->walls - (char *)rings->edges);
+    const uint64_t seams = (uint64_t)((char *)rings->cells - (char *)rings->seams);
+    memcpy(block, rings->block, rings->block_size);
+    tl_release_array(allocator, rings->block, rings->block_size, 1);
+    place_arrays(rings, block, edges / sizeof(tl_nav_ring_edge), seams / sizeof(tl_nav_ring_seam),
+                 rings->polygon_count);
+    return TL_OK;
 }
 
 void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot)

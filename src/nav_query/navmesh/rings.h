@@ -73,6 +73,8 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
                             const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const tl_nav_rings *old,
                             uint32_t changed_side, tl_nav_rings *rings_out);
 void tl_nav_rings_free(const tl_allocator *allocator, tl_nav_rings *rings);
+/// The same rings in memory of their own; those before are released. TL_ERR_MEMORY: nothing is changed.
+tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings);
 
 /// Makes walls of all ways to a slot. The cuts in the edges stay.
 void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot);

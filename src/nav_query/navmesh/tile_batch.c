@@ -4,6 +4,7 @@
 // with the same bytes stays, so a change in one storey takes out that storey only, and paths and agents on the others
 // keep their references.
 
+#include "base/assert.h"
 #include "base/host.h"
 #include "nav_query/navmesh/navmesh.h"
 
@@ -19,6 +20,7 @@ static void take_back(tl_navmesh *navmesh, tl_nav_tile *const *tiles, uint32_t c
             slot = tl_nav_next_slot(navmesh, slot);
         }
         navmesh->slots[slot].ownership = TL_NAV_TILE_BORROWED;
+        tl_nav_keep(navmesh->slots[slot].keeper, NULL);
         (void)tl_navmesh_remove_layer(navmesh, tile->tile_x, tile->layer, tile->tile_z);
     }
 }
@@ -74,7 +76,7 @@ static uint32_t find_same(const tl_nav_tile_stack *stack, const tl_nav_tile *til
 }
 
 // Takes out what is not wanted, and off the stack what is there.
-static void keep_same(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z, tl_nav_tile_stack *stack)
+static tl_result keep_same(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z, tl_nav_tile_stack *stack)
 {
     uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z);
     while (slot != TL_NAV_NO_SLOT) {
@@ -86,10 +88,11 @@ static void keep_same(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z, tl_na
             tl_blob_free(stack->tiles[same]);
             stack->tiles[same] = NULL;
         } else {
-            (void)tl_navmesh_remove_layer(navmesh, tile_x, tile->layer, tile_z);
+            TL_TRY(tl_navmesh_remove_layer(navmesh, tile_x, tile->layer, tile_z));
         }
         slot = next;
     }
+    return TL_OK;
 }
 
 tl_result tl_navmesh_replace_tiles(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z, tl_nav_tile_stack *stack)
@@ -99,8 +102,7 @@ tl_result tl_navmesh_replace_tiles(tl_navmesh *navmesh, int32_t tile_x, int32_t 
         return result;
     }
     if (are_of_place(stack, tile_x, tile_z)) {
-        keep_same(navmesh, tile_x, tile_z, stack);
-        result = TL_OK;
+        result = keep_same(navmesh, tile_x, tile_z, stack);
     }
     for (uint32_t i = 0; result == TL_OK && i < stack->count; i++) {
         if (stack->tiles[i] != NULL) {

@@ -245,6 +245,23 @@ void tl_nav_free_side(const tl_allocator *allocator, tl_nav_side_links *side)
     memset(side, 0, sizeof *side);
 }
 
+tl_result tl_nav_copy_side(const tl_allocator *allocator, tl_nav_side_links *side)
+{
+    tl_nav_side_links copy = *side;
+    const uint64_t firsts = (uint64_t)side->portal_count + 1;
+    copy.first = tl_allocate_array(allocator, firsts, sizeof *copy.first);
+    copy.links = tl_allocate_array(allocator, copy.link_capacity, sizeof *copy.links);
+    if (copy.first == NULL || copy.links == NULL) {
+        tl_nav_free_side(allocator, &copy);
+        return TL_ERR_MEMORY;
+    }
+    memcpy(copy.first, side->first, firsts * sizeof *copy.first);
+    memcpy(copy.links, side->links, side->link_count * sizeof *copy.links);
+    tl_nav_free_side(allocator, side);
+    *side = copy;
+    return TL_OK;
+}
+
 // Running sums: first[i + 1] holds portal i's count and becomes its end.
 static void sum_counts(tl_nav_side_links *side)
 {

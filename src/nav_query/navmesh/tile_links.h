@@ -30,5 +30,7 @@ tl_result tl_nav_join_sides(const tl_allocator *allocator, const tl_nav_side_lin
 /// Drops the links that lead to a slot; returns how many.
 uint32_t tl_nav_drop_links(const tl_allocator *allocator, tl_nav_side_links *side, uint32_t slot);
 void tl_nav_free_side(const tl_allocator *allocator, tl_nav_side_links *side);
+/// The same links in memory of their own; what they stood in is released. TL_ERR_MEMORY: nothing is changed.
+tl_result tl_nav_copy_side(const tl_allocator *allocator, tl_nav_side_links *side);
 
 #endif

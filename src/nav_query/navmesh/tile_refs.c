@@ -1,9 +1,44 @@
 // SPDX-License-Identifier: MIT
 //
-// Lookups in the table of tiles: slots, references to polygons, and the links of a polygon.
+// Lookups in the table of tiles: slots, tiles by their place, references to polygons, and the links of a polygon.
 
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/ways.h"
+
+// The first slot from `slot` on in its chain whose tile is at a place.
+static uint32_t first_in_chain(const tl_navmesh *navmesh, uint32_t slot, int64_t tile_x, int64_t tile_z)
+{
+    while (slot != TL_NAV_NO_SLOT &&
+           (navmesh->slots[slot].tile->tile_x != tile_x || navmesh->slots[slot].tile->tile_z != tile_z)) {
+        slot = navmesh->slots[slot].next;
+    }
+    return slot;
+}
+
+uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t tile_z)
+{
+    if (navmesh->bucket_count == 0 || tile_x < INT32_MIN || tile_x > INT32_MAX || tile_z < INT32_MIN ||
+        tile_z > INT32_MAX) {
+        return TL_NAV_NO_SLOT;
+    }
+    return first_in_chain(navmesh, navmesh->buckets[tl_nav_place_bucket(navmesh, (int32_t)tile_x, (int32_t)tile_z)], tile_x,
+                          tile_z);
+}
+
+uint32_t tl_nav_next_slot(const tl_navmesh *navmesh, uint32_t slot)
+{
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    return first_in_chain(navmesh, navmesh->slots[slot].next, tile->tile_x, tile->tile_z);
+}
+
+uint32_t tl_nav_find_layer_slot(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
+{
+    uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z);
+    while (slot != TL_NAV_NO_SLOT && navmesh->slots[slot].tile->layer != layer) {
+        slot = tl_nav_next_slot(navmesh, slot);
+    }
+    return slot;
+}
 
 uint32_t tl_navmesh_tile_count(const tl_navmesh *navmesh)
 {
@@ -98,4 +133,21 @@ tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_nav_lin
         (*count_out)++;
     }
     return *count_out <= capacity ? TL_OK : TL_INCOMPLETE;
+}
+
+const tl_nav_tile *tl_navmesh_find_layer(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
+{
+    uint32_t slot = tl_nav_find_layer_slot(navmesh, tile_x, layer, tile_z);
+    return slot != TL_NAV_NO_SLOT ? navmesh->slots[slot].tile : NULL;
+}
+
+const tl_nav_tile *tl_navmesh_find_tile(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+{
+    const tl_nav_tile *lowest = NULL;
+    for (uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z); slot != TL_NAV_NO_SLOT;
+         slot = tl_nav_next_slot(navmesh, slot)) {
+        const tl_nav_tile *tile = navmesh->slots[slot].tile;
+        lowest = lowest == NULL || tile->layer < lowest->layer ? tile : lowest;
+    }
+    return lowest;
 }

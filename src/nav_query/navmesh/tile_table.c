@@ -8,7 +8,6 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
-#include "base/hash.h"
 #include "base/host.h"
 #include "nav_query/navmesh/area_table.h"
 #include "nav_query/navmesh/fans.h"
@@ -21,12 +20,6 @@
 enum { FIRST_TILE_SLOTS = 16, LAST_SALT = 0xffff };
 
 static const int32_t SIDE_STEP[TL_NAV_SIDE_COUNT][2] = { { -1, 0 }, { 0, 1 }, { 1, 0 }, { 0, -1 }, { 0, 0 } };
-
-static uint32_t place_bucket(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
-{
-    uint64_t place = (uint64_t)(uint32_t)tile_x << 32 | (uint32_t)tile_z;
-    return (uint32_t)tl_hash_mix(place) & (navmesh->bucket_count - 1);
-}
 
 tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **navmesh_out)
 {
@@ -65,7 +58,10 @@ static void free_slot_content(tl_navmesh *navmesh, tl_nav_slot *slot)
     tl_nav_areas_free(&navmesh->allocator, slot->areas, slot->rings.polygon_count);
     tl_nav_rings_free(&navmesh->allocator, &slot->rings);
     slot->areas = NULL;
-    if (slot->ownership == TL_NAV_TILE_OWNED && slot->tile != NULL) {
+    if (slot->keeper != NULL) {
+        tl_release_array(&navmesh->allocator, slot->keeper, 0, 1);
+        slot->keeper = NULL;
+    } else if (slot->ownership == TL_NAV_TILE_OWNED && slot->tile != NULL) {
         // The navmesh was given the blob to free; const only says that queries never write to it.
         union {
             const tl_nav_tile *read;
@@ -76,11 +72,8 @@ static void free_slot_content(tl_navmesh *navmesh, tl_nav_slot *slot)
     slot->tile = NULL;
 }
 
-void tl_navmesh_destroy(tl_navmesh *navmesh)
+void tl_nav_free_content(tl_navmesh *navmesh)
 {
-    if (navmesh == NULL) {
-        return;
-    }
     for (int kind = 0; kind < TL_NAV_DERIVED_KINDS; kind++) {
         if (navmesh->derived[kind] != NULL) {
             navmesh->derived[kind]->free_all(navmesh);
@@ -96,57 +89,36 @@ void tl_navmesh_destroy(tl_navmesh *navmesh)
     tl_nav_free_offmesh(navmesh);
     tl_release_array(&allocator, navmesh->area_table, (uint64_t)navmesh->slot_capacity + 1,
                      sizeof *navmesh->area_table);
-    tl_release_array(&allocator, navmesh, 1, sizeof *navmesh);
 }
 
-// The first slot from `slot` on in its chain whose tile is at a place.
-static uint32_t first_in_chain(const tl_navmesh *navmesh, uint32_t slot, int64_t tile_x, int64_t tile_z)
+void tl_navmesh_destroy(tl_navmesh *navmesh)
 {
-    while (slot != TL_NAV_NO_SLOT &&
-           (navmesh->slots[slot].tile->tile_x != tile_x || navmesh->slots[slot].tile->tile_z != tile_z)) {
-        slot = navmesh->slots[slot].next;
+    if (navmesh != NULL) {
+        TL_ASSERT(navmesh->history == NULL); // else it is a version: tl_nav_versions_destroy
+        tl_allocator allocator = navmesh->allocator;
+        tl_nav_free_content(navmesh);
+        tl_release_array(&allocator, navmesh, 1, sizeof *navmesh);
     }
-    return slot;
-}
-
-uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t tile_z)
-{
-    if (navmesh->bucket_count == 0 || tile_x < INT32_MIN || tile_x > INT32_MAX || tile_z < INT32_MIN ||
-        tile_z > INT32_MAX) {
-        return TL_NAV_NO_SLOT;
-    }
-    return first_in_chain(navmesh, navmesh->buckets[place_bucket(navmesh, (int32_t)tile_x, (int32_t)tile_z)], tile_x,
-                          tile_z);
-}
-
-uint32_t tl_nav_next_slot(const tl_navmesh *navmesh, uint32_t slot)
-{
-    const tl_nav_tile *tile = navmesh->slots[slot].tile;
-    return first_in_chain(navmesh, navmesh->slots[slot].next, tile->tile_x, tile->tile_z);
-}
-
-uint32_t tl_nav_find_layer_slot(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
-{
-    uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z);
-    while (slot != TL_NAV_NO_SLOT && navmesh->slots[slot].tile->layer != layer) {
-        slot = tl_nav_next_slot(navmesh, slot);
-    }
-    return slot;
 }
 
 static void chain_slot(tl_navmesh *navmesh, uint32_t slot)
 {
     const tl_nav_tile *tile = navmesh->slots[slot].tile;
-    uint32_t bucket = place_bucket(navmesh, tile->tile_x, tile->tile_z);
+    uint32_t bucket = tl_nav_place_bucket(navmesh, tile->tile_x, tile->tile_z);
     navmesh->slots[slot].next = navmesh->buckets[bucket];
     navmesh->buckets[bucket] = slot;
+    tl_nav_touch_slot(navmesh, slot);
+    tl_nav_touch(navmesh->history, TL_NAV_PAGED_BUCKETS, bucket);
 }
 
 static void unchain_slot(tl_navmesh *navmesh, uint32_t slot)
 {
     const tl_nav_tile *tile = navmesh->slots[slot].tile;
-    uint32_t *at = &navmesh->buckets[place_bucket(navmesh, tile->tile_x, tile->tile_z)];
+    const uint32_t bucket = tl_nav_place_bucket(navmesh, tile->tile_x, tile->tile_z);
+    uint32_t *at = &navmesh->buckets[bucket];
+    tl_nav_touch(navmesh->history, TL_NAV_PAGED_BUCKETS, bucket);
     while (*at != slot) {
+        tl_nav_touch_slot(navmesh, *at);
         at = &navmesh->slots[*at].next;
     }
     *at = navmesh->slots[slot].next;
@@ -183,6 +155,9 @@ static tl_result grow_slots(tl_navmesh *navmesh)
     navmesh->buckets = buckets;
     navmesh->bucket_count = 2 * capacity;
     memset(buckets, 0xff, navmesh->bucket_count * sizeof *buckets);
+    tl_nav_touch_all(navmesh->history, TL_NAV_PAGED_SLOTS, capacity);
+    tl_nav_touch_all(navmesh->history, TL_NAV_PAGED_BUCKETS, navmesh->bucket_count);
+    tl_nav_touch_all(navmesh->history, TL_NAV_PAGED_AREAS, (uint64_t)capacity + 1);
     for (uint32_t i = 0; i < navmesh->slot_count; i++) {
         if (slots[i].tile != NULL) {
             chain_slot(navmesh, i);
@@ -234,6 +209,7 @@ typedef struct seam_set {
     tl_nav_side_links own[TL_NAV_SIDE_COUNT];
     tl_nav_rings rings;
     uint64_t *areas;
+    void *keeper; // of an owned tile (tl_nav_slot)
 } seam_set;
 
 // Of the tiles that a side faces: the first one's slot; tl_nav_next_slot gives the others. Beyond a cut lies the place
@@ -245,6 +221,7 @@ static uint32_t first_facing(const tl_navmesh *navmesh, int32_t tile_x, int32_t 
 
 static void free_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_set *seams)
 {
+    tl_release_array(&navmesh->allocator, seams->keeper, 0, 1);
     for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         tl_nav_free_side(&navmesh->allocator, &seams->own[side]);
     }
@@ -361,8 +338,56 @@ static tl_result make_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, 
     return result;
 }
 
+static bool is_remade(const seam_set *seams, uint32_t slot)
+{
+    for (uint32_t n = 0; seams != NULL && n < seams->neighbour_count; n++) {
+        if (seams->neighbours[n].slot == slot) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static tl_result own_rings(tl_navmesh *navmesh, uint32_t slot)
+{
+    tl_nav_touch_slot(navmesh, slot);
+    tl_nav_rings *rings = &navmesh->slots[slot].rings;
+    return tl_nav_is_shared(navmesh->history, rings->block) ? tl_nav_rings_copy(&navmesh->allocator, rings) : TL_OK;
+}
+
+// Before a tile comes, with these seams, or leaves, NULL: of the tiles around its place, what the change will write to
+// and older versions have is copied. Fans reach as far as the corners of the place.
+static tl_result own_surroundings(tl_navmesh *navmesh, const tl_nav_tile *tile, const seam_set *seams)
+{
+    const bool all = navmesh->last_fan > UINT32_MAX / 2; // number_fans
+    for (uint32_t slot = 0; all && navmesh->history != NULL && slot < navmesh->slot_count; slot++) {
+        if (navmesh->slots[slot].tile != NULL) {
+            TL_TRY(own_rings(navmesh, slot));
+        }
+    }
+    for (int64_t i = 0; navmesh->history != NULL && i < 9; i++) {
+        for (uint32_t slot = tl_nav_find_slot(navmesh, tile->tile_x + i % 3 - 1, tile->tile_z + i / 3 - 1);
+             slot != TL_NAV_NO_SLOT; slot = tl_nav_next_slot(navmesh, slot)) {
+            if (navmesh->slots[slot].tile != tile && !is_remade(seams, slot)) {
+                TL_TRY(own_rings(navmesh, slot));
+            }
+        }
+    }
+    for (uint32_t side = 0; navmesh->history != NULL && seams == NULL && side < TL_NAV_SIDE_COUNT; side++) {
+        for (uint32_t slot = first_facing(navmesh, tile->tile_x, tile->tile_z, side); slot != TL_NAV_NO_SLOT;
+             slot = tl_nav_next_slot(navmesh, slot)) {
+            tl_nav_side_links *links = &navmesh->slots[slot].sides[tl_nav_facing_side(side)];
+            if (navmesh->slots[slot].tile != tile && tl_nav_is_shared(navmesh->history, links->first)) {
+                TL_TRY(tl_nav_copy_side(&navmesh->allocator, links));
+            }
+        }
+    }
+    return TL_OK;
+}
+
 static void install_seams(tl_navmesh *navmesh, uint32_t slot, seam_set *seams)
 {
+    navmesh->slots[slot].keeper = seams->keeper;
     navmesh->slots[slot].rings = seams->rings;
     navmesh->slots[slot].areas = seams->areas;
     memcpy(navmesh->slots[slot].sides, seams->own, sizeof seams->own);
@@ -454,6 +479,13 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     TL_TRY(reserve_slot(navmesh, &index));
     TL_TRY(make_seams(navmesh, tile, index, &seams));
     tl_result reserved = tl_nav_reserve_islands(navmesh, seams.rings.component_count);
+    if (reserved == TL_OK) {
+        reserved = own_surroundings(navmesh, tile, &seams);
+    }
+    if (reserved == TL_OK && navmesh->history != NULL && ownership == TL_NAV_TILE_OWNED) {
+        seams.keeper = tl_nav_keep_tile(navmesh->history);
+        reserved = seams.keeper != NULL ? TL_OK : TL_ERR_MEMORY;
+    }
     if (reserved != TL_OK) {
         free_seams(navmesh, tile, &seams);
         return reserved;
@@ -462,6 +494,7 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     begin_edit(navmesh, tile->tile_x, tile->tile_z);
     const uint64_t edit = navmesh->edit.number;
     tl_nav_slot *slot = &navmesh->slots[index];
+    tl_nav_keep(seams.keeper, tile);
     if (index == navmesh->free_slots) {
         navmesh->free_slots = slot->next;
     } else {
@@ -509,9 +542,10 @@ static void unlink_slot(tl_navmesh *navmesh, uint32_t index)
     }
 }
 
-static void remove_slot(tl_navmesh *navmesh, uint32_t index)
+static tl_result remove_slot(tl_navmesh *navmesh, uint32_t index)
 {
     tl_nav_slot *slot = &navmesh->slots[index];
+    TL_TRY(own_surroundings(navmesh, slot->tile, NULL));
     const int32_t tile_x = slot->tile->tile_x, tile_z = slot->tile->tile_z;
     begin_edit(navmesh, tile_x, tile_z);
     const uint64_t edit = navmesh->edit.number;
@@ -533,6 +567,7 @@ static void remove_slot(tl_navmesh *navmesh, uint32_t index)
         slot->next = navmesh->free_slots;
         navmesh->free_slots = index;
     }
+    return TL_OK;
 }
 
 tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
@@ -544,8 +579,7 @@ tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t 
     if (index == TL_NAV_NO_SLOT) {
         return TL_NOT_FOUND;
     }
-    remove_slot(navmesh, index);
-    return TL_OK;
+    return remove_slot(navmesh, index);
 }
 
 tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
@@ -558,24 +592,7 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
         return TL_NOT_FOUND;
     }
     for (; index != TL_NAV_NO_SLOT; index = tl_nav_find_slot(navmesh, tile_x, tile_z)) {
-        remove_slot(navmesh, index);
+        TL_TRY(remove_slot(navmesh, index));
     }
     return TL_OK;
-}
-
-const tl_nav_tile *tl_navmesh_find_layer(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
-{
-    uint32_t slot = tl_nav_find_layer_slot(navmesh, tile_x, layer, tile_z);
-    return slot != TL_NAV_NO_SLOT ? navmesh->slots[slot].tile : NULL;
-}
-
-const tl_nav_tile *tl_navmesh_find_tile(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
-{
-    const tl_nav_tile *lowest = NULL;
-    for (uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z); slot != TL_NAV_NO_SLOT;
-         slot = tl_nav_next_slot(navmesh, slot)) {
-        const tl_nav_tile *tile = navmesh->slots[slot].tile;
-        lowest = lowest == NULL || tile->layer < lowest->layer ? tile : lowest;
-    }
-    return lowest;
 }

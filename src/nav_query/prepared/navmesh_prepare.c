@@ -5,6 +5,7 @@
 #include "nav_query/prepared/corner_distances.h"
 #include "nav_query/prepared/visibility_graph.h"
 
+#include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
 
@@ -41,9 +42,25 @@ static void free_graph(tl_navmesh *navmesh)
 // Corner vertices and what they see depend on no flags and no areas.
 static void outlive_state(tl_navmesh *navmesh, uint64_t edit_before)
 {
-    if (navmesh->graph != NULL && navmesh->graph->edit == edit_before) {
-        navmesh->graph->edit = navmesh->edit.number;
+    if (navmesh->graph != NULL && navmesh->graph_edit == edit_before) {
+        navmesh->graph_edit = navmesh->edit.number;
     }
+}
+
+// Where older versions have the graph: a head of its own for this one, so that it may get and lose a table and labels.
+static tl_result own_graph(tl_navmesh *navmesh)
+{
+    if (!tl_nav_is_shared(navmesh->history, navmesh->graph)) {
+        return TL_OK;
+    }
+    tl_nav_visibility_graph *head = tl_allocate_array(&navmesh->allocator, 1, sizeof *head);
+    if (head == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    *head = *navmesh->graph;
+    tl_release_array(&navmesh->allocator, navmesh->graph, 1, sizeof *head);
+    navmesh->graph = head;
+    return TL_OK;
 }
 
 static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *def)
@@ -57,7 +74,9 @@ static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *de
             return TL_OK;
         }
         TL_TRY(tl_nav_bake_visibility_graph(navmesh, &host, &navmesh->graph));
+        navmesh->graph_edit = navmesh->edit.number;
     }
+    TL_TRY(own_graph(navmesh));
     const tl_allocator *allocator = &navmesh->allocator;
     tl_nav_visibility_graph *graph = navmesh->graph;
     if (tl_nav_corner_distances_size(graph) <= def->table_bytes) {

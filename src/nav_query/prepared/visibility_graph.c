@@ -322,7 +322,6 @@ tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, const tl_host *host,
         tl_nav_free_visibility_graph(&b.allocator, b.graph);
         return result;
     }
-    b.graph->edit = navmesh->edit.number;
     *graph_out = b.graph;
     return TL_OK;
 }

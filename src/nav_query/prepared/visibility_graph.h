@@ -51,7 +51,6 @@ struct tl_nav_visibility_graph {
     uint16_t *table_next;  ///< by the same pair: the next corner vertex on the path from the second to the first
     tl_nav_kept_legs kept; ///< where there is a table
     tl_nav_hub_labels labels;
-    uint64_t edit;        ///< number of the navmesh's edit for which the graph holds
     double rounding;      ///< metres within which a point is on a line
     float landmark_error; ///< metres by which a difference of two landmark distances may be wrong
 };
@@ -79,7 +78,7 @@ void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibili
 /// Whether the navmesh has a graph, and it is that of its tiles.
 static inline bool tl_nav_has_current_graph(const tl_navmesh *navmesh)
 {
-    return navmesh->graph != NULL && navmesh->graph->edit == navmesh->edit.number;
+    return navmesh->graph != NULL && navmesh->graph_edit == navmesh->edit.number;
 }
 
 /// The graph that a search may use, or NULL: it knows of no off-mesh links and no filter.

@@ -62,11 +62,13 @@ static uint8_t *areas_of(tl_nav_tile *tile)
     return (uint8_t *)tile + tile->areas;
 }
 
-// The copy of a slot's tile that may be written to, made now if need be; NULL: out of memory.
+// The copy of a slot's tile that may be written to, made now if need be, also where older versions have the one that is
+// there; NULL: out of memory.
 static tl_nav_tile *writable_tile(tl_navmesh *navmesh, uint32_t index)
 {
     tl_nav_slot *slot = &navmesh->slots[index];
-    if (slot->changed == NULL) {
+    const bool is_shared = navmesh->history != NULL && slot->changed_in != navmesh->history->draft;
+    if (slot->changed == NULL || is_shared) {
         const tl_blob *head = &slot->tile->blob;
         tl_nav_tile *copy = tl_blob_allocate_part(&navmesh->allocator, head->magic, head->version, head->size,
                                                   sizeof(tl_blob), head->size);
@@ -74,8 +76,10 @@ static tl_nav_tile *writable_tile(tl_navmesh *navmesh, uint32_t index)
             return NULL;
         }
         memcpy(copy, slot->tile, head->size);
+        slot->baked = slot->changed != NULL ? slot->baked : slot->tile;
+        tl_blob_free(slot->changed); // NULL, or an older version's: it waits
         slot->changed = copy;
-        slot->baked = slot->tile;
+        slot->changed_in = navmesh->history != NULL ? navmesh->history->draft : 0;
         slot->tile = copy;
     }
     return slot->changed;

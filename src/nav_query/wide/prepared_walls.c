@@ -260,6 +260,7 @@ static void drop_kept_walls(tl_navmesh *navmesh, tl_nav_slot *slot)
         navmesh->kept_bytes -= slot->kept_walls->size;
         tl_release_array(&navmesh->allocator, slot->kept_walls, slot->kept_walls->size, 1);
         slot->kept_walls = NULL;
+        tl_nav_touch_slot(navmesh, (uint32_t)(slot - navmesh->slots));
     }
 }
 
@@ -316,6 +317,7 @@ static tl_result make_all(wall_baker *b, tl_navmesh *navmesh, uint32_t *made)
         tl_nav_slot *slot = &navmesh->slots[i];
         if (slot->tile != NULL && slot->kept_walls == NULL) {
             TL_TRY(make_slot(b, i, &slot->kept_walls));
+            tl_nav_touch_slot(navmesh, i);
             navmesh->kept_bytes += slot->kept_walls->size;
             (*made)++;
         }
