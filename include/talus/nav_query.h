@@ -4,7 +4,8 @@
 //
 //   tl_navmesh    tiles side by side, and over one another where a place is divided into layers, linked across their
 //                 seams. Adding or removing a tile touches the tiles around it alone. Queries take the navmesh const
-//                 and may run on any number of threads at once; a change of the navmesh runs alone.
+//                 and may run on any number of threads at once; a change of the navmesh runs alone. To change it
+//                 while it is read there is nav_versions.h.
 //   tl_nav_query  the search state of one thread. Functions that search take one; the others need none.
 //
 // Queries allocate nothing. Polygons are convex in the plane of x and z, and points are inside or outside there; y
@@ -66,7 +67,8 @@ TL_API tl_result tl_navmesh_add_tiles(tl_navmesh *navmesh, tl_nav_tile *const *t
 /// O(corners of the neighbours). Islands cost what lies between the neighbours, some tiles as a rule; where the tile
 /// was all that connected two parts of an island, the smaller part's tiles.
 TL_API tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
-/// Removes one layer. TL_NOT_FOUND: there is none.
+/// Removes one layer. TL_NOT_FOUND: there is none. TL_ERR_MEMORY: of a draft (nav_versions.h) only, as of
+/// tl_navmesh_remove_tile; nothing is changed but layers removed before.
 TL_API tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z);
 
 /// Replaces the tiles at a place by those of a stack: removes tiles that are not in the stack byte for byte, adds those

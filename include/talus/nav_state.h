@@ -15,7 +15,8 @@
 // tl_nav_obstacles_update, leave a tile whose baked bytes are the same where it is, changes included. To carry changes
 // over the removal of a tile that comes back, such as one that is streamed, store them before and restore them after.
 //
-// Functions that change something run alone: no query may run meanwhile. TL_ERR_ARGUMENT: a needed pointer is NULL.
+// Functions that change something run alone: no query may run meanwhile, but on other versions (nav_versions.h).
+// TL_ERR_ARGUMENT: a needed pointer is NULL.
 
 #ifndef TALUS_NAV_STATE_H
 #define TALUS_NAV_STATE_H

@@ -12,11 +12,12 @@
 //
 // Versions share all that an edit leaves alone: tiles, their links over seams and rings, what was prepared. The writer
 // copies what it is about to change, and of each version's table of slots the pages that changed. So an edit costs
-// about what it costs on a navmesh that is alone, and a version that is held costs the memory of what has changed since.
+// about what it costs on a navmesh that is alone, and a version that is held costs the memory of what has changed
+// since.
 //
-// References, corridors and sliced searches go from version to version as they go over edits: a reference names the
-// same polygon in all versions that have its tile, and is TL_ERR_STALE in others. tl_navmesh_edit_count tells two
-// versions apart.
+// References, corridors and crowds go from version to version as they go over edits: a reference names the same polygon
+// in all versions that have its tile, and is TL_ERR_STALE in others. A sliced search stays with the version that it
+// began with: hold that until the path is written. tl_navmesh_edit_count tells two versions apart.
 //
 // Memory is taken and freed by the writer alone, so the allocator needs no lock, and no reader ever pays for freeing.
 // What older versions alone have is freed by the writer's next call here, once no reader holds a version that has it.
@@ -47,8 +48,8 @@ TL_API const tl_navmesh *tl_nav_versions_acquire(tl_nav_versions *versions);
 /// Gives back a version, once for each time it was acquired. NULL navmesh: nothing happens.
 TL_API void tl_nav_versions_release(tl_nav_versions *versions, const tl_navmesh *navmesh);
 
-/// The draft, to be changed by the functions that change a navmesh: begun from the newest version, or the one under way.
-/// It is not to be destroyed, and is gone with tl_nav_versions_publish; ask again. The writer may query it.
+/// The draft, to be changed by the functions that change a navmesh: begun from the newest version, or the one under
+/// way. It is not to be destroyed, and is gone with tl_nav_versions_publish; ask again. The writer may query it.
 ///
 /// Functions that change a draft keep their promises; beyond those, what removes or replaces tiles can fail with
 /// TL_ERR_MEMORY, since it copies: what is there then is whole. Tiles that are borrowed must outlive all versions that

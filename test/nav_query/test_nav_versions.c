@@ -446,10 +446,14 @@ static void test_batch_given_back(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_as_alone),          cmocka_unit_test(test_numbers_anew),
-        cmocka_unit_test(test_references),             cmocka_unit_test(test_published_whole),
-        cmocka_unit_test(test_freed_with_last_reader), cmocka_unit_test(test_freed_between_readers),
-        cmocka_unit_test(test_limit),                  cmocka_unit_test(test_memory_fails),
+        cmocka_unit_test(test_same_as_alone),
+        cmocka_unit_test(test_numbers_anew),
+        cmocka_unit_test(test_references),
+        cmocka_unit_test(test_published_whole),
+        cmocka_unit_test(test_freed_with_last_reader),
+        cmocka_unit_test(test_freed_between_readers),
+        cmocka_unit_test(test_limit),
+        cmocka_unit_test(test_memory_fails),
         cmocka_unit_test(test_batch_given_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

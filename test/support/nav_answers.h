@@ -91,8 +91,8 @@ static inline uint64_t test_pair_hash(const tl_navmesh *navmesh, tl_nav_query *q
     tl_nav_ref polygons[TEST_ANSWER_CAPACITY];
     tl_nav_path path;
     const tl_nav_path_request dear_request = { &dear, ends[0], ends[1] }, plain = { NULL, ends[0], ends[1] };
-    hash = test_mix(hash, (uint64_t)tl_nav_query_find_path(query, navmesh, &dear_request, polygons,
-                                                           TEST_ANSWER_CAPACITY, &path));
+    hash = test_mix(
+        hash, (uint64_t)tl_nav_query_find_path(query, navmesh, &dear_request, polygons, TEST_ANSWER_CAPACITY, &path));
     hash = test_mix(hash, (uint64_t)path.status);
     for (uint32_t i = 0; i < path.polygon_count && i < TEST_ANSWER_CAPACITY; i++) {
         hash = test_mix(hash, polygons[i]);

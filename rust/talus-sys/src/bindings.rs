@@ -1944,6 +1944,18 @@ pub struct tl_nav_polygon_state {
     pub area: u8,
 }
 #[repr(C)]
+pub struct tl_nav_versions {
+    _private: [u8; 0],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_versions_state {
+    pub version_count: u32,
+    pub newest: u64,
+    pub oldest: u64,
+    pub waiting_bytes: u64,
+}
+#[repr(C)]
 #[derive(Clone, Copy)]
 pub struct tl_nav_wide_path {
     pub status: tl_nav_wide_status,
@@ -3426,6 +3438,22 @@ extern "C" {
         layer: u32,
         tile_z: i32,
     ) -> bool;
+    pub fn tl_nav_versions_create(
+        allocator: *const tl_allocator,
+        versions_out: *mut *mut tl_nav_versions,
+    ) -> tl_result;
+    pub fn tl_nav_versions_destroy(versions: *mut tl_nav_versions);
+    pub fn tl_nav_versions_acquire(versions: *mut tl_nav_versions) -> *const tl_navmesh;
+    pub fn tl_nav_versions_release(versions: *mut tl_nav_versions, navmesh: *const tl_navmesh);
+    pub fn tl_nav_versions_edit(
+        versions: *mut tl_nav_versions,
+        draft_out: *mut *mut tl_navmesh,
+    ) -> tl_result;
+    pub fn tl_nav_versions_publish(versions: *mut tl_nav_versions) -> tl_result;
+    pub fn tl_nav_versions_reclaim(
+        versions: *mut tl_nav_versions,
+        state_out: *mut tl_nav_versions_state,
+    ) -> tl_result;
     pub fn tl_nav_wide_status_name(status: tl_nav_wide_status) -> *const c_char;
     pub fn tl_nav_query_find_wide_path(
         query: *mut tl_nav_query,
@@ -5022,6 +5050,17 @@ mod layout {
         assert_eq!(core::mem::size_of::<tl_nav_polygon_state>(), 16);
         assert_eq!(core::mem::offset_of!(tl_nav_polygon_state, flags), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_polygon_state, area), 8);
+        assert_eq!(core::mem::size_of::<tl_nav_versions_state>(), 32);
+        assert_eq!(
+            core::mem::offset_of!(tl_nav_versions_state, version_count),
+            0
+        );
+        assert_eq!(core::mem::offset_of!(tl_nav_versions_state, newest), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_versions_state, oldest), 16);
+        assert_eq!(
+            core::mem::offset_of!(tl_nav_versions_state, waiting_bytes),
+            24
+        );
         assert_eq!(core::mem::size_of::<tl_nav_wide_path>(), 40);
         assert_eq!(core::mem::offset_of!(tl_nav_wide_path, status), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_wide_path, corner_count), 4);

@@ -14,7 +14,7 @@
 
 enum { HEAD_BYTES = 64 }; // keeps the alignment that allocators promise
 
-static void *allocate_block(size_t size, size_t alignment, void *user)
+static void *allocate_shared(size_t size, size_t alignment, void *user)
 {
     tl_nav_history *history = (tl_nav_history *)user;
     (void)alignment;
@@ -39,7 +39,7 @@ void tl_nav_free_block(tl_nav_history *history, tl_nav_block *block)
     tl_release(&history->host, block, block->size);
 }
 
-static void release_block(void *memory, size_t size, void *user)
+static void release_shared(void *memory, size_t size, void *user)
 {
     tl_nav_history *history = (tl_nav_history *)user;
     tl_nav_block *block = tl_nav_block_of(memory);
@@ -56,7 +56,7 @@ static void release_block(void *memory, size_t size, void *user)
 
 void *tl_nav_keep_tile(tl_nav_history *history)
 {
-    return allocate_block(1, 1, history);
+    return allocate_shared(1, 1, history);
 }
 
 void tl_nav_keep(void *keeper, const void *tile)
@@ -73,7 +73,7 @@ void tl_nav_keep(void *keeper, const void *tile)
 
 tl_allocator tl_nav_history_allocator(tl_nav_history *history)
 {
-    const tl_allocator allocator = { allocate_block, release_block, history };
+    const tl_allocator allocator = { allocate_shared, release_shared, history };
     return allocator;
 }
 

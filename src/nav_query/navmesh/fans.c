@@ -181,7 +181,12 @@ static void find_seam_twins(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
             }
             last = tl_nav_ring_twin(navmesh, slot, place.polygon, ring, count, k);
             ring[k].twin = last.edge;
+            // A polygon may reach from side to side: what lies across there keeps its twin where older versions have
+            // it. A twin over a seam only says where to look first.
             uint32_t across_count = 0;
+            if (tl_nav_is_shared(navmesh->history, navmesh->slots[last.slot].rings.block)) {
+                continue;
+            }
             tl_nav_ring_edge *across = ring_at(navmesh, last, &across_count);
             if (last.edge < across_count && (across[last.edge].to & TL_NAV_RING_SEAM) != 0) {
                 across[last.edge].twin = k;

@@ -97,12 +97,12 @@ struct tl_navmesh {
     const tl_nav_derived *derived[TL_NAV_DERIVED_KINDS]; ///< NULL: there is none
     tl_nav_visibility_graph *graph;                      ///< NULL, or that of the edit `graph_edit`
     uint64_t graph_edit;
-    uint32_t last_fan;                                   ///< the last number that fans.c gave
-    tl_nav_flag_counts flags;                            ///< of all polygons and off-mesh links
-    float extent;                                        ///< metres: the largest |x| or |z| of any tile so far
-    double kept_reach;                                   ///< metres: slots' kept walls lie within it
-    double kept_touch;                                   ///< what touched when they were found (clearance.h)
-    uint64_t kept_bytes;                                 ///< of them
+    uint32_t last_fan;        ///< the last number that fans.c gave
+    tl_nav_flag_counts flags; ///< of all polygons and off-mesh links
+    float extent;             ///< metres: the largest |x| or |z| of any tile so far
+    double kept_reach;        ///< metres: slots' kept walls lie within it
+    double kept_touch;        ///< what touched when they were found (clearance.h)
+    uint64_t kept_bytes;      ///< of them
     // Of all tiles; valid while tile_count > 0.
     tl_vec3 origin;
     float cell_size, cell_height;

@@ -21,8 +21,8 @@ uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t til
         tile_z > INT32_MAX) {
         return TL_NAV_NO_SLOT;
     }
-    return first_in_chain(navmesh, navmesh->buckets[tl_nav_place_bucket(navmesh, (int32_t)tile_x, (int32_t)tile_z)], tile_x,
-                          tile_z);
+    return first_in_chain(navmesh, navmesh->buckets[tl_nav_place_bucket(navmesh, (int32_t)tile_x, (int32_t)tile_z)],
+                          tile_x, tile_z);
 }
 
 uint32_t tl_nav_next_slot(const tl_navmesh *navmesh, uint32_t slot)

@@ -5,8 +5,8 @@
 // Queries index the table of tiles and the islands directly, so each version has these arrays to itself: some hundred
 // bytes a tile. What tiles and links derive, which is as large as the tiles, hangs on them by pointers, and is shared.
 // A version that nobody reads any more becomes the next draft: it lacks what was changed in the one or two versions
-// since, which stamps of the pages tell. The table of off-mesh links is copied whole where one of them has changed: each
-// change of a tile looks at all of them anyway.
+// since, which stamps of the pages tell. The table of off-mesh links is copied whole where one of them has changed:
+// each change of a tile looks at all of them anyway.
 
 #include "nav_query/versions/catch_up.h"
 
@@ -65,7 +65,7 @@ static void set_arrays(tl_navmesh *navmesh, const version_array *arrays)
     navmesh->offmesh.short_cuts = (uint32_t *)arrays[SHORT_CUTS].at;
 }
 
-static void free_list(tl_nav_history *history, version_array *arrays)
+static void free_listed(tl_nav_history *history, version_array *arrays)
 {
     for (int i = 0; i < VERSION_ARRAYS; i++) {
         if (arrays[i].at != NULL) {
@@ -79,12 +79,12 @@ void tl_nav_free_arrays(tl_nav_history *history, tl_navmesh *navmesh)
 {
     version_array arrays[VERSION_ARRAYS];
     list_arrays(navmesh, arrays);
-    free_list(history, arrays);
+    free_listed(history, arrays);
     memset(navmesh, 0, sizeof *navmesh);
 }
 
 // Fresh arrays as large as those listed. Slots that were never used are zero.
-static tl_result allocate_list(const tl_navmesh *from, version_array *arrays)
+static tl_result allocate_listed(const tl_navmesh *from, version_array *arrays)
 {
     for (int i = 0; i < VERSION_ARRAYS; i++) {
         const bool is_empty = arrays[i].count == 0;
@@ -93,7 +93,7 @@ static tl_result allocate_list(const tl_navmesh *from, version_array *arrays)
             while (++i < VERSION_ARRAYS) {
                 arrays[i].at = NULL;
             }
-            free_list(from->history, arrays);
+            free_listed(from->history, arrays);
             return TL_ERR_MEMORY;
         }
     }
@@ -149,8 +149,8 @@ tl_result tl_nav_catch_up(tl_nav_history *history, const tl_navmesh *from, uint6
         fits = fits && arrays[i].count == wanted[i].count;
     }
     if (!fits) {
-        TL_TRY(allocate_list(from, wanted));
-        free_list(history, arrays);
+        TL_TRY(allocate_listed(from, wanted));
+        free_listed(history, arrays);
         memcpy(arrays, wanted, sizeof arrays);
         version = 0;
     }

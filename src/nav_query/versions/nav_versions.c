@@ -18,8 +18,8 @@
 //
 // Sources: Fraser, Practical lock-freedom, 2004; Hart, McKenney, Brown, Walpole, Performance of memory reclamation for
 // lockless synchronization, 2007; Williams, C++ Concurrency in Action, 2012, 7.2.4 (split counts); Ramalhete, Correia,
-// Left-Right, 2015; Wen et al., Interval-based memory reclamation, 2018; Bonwick et al., The Zettabyte File System, 2003
-// (dead lists).
+// Left-Right, 2015; Wen et al., Interval-based memory reclamation, 2018; Bonwick et al., The Zettabyte File System,
+// 2003 (dead lists).
 
 #include "base/arena.h"
 #include "base/assert.h"
@@ -285,8 +285,7 @@ tl_result tl_nav_versions_edit(tl_nav_versions *versions, tl_navmesh **draft_out
         if (version == NULL) {
             return TL_ERR_MEMORY;
         }
-        TL_TRY(
-            tl_nav_catch_up(&versions->history, &versions->newest->navmesh, version->number, &version->navmesh));
+        TL_TRY(tl_nav_catch_up(&versions->history, &versions->newest->navmesh, version->number, &version->navmesh));
         version->number = versions->history.draft;
         versions->draft = version;
     }
