@@ -156,7 +156,7 @@ static void measure_entries(city *c, bench_report *report)
     bench_report_at_most(report, "entering and leaving a version to a read-write lock", ours / locked, 1.0);
 }
 
-/// A writer that runs until it is told to stop: crates come and go, as fast as it can, a version for each tile; or, to
+/// A writer that runs until it is told to stop: crates come and go, as fast as it can, each time a version; or, to
 /// compare with, the same on the navmesh that is alone, which nobody reads then.
 typedef struct writer {
     city *c;
@@ -165,15 +165,15 @@ typedef struct writer {
     uint32_t versions;
 } writer;
 
-static void write_tile(writer *w, uint32_t *waiting)
+static void write_tiles(writer *w)
 {
     if (w->is_alone) {
-        must(tl_nav_obstacles_update(w->c->obstacles[0], w->c->alone, 1, waiting, NULL), "update");
+        must(tl_nav_obstacles_update(w->c->obstacles[0], w->c->alone, UINT32_MAX, NULL, NULL), "update");
         return;
     }
     tl_navmesh *draft;
     must(tl_nav_versions_edit(w->c->versions, &draft), "edit");
-    must(tl_nav_obstacles_update(w->c->obstacles[1], draft, 1, waiting, NULL), "update");
+    must(tl_nav_obstacles_update(w->c->obstacles[1], draft, UINT32_MAX, NULL, NULL), "update");
     must(tl_nav_versions_publish(w->c->versions), "publish");
     w->versions++;
 }
@@ -187,10 +187,7 @@ static void *write_crates(void *user)
         tl_nav_obstacle_id id;
         must(tl_nav_obstacles_add(obstacles, &crate, &id, NULL), "add");
         for (int goes = 0; goes < 2; goes++) {
-            uint32_t waiting = 1;
-            while (waiting > 0) {
-                write_tile(w, &waiting);
-            }
+            write_tiles(w);
             if (goes == 0) {
                 must(tl_nav_obstacles_remove(obstacles, id), "remove");
             }

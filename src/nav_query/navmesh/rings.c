@@ -344,7 +344,7 @@ tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings)
     }
     const uint64_t edges = (uint64_t)((char *)rings->walls - (char *)rings->edges);
     const uint64_t seams = (uint64_t)((char *)rings->cells - (char *)rings->seams);
-    memcpy(block, rings->block, rings->block_size);
+    memcpy(block, rings->block, (size_t)rings->block_size);
     tl_release_array(allocator, rings->block, rings->block_size, 1);
     place_arrays(rings, block, edges / sizeof(tl_nav_ring_edge), seams / sizeof(tl_nav_ring_seam),
                  rings->polygon_count);

@@ -255,7 +255,7 @@ tl_result tl_nav_copy_side(const tl_allocator *allocator, tl_nav_side_links *sid
         tl_nav_free_side(allocator, &copy);
         return TL_ERR_MEMORY;
     }
-    memcpy(copy.first, side->first, firsts * sizeof *copy.first);
+    memcpy(copy.first, side->first, (size_t)firsts * sizeof *copy.first);
     memcpy(copy.links, side->links, side->link_count * sizeof *copy.links);
     tl_nav_free_side(allocator, side);
     *side = copy;
