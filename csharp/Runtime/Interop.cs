@@ -2236,6 +2236,20 @@ namespace Talus.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_versions
+    {
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_versions_state
+    {
+        public uint version_count;
+        public ulong newest;
+        public ulong oldest;
+        public ulong waiting_bytes;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_nav_wide_path
     {
         public tl_nav_wide_status status;
@@ -3025,6 +3039,20 @@ namespace Talus.Interop
         public static extern tl_result tl_navmesh_reset_state(tl_navmesh* navmesh, int tile_x, uint layer, int tile_z);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern byte tl_navmesh_is_state_changed(tl_navmesh* navmesh, int tile_x, uint layer, int tile_z);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_versions_create(tl_allocator* allocator, tl_nav_versions** versions_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_nav_versions_destroy(tl_nav_versions* versions);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_navmesh* tl_nav_versions_acquire(tl_nav_versions* versions);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_nav_versions_release(tl_nav_versions* versions, tl_navmesh* navmesh);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_versions_edit(tl_nav_versions* versions, tl_navmesh** draft_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_versions_publish(tl_nav_versions* versions);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_versions_reclaim(tl_nav_versions* versions, tl_nav_versions_state* state_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern byte* tl_nav_wide_status_name(tl_nav_wide_status status);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

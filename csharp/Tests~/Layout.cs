@@ -1225,6 +1225,11 @@ static unsafe class Layout
         Test.Equal(16, sizeof(tl_nav_polygon_state), "tl_nav_polygon_state");
         Test.Equal(0, (byte*)&((tl_nav_polygon_state*)at)->flags - at, "tl_nav_polygon_state.flags");
         Test.Equal(8, (byte*)&((tl_nav_polygon_state*)at)->area - at, "tl_nav_polygon_state.area");
+        Test.Equal(32, sizeof(tl_nav_versions_state), "tl_nav_versions_state");
+        Test.Equal(0, (byte*)&((tl_nav_versions_state*)at)->version_count - at, "tl_nav_versions_state.version_count");
+        Test.Equal(8, (byte*)&((tl_nav_versions_state*)at)->newest - at, "tl_nav_versions_state.newest");
+        Test.Equal(16, (byte*)&((tl_nav_versions_state*)at)->oldest - at, "tl_nav_versions_state.oldest");
+        Test.Equal(24, (byte*)&((tl_nav_versions_state*)at)->waiting_bytes - at, "tl_nav_versions_state.waiting_bytes");
         Test.Equal(40, sizeof(tl_nav_wide_path), "tl_nav_wide_path");
         Test.Equal(0, (byte*)&((tl_nav_wide_path*)at)->status - at, "tl_nav_wide_path.status");
         Test.Equal(4, (byte*)&((tl_nav_wide_path*)at)->corner_count - at, "tl_nav_wide_path.corner_count");
