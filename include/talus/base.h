@@ -36,12 +36,13 @@ extern "C" {
 
 /// The result of a call. Every failure has a name of its own; `tl_result_text` has a sentence for each.
 ///
-/// Zero is success. Two ordinary outcomes have names as well, since a caller usually does something about them; they
+/// Zero is success. Three ordinary outcomes have names as well, since a caller usually does something about them; they
 /// are not failures (tl_is_error). All other results are.
 typedef enum tl_result {
     TL_OK = 0,
     TL_NOT_FOUND,  ///< nothing is there: no hit, no polygon that near, no entry of that name
     TL_INCOMPLETE, ///< the caller's buffer holds a part: what fitted was written, and the true count was returned
+    TL_NOT_LOADED, ///< the answer depends on a part of the world that is not in memory (nav_world.h)
 
     // From the host or the operating system.
     TL_ERR_MEMORY,    ///< the allocator returned NULL; nothing leaked, the input is untouched
@@ -83,10 +84,11 @@ typedef enum tl_result {
     TL_RESULT_COUNT
 } tl_result;
 
-/// Whether a result is a failure: neither TL_OK nor one of the ordinary outcomes TL_NOT_FOUND and TL_INCOMPLETE.
+/// Whether a result is a failure: neither TL_OK nor one of the ordinary outcomes TL_NOT_FOUND, TL_INCOMPLETE and
+/// TL_NOT_LOADED.
 static inline bool tl_is_error(tl_result result)
 {
-    return result > TL_INCOMPLETE;
+    return result > TL_NOT_LOADED;
 }
 
 /// The enum's own word for a result, such as "TL_ERR_NOT_FINITE". Never NULL.

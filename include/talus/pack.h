@@ -108,6 +108,42 @@ TL_API tl_result tl_pack_find(const tl_pack *pack, uint32_t type, uint32_t id, t
 TL_API uint32_t tl_pack_count(const tl_pack *pack, uint32_t type);
 
 // ---------------------------------------------------------------------------------------------------------
+// The index alone: what lies where, for files that are not read whole (nav_world.h). First tl_pack_index_size with the
+// file's first TL_PACK_HEAD_SIZE bytes, then tl_pack_index_open with as many as it says; then single chunks are read,
+// each with tl_pack_entry_open. All three take bytes as they stand in the file.
+
+#define TL_PACK_HEAD_SIZE 64 ///< bytes
+
+/// Where a chunk lies in its file.
+typedef struct tl_pack_entry {
+    uint32_t type;
+    uint32_t id;
+    uint64_t offset; ///< bytes from the start of the file; a multiple of 64
+    uint64_t size;   ///< bytes
+    uint64_t hash;   ///< XXH64 of the chunk, as it stands in the file
+} tl_pack_entry;
+
+/// An index that was checked: a view of the caller's bytes, which must outlive it.
+typedef struct tl_pack_index {
+    const tl_pack_entry *entries; ///< [count], in file order
+    uint32_t count;
+    uint64_t file_size; ///< bytes
+} tl_pack_index;
+
+/// Bytes of the index of the file that begins with these TL_PACK_HEAD_SIZE bytes. `head` must be 8-byte aligned.
+/// TL_ERR_ARGUMENT, and of tl_pack_open TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_HASH and TL_ERR_CORRUPT; `*size_out` is 0
+/// then. `report_out` may be NULL.
+TL_API tl_result tl_pack_index_size(const void *head, uint64_t *size_out, tl_report *report_out);
+/// Checks an index of `size` bytes, those that tl_pack_index_size says, and turns it to the machine's byte order in
+/// place. `bytes` must be 8-byte aligned. Chunks and padding are not looked at. TL_ERR_ARGUMENT, TL_ERR_TRUNCATED, and
+/// those of tl_pack_open; `*index_out` is zeroed then. `report_out` may be NULL. O(size).
+TL_API tl_result tl_pack_index_open(void *bytes, uint64_t size, tl_pack_index *index_out, tl_report *report_out);
+/// Verifies the hash of a chunk that was read to `bytes`, entry->size of them, and turns it to the machine's byte
+/// order. What it contains is checked by its own check function. `bytes` must be 8-byte aligned. TL_ERR_ARGUMENT,
+/// TL_ERR_HASH, TL_ERR_CORRUPT; the bytes are of no use then. `report_out` may be NULL. O(size).
+TL_API tl_result tl_pack_entry_open(const tl_pack_entry *entry, void *bytes, tl_report *report_out);
+
+// ---------------------------------------------------------------------------------------------------------
 // The chunks that belong to the file itself.
 
 #define TL_PACK_META_MAGIC      TL_PACK_META

@@ -27,6 +27,7 @@
 #include <talus/nav_tile.h>
 #include <talus/nav_versions.h>
 #include <talus/nav_wide.h>
+#include <talus/nav_world.h>
 #include <talus/pack.h>
 #include <talus/polygon.h>
 #include <talus/scene.h>

@@ -158,7 +158,7 @@ function takeReport() {
   };
 }
 
-/** Throws what a listener threw, or the error of a result. TL_OK, TL_NOT_FOUND and TL_INCOMPLETE pass. */
+/** Throws what a listener threw, or the error of a result. TL_OK, TL_NOT_FOUND, TL_INCOMPLETE and TL_NOT_LOADED pass. */
 export function check(result) {
   if (thrown !== null) {
     const { error } = thrown;
@@ -166,7 +166,7 @@ export function check(result) {
     takeReport();
     throw error;
   }
-  if (result > 2) fail(result);
+  if (result > 3) fail(result);
   return result;
 }
 

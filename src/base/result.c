@@ -20,6 +20,7 @@ static const result_words RESULTS[TL_RESULT_COUNT] = {
     WORDS(TL_OK, "success"),
     WORDS(TL_NOT_FOUND, "nothing was found"),
     WORDS(TL_INCOMPLETE, "the buffer holds only a part of the answer"),
+    WORDS(TL_NOT_LOADED, "the answer depends on what is not loaded"),
     WORDS(TL_ERR_MEMORY, "out of memory"),
     WORDS(TL_ERR_CANCELLED, "cancelled"),
     WORDS(TL_ERR_IO, "the operating system refused to read or write"),

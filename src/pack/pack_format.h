@@ -22,16 +22,11 @@ typedef struct tl_pack_header {
     uint64_t header_hash; ///< XXH64 of the 56 bytes before
 } tl_pack_header;
 
-/// Entries follow the header; then zeros up to a multiple of 64.
-typedef struct tl_pack_entry {
-    uint32_t type;
-    uint32_t id;
-    uint64_t offset; ///< from the start of the file; a multiple of 64
-    uint64_t size;
-    uint64_t hash; ///< XXH64 of the chunk
-} tl_pack_entry;
-
+// Entries, tl_pack_entry, follow the header; then zeros up to a multiple of 64.
 _Static_assert(sizeof(tl_pack_header) == 64 && sizeof(tl_pack_entry) == 32, "no hidden padding");
+
+/// Whether the header of a file of `size` bytes, in the machine's byte order, is sound (pack_open.c).
+tl_result tl_pack_check_header(const void *bytes, uint64_t size, tl_report *report);
 
 /// tl_blob_check_head for a chunk, behind whose blob no more bytes may follow (TL_ERR_CORRUPT).
 tl_result tl_pack_check_head(const void *bytes, uint64_t size, tl_blob expected, tl_report *report);

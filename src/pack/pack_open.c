@@ -24,7 +24,7 @@ static const tl_pack_entry *entries_of(const tl_pack *pack)
     return (const tl_pack_entry *)(pack_header(pack) + 1);
 }
 
-static tl_result check_pack_header(const void *bytes, uint64_t size, tl_report *report)
+tl_result tl_pack_check_header(const void *bytes, uint64_t size, tl_report *report)
 {
     const char *not_ours = "it is not a talus file";
     size_t shown = size < sizeof TL_PACK_MAGIC - 1 ? (size_t)size : sizeof TL_PACK_MAGIC - 1;
@@ -122,7 +122,7 @@ tl_result tl_pack_open(const void *bytes, uint64_t size, tl_pack *pack_out, tl_r
     if (size == 0) {
         return tl_report_fail(report_out, TL_ERR_TRUNCATED, "header", TL_NO_ELEMENT, "the file is empty");
     }
-    TL_TRY(check_pack_header(bytes, size, report_out));
+    TL_TRY(tl_pack_check_header(bytes, size, report_out));
     tl_pack pack = { bytes, size, ((const tl_pack_header *)bytes)->chunk_count };
     TL_TRY(check_chunk_table(&pack, report_out));
     TL_TRY(check_chunks(&pack, report_out));

@@ -87,6 +87,53 @@ static tl_result pack_open(contract_run *run)
     return result;
 }
 
+static tl_result pack_index_size(contract_run *run)
+{
+    file_bytes file = make_file();
+    uint64_t size = 0;
+    file.bytes[10] ^= run->what == CONTRACT_BAD_BYTES ? 1 : 0;
+    const tl_result result = tl_pack_index_size(run->what == CONTRACT_NULL_INPUT ? NULL : file.bytes,
+                                                run->what == CONTRACT_NULL_OUTPUT ? NULL : &size, run->report);
+    run->is_clear = size == 0;
+    run->answer = size;
+    free(file.bytes);
+    return result;
+}
+
+static tl_result pack_index_open(contract_run *run)
+{
+    file_bytes file = make_file();
+    uint64_t size = 0;
+    tl_pack_index index;
+    memset(&index, 0, sizeof index);
+    TEST_RESULT(tl_pack_index_size(file.bytes, &size, NULL), TL_OK);
+    file.bytes[100] ^= run->what == CONTRACT_BAD_BYTES ? 1 : 0;
+    const tl_result result = tl_pack_index_open(run->what == CONTRACT_NULL_INPUT ? NULL : file.bytes, size,
+                                                run->what == CONTRACT_NULL_OUTPUT ? NULL : &index, run->report);
+    run->is_clear = contract_is_zero(&index, sizeof index);
+    run->answer = index.count;
+    free(file.bytes);
+    return result;
+}
+
+static tl_result pack_entry_open(contract_run *run)
+{
+    file_bytes file = make_file();
+    uint64_t size = 0;
+    tl_pack_index index;
+    TEST_RESULT(tl_pack_index_size(file.bytes, &size, NULL), TL_OK);
+    TEST_RESULT(tl_pack_index_open(file.bytes, size, &index, NULL), TL_OK);
+    const tl_pack_entry *entry = &index.entries[0];
+    file.bytes[entry->offset + 70] ^= run->what == CONTRACT_BAD_BYTES ? 1 : 0;
+    const bool null_input = run->what == CONTRACT_NULL_INPUT;
+    const tl_result result =
+        tl_pack_entry_open(null_input && run->variant == 0 ? NULL : entry,
+                           null_input && run->variant == 1 ? NULL : file.bytes + entry->offset, run->report);
+    run->is_clear = true;
+    free(file.bytes);
+    return result;
+}
+
 static tl_result pack_find(contract_run *run)
 {
     file_bytes file = make_file();
@@ -382,6 +429,9 @@ const contract_entry CONTRACT_TABLE_pack[] = {
       pack_write, NULL },
     { "tl_pack_size", 0, 0, 0, NULL, NULL, "a sum: test_pack.c" },
     { "tl_pack_open", CHECK | CONTRACT_BIT(NULL_OUTPUT), 1, 1, NULL, pack_open, NULL },
+    { "tl_pack_index_size", CHECK | CONTRACT_BIT(NULL_OUTPUT), 1, 1, NULL, pack_index_size, NULL },
+    { "tl_pack_index_open", CHECK | CONTRACT_BIT(NULL_OUTPUT), 1, 1, NULL, pack_index_open, NULL },
+    { "tl_pack_entry_open", CHECK, 2, 0, NULL, pack_entry_open, NULL },
     { "tl_pack_to_host_order", CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_INPUT), 1, 0, NULL,
       pack_to_host_order, NULL },
     { "tl_blob_to_file_order", CHECK, 1, 0, NULL, blob_to_file_order, NULL },

@@ -53,7 +53,7 @@ export function memoryBytes(): number;
 
 /** The library's results; `docs/design.md` and `talus/base.h` say what each means. */
 export type ResultName =
-  | 'TL_NOT_FOUND' | 'TL_INCOMPLETE'
+  | 'TL_NOT_FOUND' | 'TL_INCOMPLETE' | 'TL_NOT_LOADED'
   | 'TL_ERR_MEMORY' | 'TL_ERR_CANCELLED' | 'TL_ERR_IO'
   | 'TL_ERR_ARGUMENT' | 'TL_ERR_UNSUPPORTED' | 'TL_ERR_LIMIT' | 'TL_ERR_STALE'
   | 'TL_ERR_EMPTY' | 'TL_ERR_NOT_FINITE' | 'TL_ERR_RANGE' | 'TL_ERR_INDEX' | 'TL_ERR_DEGENERATE' | 'TL_ERR_COINCIDENT'

@@ -6,34 +6,35 @@ pub type tl_result = c_int;
 pub const TL_OK: tl_result = 0;
 pub const TL_NOT_FOUND: tl_result = 1;
 pub const TL_INCOMPLETE: tl_result = 2;
-pub const TL_ERR_MEMORY: tl_result = 3;
-pub const TL_ERR_CANCELLED: tl_result = 4;
-pub const TL_ERR_IO: tl_result = 5;
-pub const TL_ERR_ARGUMENT: tl_result = 6;
-pub const TL_ERR_UNSUPPORTED: tl_result = 7;
-pub const TL_ERR_LIMIT: tl_result = 8;
-pub const TL_ERR_STALE: tl_result = 9;
-pub const TL_ERR_EMPTY: tl_result = 10;
-pub const TL_ERR_NOT_FINITE: tl_result = 11;
-pub const TL_ERR_RANGE: tl_result = 12;
-pub const TL_ERR_INDEX: tl_result = 13;
-pub const TL_ERR_DEGENERATE: tl_result = 14;
-pub const TL_ERR_COINCIDENT: tl_result = 15;
-pub const TL_ERR_COLLINEAR: tl_result = 16;
-pub const TL_ERR_COPLANAR: tl_result = 17;
-pub const TL_ERR_NON_MANIFOLD: tl_result = 18;
-pub const TL_ERR_WINDING: tl_result = 19;
-pub const TL_ERR_NOT_CLOSED: tl_result = 20;
-pub const TL_ERR_SELF_INTERSECTION: tl_result = 21;
-pub const TL_ERR_FORMAT: tl_result = 22;
-pub const TL_ERR_MAGIC: tl_result = 23;
-pub const TL_ERR_VERSION: tl_result = 24;
-pub const TL_ERR_TRUNCATED: tl_result = 25;
-pub const TL_ERR_HASH: tl_result = 26;
-pub const TL_ERR_CORRUPT: tl_result = 27;
-pub const TL_ERR_ITERATIONS: tl_result = 28;
-pub const TL_ERR_NODES: tl_result = 29;
-pub const TL_RESULT_COUNT: tl_result = 30;
+pub const TL_NOT_LOADED: tl_result = 3;
+pub const TL_ERR_MEMORY: tl_result = 4;
+pub const TL_ERR_CANCELLED: tl_result = 5;
+pub const TL_ERR_IO: tl_result = 6;
+pub const TL_ERR_ARGUMENT: tl_result = 7;
+pub const TL_ERR_UNSUPPORTED: tl_result = 8;
+pub const TL_ERR_LIMIT: tl_result = 9;
+pub const TL_ERR_STALE: tl_result = 10;
+pub const TL_ERR_EMPTY: tl_result = 11;
+pub const TL_ERR_NOT_FINITE: tl_result = 12;
+pub const TL_ERR_RANGE: tl_result = 13;
+pub const TL_ERR_INDEX: tl_result = 14;
+pub const TL_ERR_DEGENERATE: tl_result = 15;
+pub const TL_ERR_COINCIDENT: tl_result = 16;
+pub const TL_ERR_COLLINEAR: tl_result = 17;
+pub const TL_ERR_COPLANAR: tl_result = 18;
+pub const TL_ERR_NON_MANIFOLD: tl_result = 19;
+pub const TL_ERR_WINDING: tl_result = 20;
+pub const TL_ERR_NOT_CLOSED: tl_result = 21;
+pub const TL_ERR_SELF_INTERSECTION: tl_result = 22;
+pub const TL_ERR_FORMAT: tl_result = 23;
+pub const TL_ERR_MAGIC: tl_result = 24;
+pub const TL_ERR_VERSION: tl_result = 25;
+pub const TL_ERR_TRUNCATED: tl_result = 26;
+pub const TL_ERR_HASH: tl_result = 27;
+pub const TL_ERR_CORRUPT: tl_result = 28;
+pub const TL_ERR_ITERATIONS: tl_result = 29;
+pub const TL_ERR_NODES: tl_result = 30;
+pub const TL_RESULT_COUNT: tl_result = 31;
 pub type tl_convex_kind = c_int;
 pub const TL_CONVEX_HULL: tl_convex_kind = 0;
 pub const TL_CONVEX_POINTS: tl_convex_kind = 1;
@@ -193,6 +194,8 @@ pub type tl_nav_cost_fn =
 pub type tl_nav_agent = u64;
 pub type tl_nav_obstacle_id = u64;
 pub type tl_write_fn = unsafe extern "C" fn(*const c_void, usize, *mut c_void) -> tl_result;
+pub type tl_nav_world_read_fn =
+    unsafe extern "C" fn(u64, *mut c_void, usize, *mut c_void) -> tl_result;
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct tl_allocator {
@@ -2005,6 +2008,22 @@ pub struct tl_pack {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct tl_pack_entry {
+    pub r#type: u32,
+    pub id: u32,
+    pub offset: u64,
+    pub size: u64,
+    pub hash: u64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_pack_index {
+    pub entries: *const tl_pack_entry,
+    pub count: u32,
+    pub file_size: u64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct tl_pack_meta {
     pub blob: tl_blob,
     pub source_vertices: u64,
@@ -2107,6 +2126,51 @@ pub struct tl_pack_areas {
     pub blob: tl_blob,
     pub count: u32,
     pub reserved: [u32; 11],
+}
+#[repr(C)]
+pub struct tl_nav_world {
+    _private: [u8; 0],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_world_def {
+    pub read: Option<tl_nav_world_read_fn>,
+    pub user: *mut c_void,
+    pub budget: u64,
+    pub frame_reach: f64,
+    pub allocator: *const tl_allocator,
+    pub cookie: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_world_interest {
+    pub point: [f64; 3],
+    pub radius: f64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_world_load {
+    pub world: *mut tl_nav_world,
+    pub place: u32,
+    pub tile_x: i32,
+    pub tile_z: i32,
+    pub result: tl_result,
+    pub advice: *const c_char,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_world_state {
+    pub places: u32,
+    pub loaded: u32,
+    pub loading: u32,
+    pub ready: u32,
+    pub missing: u32,
+    pub failed: u32,
+    pub frames: u32,
+    pub bytes: u64,
+    pub peak_bytes: u64,
+    pub index_bytes: u64,
+    pub read_bytes: u64,
 }
 extern "C" {
     pub fn tl_result_name(result: tl_result) -> *const c_char;
@@ -3531,6 +3595,22 @@ extern "C" {
         chunk_out: *mut tl_pack_chunk,
     ) -> tl_result;
     pub fn tl_pack_count(pack: *const tl_pack, r#type: u32) -> u32;
+    pub fn tl_pack_index_size(
+        head: *const c_void,
+        size_out: *mut u64,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_pack_index_open(
+        bytes: *mut c_void,
+        size: u64,
+        index_out: *mut tl_pack_index,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_pack_entry_open(
+        entry: *const tl_pack_entry,
+        bytes: *mut c_void,
+        report_out: *mut tl_report,
+    ) -> tl_result;
     pub fn tl_pack_meta_encode(
         source_name: *const c_char,
         source_vertices: u64,
@@ -3639,6 +3719,58 @@ extern "C" {
         allocator: *const tl_allocator,
         navmesh_out: *mut *mut tl_navmesh,
         report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_default_nav_world_def() -> tl_nav_world_def;
+    pub fn tl_nav_world_create(
+        def: *const tl_nav_world_def,
+        world_out: *mut *mut tl_nav_world,
+        report: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_world_destroy(world: *mut tl_nav_world);
+    pub fn tl_nav_world_update(
+        world: *mut tl_nav_world,
+        interests: *const tl_nav_world_interest,
+        count: u32,
+        max_changes: u32,
+    ) -> tl_result;
+    pub fn tl_nav_world_begin_load(
+        world: *mut tl_nav_world,
+        load_out: *mut tl_nav_world_load,
+    ) -> tl_result;
+    pub fn tl_nav_world_run_load(load: *mut tl_nav_world_load) -> tl_result;
+    pub fn tl_nav_world_end_load(load: *mut tl_nav_world_load) -> tl_result;
+    pub fn tl_nav_world_get_state(
+        world: *const tl_nav_world,
+        state_out: *mut tl_nav_world_state,
+    ) -> tl_result;
+    pub fn tl_nav_world_place_in(world: *const tl_nav_world, point: *const f64) -> tl_vec3;
+    pub fn tl_nav_world_place_out(world: *const tl_nav_world, point: tl_vec3, out: *mut f64);
+    pub fn tl_nav_world_navmesh(world: *const tl_nav_world) -> *const tl_navmesh;
+    pub fn tl_nav_world_covers(
+        world: *const tl_nav_world,
+        center: *const f64,
+        radius: f64,
+    ) -> tl_result;
+    pub fn tl_nav_world_find_nearest(
+        world: *const tl_nav_world,
+        filter: *const tl_nav_filter,
+        point: *const f64,
+        half_extents: tl_vec3,
+        location_out: *mut tl_nav_location,
+    ) -> tl_result;
+    pub fn tl_nav_world_find_path(
+        world: *const tl_nav_world,
+        query: *mut tl_nav_query,
+        request: *const tl_nav_path_request,
+        buffers: *const tl_nav_path_buffers,
+        path_out: *mut tl_nav_shortest_path,
+    ) -> tl_result;
+    pub fn tl_nav_world_cast_ray(
+        world: *const tl_nav_world,
+        filter: *const tl_nav_filter,
+        start: *const tl_nav_location,
+        end: *const f64,
+        hit_out: *mut tl_nav_ray_hit,
     ) -> tl_result;
 }
 
@@ -5094,6 +5226,16 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_pack, bytes), 0);
         assert_eq!(core::mem::offset_of!(tl_pack, size), 8);
         assert_eq!(core::mem::offset_of!(tl_pack, chunk_count), 16);
+        assert_eq!(core::mem::size_of::<tl_pack_entry>(), 32);
+        assert_eq!(core::mem::offset_of!(tl_pack_entry, r#type), 0);
+        assert_eq!(core::mem::offset_of!(tl_pack_entry, id), 4);
+        assert_eq!(core::mem::offset_of!(tl_pack_entry, offset), 8);
+        assert_eq!(core::mem::offset_of!(tl_pack_entry, size), 16);
+        assert_eq!(core::mem::offset_of!(tl_pack_entry, hash), 24);
+        assert_eq!(core::mem::size_of::<tl_pack_index>(), 24);
+        assert_eq!(core::mem::offset_of!(tl_pack_index, entries), 0);
+        assert_eq!(core::mem::offset_of!(tl_pack_index, count), 8);
+        assert_eq!(core::mem::offset_of!(tl_pack_index, file_size), 16);
         assert_eq!(core::mem::size_of::<tl_pack_meta>(), 64);
         assert_eq!(core::mem::offset_of!(tl_pack_meta, blob), 0);
         assert_eq!(core::mem::offset_of!(tl_pack_meta, source_vertices), 16);
@@ -5187,5 +5329,34 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_pack_areas, blob), 0);
         assert_eq!(core::mem::offset_of!(tl_pack_areas, count), 16);
         assert_eq!(core::mem::offset_of!(tl_pack_areas, reserved), 20);
+        assert_eq!(core::mem::size_of::<tl_nav_world_def>(), 48);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_def, read), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_def, user), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_def, budget), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_def, frame_reach), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_def, allocator), 32);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_def, cookie), 40);
+        assert_eq!(core::mem::size_of::<tl_nav_world_interest>(), 32);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_interest, point), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_interest, radius), 24);
+        assert_eq!(core::mem::size_of::<tl_nav_world_load>(), 32);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_load, world), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_load, place), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_load, tile_x), 12);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_load, tile_z), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_load, result), 20);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_load, advice), 24);
+        assert_eq!(core::mem::size_of::<tl_nav_world_state>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_state, places), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_state, loaded), 4);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_state, loading), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_state, ready), 12);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_state, missing), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_state, failed), 20);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_state, frames), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_state, bytes), 32);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_state, peak_bytes), 40);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_state, index_bytes), 48);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_state, read_bytes), 56);
     }
 }

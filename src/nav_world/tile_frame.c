@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+//
+// A tile in another frame (floating origin): its integers are counted from another place of the grid, and its floats
+// are made from them again.
+//
+// Corners come from the lattice by tl_nav_tile_position, as in the bake, so that a tile 10,000 km away has the bits
+// that it would have beside the origin, and both sides of a seam agree. Inner points of the surface lie on 512ths of a
+// cell, where the bake puts them: they are rounded to these, so that moving there and back changes nothing, as far as a
+// float tells 512ths apart (16,384 cells from the frame's origin). Rejected: an origin a tile, which each query would
+// have to add to each corner that it reads.
+
+#include "nav_world/world.h"
+
+#include <math.h>
+
+enum { STEPS_A_CELL = 512 };
+
+// Along one axis: from metres of the old frame to metres of the new one.
+typedef struct axis_move {
+    double old_origin, cell;
+    double new_steps; // 512ths of a cell from the old lattice origin to the new one
+} axis_move;
+
+static axis_move axis_move_of(float origin, int32_t step, uint32_t tile_size, float cell)
+{
+    const axis_move move = { (double)origin, (double)cell,
+                             (double)((int64_t)step * (int64_t)tile_size) * (double)STEPS_A_CELL };
+    return move;
+}
+
+static float moved(const axis_move *move, float at)
+{
+    const double step = move->cell / (double)STEPS_A_CELL;
+    const double steps = floor(((double)at - move->old_origin) / step + 0.5);
+    return (float)((steps - move->new_steps) * step);
+}
+
+// A polygon's corners from the lattice, then its surface, whose first points are these corners.
+static void move_polygon(tl_nav_tile *tile, uint32_t polygon, const axis_move *x, const axis_move *z)
+{
+    char *bytes = (char *)tile;
+    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
+    const uint32_t *surface = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex) + polygon;
+    tl_vec3 *corners = (tl_vec3 *)(bytes + tile->corners) + first[0];
+    tl_vec3 *points = (tl_vec3 *)(bytes + tile->detail_vertices) + surface[0];
+    const uint32_t corner_count = first[1] - first[0];
+    for (uint32_t i = 0; i < corner_count; i++) {
+        const int32_t *v = tl_nav_tile_lattice(tile, polygon, i);
+        corners[i].x = tl_nav_tile_position(tile->origin.x, tile->tile_x, tile->tile_size, v[0], tile->cell_size);
+        corners[i].z = tl_nav_tile_position(tile->origin.z, tile->tile_z, tile->tile_size, v[2], tile->cell_size);
+        points[i].x = corners[i].x;
+        points[i].z = corners[i].z;
+    }
+    for (uint32_t i = corner_count; i < surface[1] - surface[0]; i++) {
+        points[i].x = moved(x, points[i].x);
+        points[i].z = moved(z, points[i].z);
+    }
+}
+
+static tl_aabb moved_polygon_box(const tl_nav_tile *tile, uint32_t polygon)
+{
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
+    const tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
+    tl_aabb box = tl_aabb_empty();
+    for (uint32_t i = 0; i < count; i++) {
+        box = tl_aabb_add_point(box, corners[i]);
+    }
+    for (uint32_t i = 0; i < surface.vertex_count; i++) {
+        box = tl_aabb_add_point(box, surface.vertices[i]);
+    }
+    return box;
+}
+
+void tl_nav_world_move_tile(tl_nav_tile *tile, int32_t step_x, int32_t step_z)
+{
+    const axis_move x = axis_move_of(tile->origin.x, step_x, tile->tile_size, tile->cell_size);
+    const axis_move z = axis_move_of(tile->origin.z, step_z, tile->tile_size, tile->cell_size);
+    tile->tile_x -= step_x;
+    tile->tile_z -= step_z;
+    tile->origin.x = 0.0f;
+    tile->origin.z = 0.0f;
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        move_polygon(tile, p, &x, &z);
+    }
+    // Depth first: children stand behind their parent.
+    tl_nav_tile_node *nodes = (tl_nav_tile_node *)((char *)tile + tile->nodes);
+    for (uint32_t i = tile->node_count; i > 0; i--) {
+        tl_nav_tile_node *node = &nodes[i - 1];
+        node->box = node->polygon != TL_NO_POLYGON ? moved_polygon_box(tile, node->polygon)
+                                                   : tl_aabb_union(nodes[i].box, nodes[nodes[i].skip].box);
+    }
+    tile->bounds = nodes[0].box;
+}

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+//
+// Opening a world by its index: what is refused by name, and that no damaged byte of the index or of a tile goes
+// unseen.
+
+#include "nav_world_file.h"
+
+static const double HERE[3] = { 1e6, 0, 0 };
+
+static fixture_level small_level(void)
+{
+    test_random random = { 21 };
+    fixture_level level = fixture_random(&random, 1, 12);
+    level.tile_cells = 4;
+    return level;
+}
+
+static tl_result try_open(world_file *file, tl_report *report)
+{
+    tl_nav_world_def def = tl_default_nav_world_def();
+    tl_nav_world *world = NULL;
+    def.read = world_file_read;
+    def.user = file;
+    const tl_result result = tl_nav_world_create(&def, &world, report);
+    TEST_CHECK((result == TL_OK) == (world != NULL));
+    tl_nav_world_destroy(world);
+    return result;
+}
+
+// The chunks of a file, to be written again otherwise.
+static world_file rewrite(const world_file *file, const tl_pack_item *extra, bool backwards, bool doubled)
+{
+    tl_pack pack;
+    tl_pack_item items[64];
+    world_file copy, out;
+    uint32_t count = 0;
+    memset(&out, 0, sizeof out);
+    copy.bytes = aligned_alloc(64, file->size);
+    memcpy(copy.bytes, file->bytes, file->size);
+    TEST_RESULT(tl_pack_to_host_order(copy.bytes, file->size, NULL), TL_OK);
+    TEST_RESULT(tl_pack_open(copy.bytes, file->size, &pack, NULL), TL_OK);
+    TEST_CHECK(pack.chunk_count + 2 <= 64);
+    for (uint32_t i = 0; i < pack.chunk_count; i++) {
+        const tl_pack_chunk chunk = tl_pack_chunk_at(&pack, backwards ? pack.chunk_count - 1 - i : i);
+        const tl_pack_item item = { chunk.type, chunk.id, chunk.bytes, chunk.size };
+        items[count++] = item;
+    }
+    if (doubled) {
+        items[count] = items[count - 1];
+        items[count++].id = 999;
+    }
+    if (extra != NULL) {
+        items[count++] = *extra;
+    }
+    TEST_RESULT(tl_pack_write(items, count, NULL, world_file_write, &out, NULL), TL_OK);
+    free(copy.bytes);
+    return out;
+}
+
+static void test_refused_by_name(void **state)
+{
+    (void)state;
+    const fixture_level level = small_level();
+    world_file file = world_file_make(&level, HERE, TL_PACK_AXES_Y_UP);
+    tl_report report;
+    TEST_RESULT(try_open(&file, &report), TL_OK);
+
+    tl_pack_offmesh *links = NULL;
+    TEST_RESULT(tl_pack_offmesh_encode(NULL, 0, NULL, &links, NULL), TL_OK);
+    const tl_pack_item extra = { TL_PACK_OFFM, 0, links, links->blob.size };
+    world_file linked = rewrite(&file, &extra, false, false);
+    TEST_RESULT(try_open(&linked, &report), TL_ERR_UNSUPPORTED);
+    TEST_CHECK(strcmp(report.element, "chunk") == 0 && report.advice != NULL);
+    world_file twice = rewrite(&file, NULL, false, true);
+    TEST_RESULT(try_open(&twice, &report), TL_ERR_CORRUPT);
+    world_file backwards = rewrite(&file, NULL, true, false);
+    TEST_RESULT(try_open(&backwards, &report), TL_ERR_CORRUPT);
+    world_file empty;
+    memset(&empty, 0, sizeof empty);
+    TEST_RESULT(tl_pack_write(NULL, 0, NULL, world_file_write, &empty, NULL), TL_OK);
+    TEST_RESULT(try_open(&empty, &report), TL_NOT_FOUND);
+
+    tl_blob_free(links);
+    world_file_free(&linked);
+    world_file_free(&twice);
+    world_file_free(&backwards);
+    world_file_free(&empty);
+    world_file_free(&file);
+}
+
+// Every prefix, and every byte of the index altered.
+static void test_damaged_index(void **state)
+{
+    (void)state;
+    const fixture_level level = small_level();
+    world_file file = world_file_make(&level, HERE, TL_PACK_AXES_Y_UP);
+    uint64_t index_size = 0;
+    union {
+        uint64_t aligned[TL_PACK_HEAD_SIZE / 8];
+        unsigned char bytes[TL_PACK_HEAD_SIZE];
+    } head;
+    memcpy(head.bytes, file.bytes, sizeof head);
+    TEST_RESULT(tl_pack_index_size(head.bytes, &index_size, NULL), TL_OK);
+    const size_t whole = file.size;
+    for (size_t size = 0; size < index_size; size++) {
+        file.size = size;
+        TEST_CHECK(tl_is_error(try_open(&file, NULL)));
+    }
+    file.size = whole;
+    for (size_t i = 0; i < index_size; i++) {
+        file.bytes[i] ^= 0x10;
+        TEST_CHECK(tl_is_error(try_open(&file, NULL)));
+        file.bytes[i] ^= 0x10;
+    }
+    TEST_RESULT(try_open(&file, NULL), TL_OK);
+    world_file_free(&file);
+}
+
+// Bytes of tiles altered: refused at once, or when they are loaded; never taken in.
+static void test_damaged_tiles(void **state)
+{
+    (void)state;
+    const fixture_level level = small_level();
+    world_file file = world_file_make(&level, HERE, TL_PACK_AXES_Y_UP);
+    test_random random = { 4 };
+    uint64_t index_size = 0;
+    union {
+        uint64_t aligned[TL_PACK_HEAD_SIZE / 8];
+        unsigned char bytes[TL_PACK_HEAD_SIZE];
+    } head;
+    memcpy(head.bytes, file.bytes, sizeof head);
+    TEST_RESULT(tl_pack_index_size(head.bytes, &index_size, NULL), TL_OK);
+    uint32_t refused = 0, failed = 0;
+    for (uint32_t i = 0; i < 300; i++) {
+        const size_t at =
+            (size_t)index_size + 512 + test_random_below(&random, (uint32_t)(file.size - index_size - 512));
+        const unsigned char flip = (unsigned char)(1u << test_random_below(&random, 8));
+        file.bytes[at] ^= flip;
+        tl_nav_world_def def = tl_default_nav_world_def();
+        tl_nav_world *world = NULL;
+        def.read = world_file_read;
+        def.user = &file;
+        if (tl_nav_world_create(&def, &world, NULL) == TL_OK) {
+            const tl_nav_world_interest all = world_interest(HERE, 0, 0, 1e6);
+            world_settle(world, &all, 1);
+            const tl_nav_world_state now = world_state(world);
+            TEST_CHECK(now.failed <= 1 && now.loaded + now.failed == now.places && now.missing == 0);
+            failed += now.failed;
+        } else {
+            refused++;
+        }
+        tl_nav_world_destroy(world);
+        file.bytes[at] ^= flip;
+    }
+    // The rest lay in padding between chunks, which nobody reads.
+    print_message("%u refused, %u failed when loaded\n", refused, failed);
+    TEST_CHECK(refused + failed > 280 && failed > 200);
+    world_file_free(&file);
+}
+
+static void test_memory_fails(void **state)
+{
+    (void)state;
+    const fixture_level level = small_level();
+    world_file file = world_file_make(&level, HERE, TL_PACK_AXES_Y_UP);
+    tl_result result = TL_ERR_MEMORY;
+    uint32_t failures = 0;
+    for (uint64_t fail_at = 1; result != TL_OK; fail_at++, failures++) {
+        test_allocator memory;
+        test_allocator_init(&memory, fail_at);
+        tl_nav_world_def def = tl_default_nav_world_def();
+        tl_nav_world *world = NULL;
+        def.read = world_file_read;
+        def.user = &file;
+        def.allocator = &memory.allocator;
+        const tl_nav_world_interest all = world_interest(HERE, 0, 0, 1e6);
+        result = tl_nav_world_create(&def, &world, NULL);
+        for (int i = 0; i < 3 && result == TL_OK; i++) {
+            tl_nav_world_load load;
+            result = tl_nav_world_update(world, &all, 1, 4);
+            result = result == TL_NOT_FOUND ? TL_OK : result;
+            result = result == TL_OK ? tl_nav_world_begin_load(world, &load) : result;
+            if (result == TL_OK) {
+                TEST_RESULT(tl_nav_world_run_load(&load), TL_OK);
+                TEST_RESULT(tl_nav_world_end_load(&load), TL_OK);
+            }
+        }
+        TEST_CHECK(result == TL_OK || result == TL_ERR_MEMORY);
+        tl_nav_world_destroy(world);
+        TEST_CHECK(memory.live_blocks == 0);
+    }
+    TEST_CHECK(failures > 20);
+    world_file_free(&file);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_refused_by_name),
+        cmocka_unit_test(test_damaged_index),
+        cmocka_unit_test(test_damaged_tiles),
+        cmocka_unit_test(test_memory_fails),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+//
+// Baked files of small worlds in memory, and worlds over them: a grid of cells (nav_fixture.h) in tiles, anywhere.
+
+#ifndef TALUS_TEST_NAV_WORLD_FILE_H
+#define TALUS_TEST_NAV_WORLD_FILE_H
+
+#include "nav_fixture.h"
+
+#include <talus/nav_world.h>
+
+typedef struct world_file {
+    unsigned char *bytes;
+    size_t size, capacity;
+    uint64_t reads;
+    uint64_t fail_from; ///< reads of chunks behind this offset fail; 0: none
+} world_file;
+
+static inline tl_result world_file_write(const void *bytes, size_t size, void *user)
+{
+    world_file *file = (world_file *)user;
+    if (file->size + size > file->capacity) {
+        file->capacity = 2 * (file->size + size);
+        file->bytes = (unsigned char *)realloc(file->bytes, file->capacity);
+        TEST_CHECK(file->bytes != NULL);
+    }
+    memcpy(file->bytes + file->size, bytes, size);
+    file->size += size;
+    return TL_OK;
+}
+
+static inline tl_result world_file_read(uint64_t offset, void *bytes, size_t size, void *user)
+{
+    world_file *file = (world_file *)user;
+    file->reads++;
+    if (offset > file->size || size > file->size - offset) {
+        return TL_ERR_TRUNCATED;
+    }
+    if (file->fail_from != 0 && offset >= file->fail_from) {
+        return TL_ERR_IO;
+    }
+    memcpy(bytes, file->bytes + offset, size);
+    return TL_OK;
+}
+
+/// A file of a level's tiles, with `origin` as the level's own coordinates of 0 and such axes.
+static inline world_file world_file_make(const fixture_level *level, const double origin[3], tl_pack_axes axes)
+{
+    enum { MAX_ITEMS = 1024 };
+    static tl_pack_item items[MAX_ITEMS];
+    uint32_t count = 2, tiles = 0;
+    const uint32_t wide = fixture_tiles(level->width, level->tile_cells);
+    const uint32_t high = fixture_tiles(level->height, level->tile_cells);
+    for (uint32_t i = 0; i < wide * high; i++) {
+        tl_nav_tile *tile = fixture_build_tile(level, (int32_t)(i % wide), (int32_t)(i / wide), NULL);
+        if (tile != NULL) {
+            TEST_CHECK(count < MAX_ITEMS);
+            const tl_pack_item item = { TL_PACK_NAVT, tiles++, tile, tile->blob.size };
+            items[count++] = item;
+        }
+    }
+    tl_nav_def def = tl_default_nav_def();
+    def.cell_size = level->cell_size;
+    def.cell_height = level->cell_height;
+    def.tile_size = level->tile_cells * FIXTURE_STEP;
+    def.bounds.min = level->origin;
+    def.bounds.max = tl_add(level->origin, tl_vec3_make(300, 50, 300));
+    tl_pack_navmesh *navmesh = NULL;
+    tl_pack_frame *frame = NULL;
+    TEST_RESULT(tl_pack_navmesh_encode(&def, wide, high, tiles, NULL, &navmesh, NULL), TL_OK);
+    TEST_RESULT(tl_pack_frame_encode(axes, origin, NULL, &frame, NULL), TL_OK);
+    const tl_pack_item settings = { TL_PACK_NAVM, 0, navmesh, navmesh->blob.size };
+    const tl_pack_item place = { TL_PACK_FRAM, 0, frame, frame->blob.size };
+    items[0] = settings;
+    items[1] = place;
+    world_file file;
+    memset(&file, 0, sizeof file);
+    TEST_RESULT(tl_pack_write(items, count, NULL, world_file_write, &file, NULL), TL_OK);
+    for (uint32_t i = 2; i < count; i++) {
+        tl_blob_free((void *)(uintptr_t)items[i].bytes);
+    }
+    tl_blob_free(navmesh);
+    tl_blob_free(frame);
+    return file;
+}
+
+static inline void world_file_free(world_file *file)
+{
+    free(file->bytes);
+    memset(file, 0, sizeof *file);
+}
+
+static inline tl_nav_world *world_open(world_file *file, uint64_t budget, double frame_reach)
+{
+    tl_nav_world_def def = tl_default_nav_world_def();
+    tl_nav_world *world = NULL;
+    tl_report report;
+    def.read = world_file_read;
+    def.user = file;
+    def.budget = budget;
+    def.frame_reach = frame_reach;
+    TEST_RESULT(tl_nav_world_create(&def, &world, &report), TL_OK);
+    return world;
+}
+
+/// Runs loads and updates until nothing changes any more.
+static inline void world_settle(tl_nav_world *world, const tl_nav_world_interest *interests, uint32_t count)
+{
+    uint32_t quiet = 0;
+    for (uint32_t round = 0; quiet < 2; round++) {
+        tl_nav_world_load load;
+        TEST_CHECK(round < 100000);
+        const tl_result result = tl_nav_world_update(world, interests, count, 1 + round % 3);
+        TEST_CHECK(result == TL_OK || result == TL_NOT_FOUND);
+        quiet = result == TL_NOT_FOUND ? quiet + 1 : 0;
+        if (tl_nav_world_begin_load(world, &load) == TL_OK) {
+            (void)tl_nav_world_run_load(&load);
+            TEST_RESULT(tl_nav_world_end_load(&load), TL_OK);
+            quiet = 0;
+        }
+    }
+}
+
+static inline tl_nav_world_interest world_interest(const double origin[3], double x, double z, double radius)
+{
+    const tl_nav_world_interest interest = { { origin[0] + x, origin[1], origin[2] + z }, radius };
+    return interest;
+}
+
+static inline tl_nav_world_state world_state(const tl_nav_world *world)
+{
+    tl_nav_world_state state;
+    TEST_RESULT(tl_nav_world_get_state(world, &state), TL_OK);
+    return state;
+}
+
+#endif
