@@ -12,34 +12,35 @@ namespace Talus.Interop
         TL_OK = 0,
         TL_NOT_FOUND = 1,
         TL_INCOMPLETE = 2,
-        TL_ERR_MEMORY = 3,
-        TL_ERR_CANCELLED = 4,
-        TL_ERR_IO = 5,
-        TL_ERR_ARGUMENT = 6,
-        TL_ERR_UNSUPPORTED = 7,
-        TL_ERR_LIMIT = 8,
-        TL_ERR_STALE = 9,
-        TL_ERR_EMPTY = 10,
-        TL_ERR_NOT_FINITE = 11,
-        TL_ERR_RANGE = 12,
-        TL_ERR_INDEX = 13,
-        TL_ERR_DEGENERATE = 14,
-        TL_ERR_COINCIDENT = 15,
-        TL_ERR_COLLINEAR = 16,
-        TL_ERR_COPLANAR = 17,
-        TL_ERR_NON_MANIFOLD = 18,
-        TL_ERR_WINDING = 19,
-        TL_ERR_NOT_CLOSED = 20,
-        TL_ERR_SELF_INTERSECTION = 21,
-        TL_ERR_FORMAT = 22,
-        TL_ERR_MAGIC = 23,
-        TL_ERR_VERSION = 24,
-        TL_ERR_TRUNCATED = 25,
-        TL_ERR_HASH = 26,
-        TL_ERR_CORRUPT = 27,
-        TL_ERR_ITERATIONS = 28,
-        TL_ERR_NODES = 29,
-        TL_RESULT_COUNT = 30,
+        TL_NOT_LOADED = 3,
+        TL_ERR_MEMORY = 4,
+        TL_ERR_CANCELLED = 5,
+        TL_ERR_IO = 6,
+        TL_ERR_ARGUMENT = 7,
+        TL_ERR_UNSUPPORTED = 8,
+        TL_ERR_LIMIT = 9,
+        TL_ERR_STALE = 10,
+        TL_ERR_EMPTY = 11,
+        TL_ERR_NOT_FINITE = 12,
+        TL_ERR_RANGE = 13,
+        TL_ERR_INDEX = 14,
+        TL_ERR_DEGENERATE = 15,
+        TL_ERR_COINCIDENT = 16,
+        TL_ERR_COLLINEAR = 17,
+        TL_ERR_COPLANAR = 18,
+        TL_ERR_NON_MANIFOLD = 19,
+        TL_ERR_WINDING = 20,
+        TL_ERR_NOT_CLOSED = 21,
+        TL_ERR_SELF_INTERSECTION = 22,
+        TL_ERR_FORMAT = 23,
+        TL_ERR_MAGIC = 24,
+        TL_ERR_VERSION = 25,
+        TL_ERR_TRUNCATED = 26,
+        TL_ERR_HASH = 27,
+        TL_ERR_CORRUPT = 28,
+        TL_ERR_ITERATIONS = 29,
+        TL_ERR_NODES = 30,
+        TL_RESULT_COUNT = 31,
     }
 
     public enum tl_convex_kind
@@ -2304,6 +2305,24 @@ namespace Talus.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_pack_entry
+    {
+        public uint type;
+        public uint id;
+        public ulong offset;
+        public ulong size;
+        public ulong hash;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_pack_index
+    {
+        public tl_pack_entry* entries;
+        public uint count;
+        public ulong file_size;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_pack_meta
     {
         public tl_blob blob;
@@ -2417,6 +2436,56 @@ namespace Talus.Interop
         public fixed uint reserved[11];
     }
 
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_world
+    {
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_world_def
+    {
+        public IntPtr read;
+        public void* user;
+        public ulong budget;
+        public double frame_reach;
+        public tl_allocator* allocator;
+        public uint cookie;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_world_interest
+    {
+        public fixed double point[3];
+        public double radius;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_world_load
+    {
+        public tl_nav_world* world;
+        public uint place;
+        public int tile_x;
+        public int tile_z;
+        public tl_result result;
+        public byte* advice;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_world_state
+    {
+        public uint places;
+        public uint loaded;
+        public uint loading;
+        public uint ready;
+        public uint missing;
+        public uint failed;
+        public uint frames;
+        public ulong bytes;
+        public ulong peak_bytes;
+        public ulong index_bytes;
+        public ulong read_bytes;
+    }
+
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void tl_task_fn(uint a0, uint a1, void* a2);
 
@@ -2446,6 +2515,9 @@ namespace Talus.Interop
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate tl_result tl_write_fn(void* a0, UIntPtr a1, void* a2);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate tl_result tl_nav_world_read_fn(ulong a0, void* a1, UIntPtr a2, void* a3);
 
     public static unsafe partial class Api
     {
@@ -3086,6 +3158,12 @@ namespace Talus.Interop
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern uint tl_pack_count(tl_pack* pack, uint type);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_pack_index_size(void* head, ulong* size_out, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_pack_index_open(void* bytes, ulong size, tl_pack_index* index_out, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_pack_entry_open(tl_pack_entry* entry, void* bytes, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_pack_meta_encode(byte* source_name, ulong source_vertices, ulong source_triangles, tl_aabb bounds, tl_allocator* allocator, tl_pack_meta** meta_out, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_pack_meta_check(void* bytes, ulong size, tl_report* report_out);
@@ -3137,5 +3215,35 @@ namespace Talus.Interop
         public static extern tl_result tl_pack_load_navmesh(tl_pack* pack, tl_allocator* allocator, tl_navmesh** navmesh_out, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_pack_load_pruned(tl_pack* pack, tl_allocator* allocator, tl_navmesh** navmesh_out, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_nav_world_def tl_default_nav_world_def();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_world_create(tl_nav_world_def* def, tl_nav_world** world_out, tl_report* report);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_nav_world_destroy(tl_nav_world* world);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_world_update(tl_nav_world* world, tl_nav_world_interest* interests, uint count, uint max_changes);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_world_begin_load(tl_nav_world* world, tl_nav_world_load* load_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_world_run_load(tl_nav_world_load* load);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_world_end_load(tl_nav_world_load* load);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_world_get_state(tl_nav_world* world, tl_nav_world_state* state_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_vec3 tl_nav_world_place_in(tl_nav_world* world, double* point);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_nav_world_place_out(tl_nav_world* world, tl_vec3 point, double* @out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_navmesh* tl_nav_world_navmesh(tl_nav_world* world);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_world_covers(tl_nav_world* world, double* center, double radius);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_world_find_nearest(tl_nav_world* world, tl_nav_filter* filter, double* point, tl_vec3 half_extents, tl_nav_location* location_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_world_find_path(tl_nav_world* world, tl_nav_query* query, tl_nav_path_request* request, tl_nav_path_buffers* buffers, tl_nav_shortest_path* path_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_world_cast_ray(tl_nav_world* world, tl_nav_filter* filter, tl_nav_location* start, double* end, tl_nav_ray_hit* hit_out);
     }
 }
