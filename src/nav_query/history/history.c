@@ -12,25 +12,23 @@
 #include "base/arena.h"
 #include "base/assert.h"
 
-enum { HEAD_BYTES = 64 }; // keeps the alignment that allocators promise
-
 static void *allocate_shared(size_t size, size_t alignment, void *user)
 {
     tl_nav_history *history = (tl_nav_history *)user;
     (void)alignment;
-    TL_ASSERT(sizeof(tl_nav_block) <= HEAD_BYTES && alignment <= HEAD_BYTES);
-    if (size > SIZE_MAX - HEAD_BYTES) {
+    TL_ASSERT(sizeof(tl_nav_block) <= TL_NAV_BLOCK_HEAD && alignment <= TL_NAV_BLOCK_HEAD);
+    if (size > SIZE_MAX - TL_NAV_BLOCK_HEAD) {
         return NULL;
     }
-    tl_nav_block *block = (tl_nav_block *)tl_allocate(&history->host, size + HEAD_BYTES, HEAD_BYTES);
+    tl_nav_block *block = (tl_nav_block *)tl_allocate(&history->host, size + TL_NAV_BLOCK_HEAD, TL_NAV_BLOCK_HEAD);
     if (block == NULL) {
         return NULL;
     }
     block->next = NULL;
     block->born = history->draft;
-    block->size = size + HEAD_BYTES;
+    block->size = size + TL_NAV_BLOCK_HEAD;
     block->tile = NULL;
-    return (char *)block + HEAD_BYTES;
+    return (char *)block + TL_NAV_BLOCK_HEAD;
 }
 
 void tl_nav_free_block(tl_nav_history *history, tl_nav_block *block)
@@ -44,7 +42,7 @@ static void release_shared(void *memory, size_t size, void *user)
     tl_nav_history *history = (tl_nav_history *)user;
     tl_nav_block *block = tl_nav_block_of(memory);
     (void)size;
-    TL_ASSERT(block->size == size + HEAD_BYTES);
+    TL_ASSERT(block->size == size + TL_NAV_BLOCK_HEAD);
     if (history->ends || block->born == history->draft) {
         tl_nav_free_block(history, block);
         return;

@@ -17,6 +17,8 @@ typedef struct tl_nav_block {
     void *tile;                ///< a blob that is freed together with it, or NULL
 } tl_nav_block;
 
+enum { TL_NAV_BLOCK_HEAD = 64 }; ///< bytes of that head: they keep the alignment which allocators promise
+
 /// Arrays that each version has a copy of, which is brought up to date page by page.
 typedef enum tl_nav_paged_array {
     TL_NAV_PAGED_SLOTS,
@@ -69,7 +71,7 @@ static inline void tl_nav_touch_offmesh(tl_nav_history *history)
 /// The head of what the allocator above gave.
 static inline tl_nav_block *tl_nav_block_of(void *memory)
 {
-    return (tl_nav_block *)(void *)((char *)memory - 64);
+    return (tl_nav_block *)(void *)((char *)memory - TL_NAV_BLOCK_HEAD);
 }
 
 /// Whether older versions have what that allocator gave: it must not be written to.
