@@ -158,9 +158,10 @@ function takeReport() {
   };
 }
 
-// The last outcome of tl_result and the first error after it (talus/base.h).
+// Of tl_result (talus/base.h): its last outcome, and errors that JavaScript finds itself.
 const TL_NOT_LOADED = 3;
-const TL_ERR_MEMORY = 4;
+export const TL_ERR_MEMORY = 4;
+export const TL_ERR_NODES = 30;
 
 /** Throws what a listener threw, or the error of a result. TL_OK, TL_NOT_FOUND, TL_INCOMPLETE and TL_NOT_LOADED pass. */
 export function check(result) {
@@ -178,10 +179,6 @@ export function fail(result) {
   const name = readString(wasm.js_result_name(result));
   const text = readString(wasm.js_result_text(result));
   throw resultError(name, text, takeReport());
-}
-
-export function failMemory() {
-  fail(TL_ERR_MEMORY);
 }
 
 /** Runs a bake whose progress goes to `listener` (false cancels); signals end it with their reason. */
@@ -221,7 +218,7 @@ export function accepting(accept, run) {
 /** Memory of the module, aligned to 64 bytes; freed with release. */
 export function allocate(bytes) {
   const address = bytes > 0xffffff00 ? 0 : wasm.js_alloc(bytes) >>> 0;
-  if (address === 0) failMemory();
+  if (address === 0) fail(TL_ERR_MEMORY);
   return address;
 }
 

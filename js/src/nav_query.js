@@ -4,7 +4,7 @@
 
 import { argumentError } from './error.js';
 import { Navmesh } from './navmesh.js';
-import { F64, SLOT, U64, check, copyOut, slotVec3, wasm } from './module.js';
+import { F64, SLOT, TL_ERR_NODES, U64, check, copyOut, fail, slotVec3, wasm } from './module.js';
 
 const START_GIVEN = 1, GOAL_GIVEN = 2, FILTERED = 4, WITH_POLYGONS = 8;
 const HALF_EXTENTS = [2, 4, 2];
@@ -111,7 +111,7 @@ const methods = {
 
   isReachable(start, goal, options = {}) {
     const path = this.findPath(start, goal, options);
-    if (path?.status === 'out of nodes') check(29); // TL_ERR_NODES
+    if (path?.status === 'out of nodes') fail(TL_ERR_NODES);
     return path !== null && path.status === 'complete';
   },
 

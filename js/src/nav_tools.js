@@ -7,7 +7,7 @@ import { withInput } from './mesh.js';
 import { Navmesh } from './navmesh.js';
 import { NAV_DEF_NUMBERS, readNavOptions, shortest } from './nav_options.js';
 import { putOffMeshLink } from './nav_change.js';
-import { F32, F64, SLOT, U32, U64, U8, check, copyIn, copyOut, fail, failMemory, putVec3, ready, release, slotAabb, slotVec3, wasm, watched } from './module.js';
+import { F32, F64, SLOT, TL_ERR_MEMORY, U32, U64, U8, check, copyIn, copyOut, fail, putVec3, ready, release, slotAabb, slotVec3, wasm, watched } from './module.js';
 
 const NONE = 0xffffffff;
 const KINDS = ['drop', 'jump', 'climb'];
@@ -54,7 +54,7 @@ function copyLinksIn(navmesh, links) {
   const list = copyIn(new Uint8Array(data.buffer));
   const address = wasm.js_links_make(navmesh._address, list, links.length) >>> 0;
   release(list);
-  if (address === 0) failMemory();
+  if (address === 0) fail(TL_ERR_MEMORY);
   return { address, size: blobSize(address) };
 }
 

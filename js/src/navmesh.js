@@ -7,7 +7,7 @@ import { argumentError } from './error.js';
 import { Handle, PRIVATE, refuseNew } from './handle.js';
 import { withInput } from './mesh.js';
 import { putNavOptions, readNavOptions } from './nav_options.js';
-import { F32, F64, SLOT, U32, U64, U8, check, copyIn, copyOut, fail, failMemory, ready, release, slotAabb, wasm, watched } from './module.js';
+import { F32, F64, SLOT, TL_ERR_MEMORY, U32, U64, U8, check, copyIn, copyOut, fail, ready, release, slotAabb, wasm, watched } from './module.js';
 
 const REPORT = ['spanCount', 'compactSpanCount', 'regionCount', 'filteredRegions', 'filteredSpans', 'filteredArea',
                 'contourCount', 'unbridgedHoles', 'slitOutlines', 'repairedContours', 'polygonCount', 'vertexCount',
@@ -71,7 +71,7 @@ export class Navmesh extends Handle {
     ready();
     putNavOptions(0, options);
     const address = wasm.js_navmesh_empty() >>> 0;
-    if (address === 0) failMemory();
+    if (address === 0) fail(TL_ERR_MEMORY);
     const navmesh = new Navmesh(PRIVATE, address, null);
     try {
       for (const tile of tiles) check(wasm.js_navmesh_add_copy(address, copyIn(tile), tile.length, 0));
@@ -123,7 +123,7 @@ export class Navmesh extends Handle {
   #tiles() {
     const { tiles } = this.#counts();
     const order = wasm.js_tile_order(this._address) >>> 0;
-    if (order === 0) failMemory();
+    if (order === 0) fail(TL_ERR_MEMORY);
     const slots = copyOut(Uint32Array, order, tiles);
     release(order);
     return Array.from(slots, (slot) => {
@@ -157,7 +157,7 @@ export class Navmesh extends Handle {
     tiles.forEach((tile, t) => {
       const n = tile.polygonCount;
       const islands = wasm.js_tile_islands(this._address, tile.slot) >>> 0;
-      if (islands === 0) failMemory();
+      if (islands === 0) fail(TL_ERR_MEMORY);
       result.island.set(U32.subarray(islands / 4, islands / 4 + n), polygon);
       result.area.set(U8.subarray(tile.areas, tile.areas + n), polygon);
       result.flags.set(U64.subarray(tile.flags / 8, tile.flags / 8 + n), polygon);
@@ -219,7 +219,7 @@ export class Navmesh extends Handle {
   static _create(fill) {
     putNavOptions(0);
     const address = wasm.js_navmesh_empty() >>> 0;
-    if (address === 0) failMemory();
+    if (address === 0) fail(TL_ERR_MEMORY);
     const navmesh = new Navmesh(PRIVATE, address, null);
     try {
       fill(address);

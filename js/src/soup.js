@@ -6,7 +6,7 @@
 import { argumentError } from './error.js';
 import { Handle, PRIVATE, refuseNew } from './handle.js';
 import { withInput } from './mesh.js';
-import { F32, F64, SLOT, U16, U32, U8, accepting, check, copyIn, copyOut, fail, failMemory, putAabb, putPose, putVec3, ready, release,
+import { F32, F64, SLOT, TL_ERR_MEMORY, U16, U32, U8, accepting, check, copyIn, copyOut, fail, putAabb, putPose, putVec3, ready, release,
          slotAabb, slotVec3, wasm, watched } from './module.js';
 import { visibleOutline, walkBoxes } from './ray_walk.js';
 import { SHAPE_NUMBERS, STATUS, withShapes } from './shape.js';
@@ -138,7 +138,7 @@ export class Soup extends Handle {
     const count = rays.length / 7, soup = this._address;
     if (!Number.isInteger(count)) throw argumentError('rays', 'give seven numbers a ray');
     const room = wasm.js_batch_room(count) >>> 0;
-    if (room === 0) failMemory();
+    if (room === 0) fail(TL_ERR_MEMORY);
     F32.set(rays, room / 4);
     const hits = filtered(filter, (f) => wasm.js_soup_cast_rays(soup, room, count, f)) >>> 0;
     const result = batchArrays(count, out);
