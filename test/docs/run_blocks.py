@@ -2,7 +2,8 @@
 """Runs the blocks of one Markdown page, and compares what they print with what the page shows.
 
   run_blocks.py PAGE --source FOLDER --talus COMMAND [--library FILE --compiler CC --flag F ...]
-  run_blocks.py PAGE --mend ...       and writes what the commands print now into the page, to be read before it is kept
+  run_blocks.py PAGE --mend ...       and writes what the commands print now into the page, and the pictures that they draw
+                                      into docs/images: to be looked at before they are kept
 
 Each page gets one empty folder; its blocks run there in order. By the language of the fence:
 
@@ -17,6 +18,8 @@ Each page gets one empty folder; its blocks run there in order. By the language 
 
 When outputs are compared, runs of blanks count as one, and every duration (a number and ns, us, ms or s, or the last
 number of a table's line under `ms`) as the same. A line `...` stands for any lines.
+
+A picture of docs/images that the page shows, and of whose name the page's commands leave a file, must look like that file.
 
 A comment right before a block tells what a reader need not see:
 
@@ -36,6 +39,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+
+import pictures
 
 LANGUAGES = ("console", "sh", "c", "cmake", "text", "json")
 INCLUDES = "#include <talus/talus.h>\n" + "".join(
@@ -229,6 +234,24 @@ class Page:
             if not agrees(block.text(), self.printed):
                 self.fault(block, "the program prints something else", self.printed)
 
+    def compare_pictures(self):
+        """Those of the page that its commands have drawn; with --mend they are taken over."""
+        text = open(self.options.page, encoding="utf-8").read()
+        for target in sorted(set(re.findall(r"!\[[^\]]*\]\(([^()\s]*images/[^()\s]+\.png)\)", text))):
+            drawn = os.path.join(self.folder, os.path.basename(target))
+            kept = os.path.join(os.path.dirname(os.path.abspath(self.options.page)), target)
+            if not os.path.exists(drawn):
+                continue
+            self.count += 1
+            why = pictures.differ(drawn, kept) if os.path.exists(kept) else "there is no such file"
+            if why and self.options.mend:
+                os.makedirs(os.path.dirname(kept), exist_ok=True)
+                shutil.copyfile(drawn, kept)
+                print(f"{self.options.page}: {target} drawn again ({why})")
+            elif why:
+                self.faults += 1
+                print(f"{self.options.page}: {target} is not what the page's commands draw: {why}")
+
     def run_block(self, block):
         if block.note("file"):
             with open(os.path.join(self.folder, block.note("file").strip()), "w", encoding="utf-8") as file:
@@ -273,6 +296,7 @@ def main():
     try:
         for block in blocks:
             page.run_block(block)
+        page.compare_pictures()
     finally:
         shutil.rmtree(folder, ignore_errors=True)
     if options.mend:
