@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: MIT
 """Rays from numpy arrays: talus beside what Python users have. `make bench-python` runs it.
 
-Each peer's answers are compared with talus' before it is timed. Rates are medians of several runs, all in one process on
-one thread; peers that are not installed are left out and said so.
+Each peer's answers are compared with talus' before it is timed. Rates are medians of several runs, taken in turn, all in
+one process on one thread; peers that are not installed are left out and said so. With `--library`, a shared library of
+talus, the same rays go through tl_soup_cast_rays too: what the Python package adds to it.
 """
 
 from __future__ import annotations
 
 import argparse
+import ctypes
 import importlib.util
 import statistics
 import sys
@@ -44,12 +46,51 @@ def rays(mesh: Mesh, count: int, kind: str) -> tuple[np.ndarray, np.ndarray]:
     u, v = np.meshgrid(np.linspace(-0.6, 0.6, side), np.linspace(-0.6, 0.6, side))
     directions = np.stack([u.ravel(), np.full(side * side, -0.5) - v.ravel() * 0.6, np.ones(side * side)], axis=1)
     eye = np.array([(low[0] + high[0]) / 2, high[1] + 8, low[2]])
-    return np.broadcast_to(eye, directions.shape).astype(np.float32), directions.astype(np.float32)
+    origins = np.ascontiguousarray(np.broadcast_to(eye, directions.shape), dtype=np.float32)
+    return origins, np.ascontiguousarray(directions, dtype=np.float32)
 
 
 def talus_caster(mesh: Mesh) -> Caster:
     soup = talus.Soup(*mesh)
     return lambda origins, directions: soup.cast(origins, directions, threads=1).t
+
+
+class MeshView(ctypes.Structure):
+    """tl_mesh_view."""
+
+    _fields_ = (
+        ("vertices", ctypes.c_void_p),
+        ("vertex_count", ctypes.c_uint32),
+        ("indices", ctypes.c_void_p),
+        ("triangle_count", ctypes.c_uint32),
+        ("materials", ctypes.c_void_p),
+    )
+
+
+def batch_caster(library: str, mesh: Mesh) -> Caster:
+    """tl_soup_cast_rays, with rays and hits in the library's own form; the rays are converted once and not timed."""
+    talus_c = ctypes.CDLL(library)
+    pointer = ctypes.c_void_p
+    talus_c.tl_soup_bake.argtypes = [pointer, pointer, pointer, pointer]
+    talus_c.tl_soup_cast_rays.argtypes = [pointer, pointer, ctypes.c_uint32, pointer, pointer, pointer]
+    talus_c.tl_soup_cast_rays.restype = None
+    vertices, faces = mesh[0].astype(np.float32), mesh[1].astype(np.uint32)
+    view = MeshView(vertices.ctypes.data, len(vertices), faces.ctypes.data, len(faces), None)
+    soup = pointer()
+    if talus_c.tl_soup_bake(ctypes.byref(view), None, ctypes.byref(soup), None) != 0:
+        raise RuntimeError("tl_soup_bake failed")
+    kept: list[np.ndarray] = []
+
+    def cast(origins: np.ndarray, directions: np.ndarray) -> np.ndarray:
+        if not kept:
+            limits = np.full((len(origins), 1), np.inf, np.float32)
+            kept.append(np.ascontiguousarray(np.concatenate([origins, directions, limits], axis=1)))
+            kept.append(np.empty((len(origins), 8), np.float32))
+        rays, hits = kept
+        talus_c.tl_soup_cast_rays(soup, rays.ctypes.data, len(rays), None, None, hits.ctypes.data)
+        return hits[:, 0]
+
+    return cast
 
 
 def embreex_caster(mesh: Mesh) -> Caster:
@@ -88,15 +129,15 @@ PEERS: dict[str, tuple[str, Callable[[Mesh], Caster]]] = {
 }
 
 
-def rate(cast: Caster, origins: np.ndarray, directions: np.ndarray, runs: int) -> float:
-    """Million rays a second of processor time, the median of several runs."""
-    cast(origins, directions)
-    seconds = []
+def rates(casters: dict[str, Caster], origins: np.ndarray, directions: np.ndarray, runs: int) -> dict[str, float]:
+    """Million rays a second of processor time of each, medians of several runs taken in turn."""
+    seconds: dict[str, list[float]] = {name: [] for name in casters}
     for _ in range(runs):
-        begin = time.process_time()
-        cast(origins, directions)
-        seconds.append(time.process_time() - begin)
-    return len(origins) / statistics.median(seconds) / 1e6
+        for name, cast in casters.items():
+            begin = time.process_time()
+            cast(origins, directions)
+            seconds[name].append(time.process_time() - begin)
+    return {name: len(origins) / statistics.median(all_runs) / 1e6 for name, all_runs in seconds.items()}
 
 
 def agreement(ours: np.ndarray, theirs: np.ndarray) -> float:
@@ -107,32 +148,41 @@ def agreement(ours: np.ndarray, theirs: np.ndarray) -> float:
     return float((both_miss | near).mean())
 
 
+def level_casters(mesh: Mesh, library: str | None) -> dict[str, Caster]:
+    """talus, and what else is here."""
+    casters = {"talus": talus_caster(mesh)}
+    if library is not None:
+        casters["tl_soup_cast_rays"] = batch_caster(library, mesh)
+    for peer, (module, make) in PEERS.items():
+        if importlib.util.find_spec(module) is not None:
+            casters[peer] = make(mesh)
+    return casters
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=1_000_000, help="rays in a batch")
     parser.add_argument("--runs", type=int, default=7)
     parser.add_argument("--side", type=int, nargs="*", default=[40, 300, 1000], help="sides of the levels, in vertices")
+    parser.add_argument("--library", help="a shared library of talus, as tools/python-bench builds it")
     options = parser.parse_args()
-    print(f"{'level':>12} {'rays':<11} {'library':<18} {'Mray/s':>8} {'to talus':>9} {'agree':>9}")
+    for peer, (module, _) in PEERS.items():
+        if importlib.util.find_spec(module) is None:
+            print(f"{peer} is not installed")
+    print(f"{'level':>12} {'rays':<11} {'library':<18} {'Mray/s':>8} {'talus is':>9} {'agree':>9}")
     for side in options.side:
         mesh = terrain(side)
         for kind in ("camera", "incoherent"):
             origins, directions = rays(mesh, options.count, kind)
-            ours = talus_caster(mesh)
-            expected = ours(origins, directions)
-            mine = rate(ours, origins, directions, options.runs)
-            name = f"{len(mesh[1]):,}"
-            print(f"{name:>12} {kind:<11} {'talus':<18} {mine:8.2f} {1:9.2f} {1:9.4%}")
-            for peer, (module, make) in PEERS.items():
-                if importlib.util.find_spec(module) is None:
-                    print(f"{name:>12} {kind:<11} {peer:<18} not installed")
-                    continue
-                theirs = make(mesh)
-                agree = agreement(expected, theirs(origins, directions))
-                other = rate(theirs, origins, directions, options.runs)
-                print(f"{name:>12} {kind:<11} {peer:<18} {other:8.2f} {other / mine:9.2f} {agree:9.4%}")
-                if agree < 0.999:
-                    print(f"{peer} disagrees: no rate of it counts", file=sys.stderr)
+            casters = level_casters(mesh, options.library)
+            expected = casters["talus"](origins, directions)
+            agree = {name: agreement(expected, cast(origins, directions)) for name, cast in casters.items()}
+            found = rates(casters, origins, directions, options.runs)
+            for name, rate in found.items():
+                times = found["talus"] / rate
+                print(f"{len(mesh[1]):>12,} {kind:<11} {name:<18} {rate:8.2f} {times:9.2f} {agree[name]:9.4%}", flush=True)
+                if agree[name] < (1.0 if name == "tl_soup_cast_rays" else 0.999):
+                    print(f"{name} disagrees: no rate of it counts", file=sys.stderr)
                     return 1
     return 0
 

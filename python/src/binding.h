@@ -52,6 +52,21 @@ void binding_begin(binding_host *host, PyObject *callback, unsigned threads);
 /// Takes the GIL back.
 void binding_end(binding_host *host);
 
+// --- hits -----------------------------------------------------------------------------------------------------------
+
+/// The parts of many hits, an array each.
+typedef struct binding_hit_arrays {
+    float *t;
+    int32_t *triangles;  ///< -1: none
+    float *barycentrics; ///< two each
+    tl_vec3 *normals;
+    uint16_t *materials;
+    uint8_t *backs;
+} binding_hit_arrays;
+
+/// Writes `count` hits of a batch to their parts, from `first` on.
+void binding_scatter_hits(const tl_ray_hit *hits, uint32_t count, const binding_hit_arrays *out, uint32_t first);
+
 // --- objects --------------------------------------------------------------------------------------------------------
 
 /// What a capsule of a blob holds: a blob of its own, or one inside the bytes of an open pack, which `owner` keeps.

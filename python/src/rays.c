@@ -3,88 +3,120 @@
 // Batches of rays and segments: arrays of origins and directions in, one array for each part of the hits out.
 //
 // A task gathers some rays into the library's own form, casts them, and scatters the hits, all within the cache. So
-// arrays need no copy of their own, and the cost beside tl_soup_cast_rays is a few nanoseconds a ray.
+// arrays of any strides, of float or double, are read where they lie, and one row stands for many without a copy.
+// Beside tl_soup_cast_rays that costs 3 to 4 ns a ray, nearly all of it the stores of the hits. An array of tl_ray_hit,
+// written in place and seen through strides, would save them, and cost whoever reads it more: t alone would be spread
+// over all of its 32 bytes a ray. Groups of 64 to 4096 take the same time; prefetched outputs, stores past the caches,
+// and arrays that are used again instead of new ones gain nothing.
 
 #include "binding.h"
 
-#include <math.h>
 #include <string.h>
 
-enum { GATHERED = 128, RAYS_A_TASK = 16384 };
+enum { GATHERED = 256, RAYS_A_TASK = 16384 };
 
 typedef enum ray_kind { CAST_RAYS, TEST_RAYS, CAST_SEGMENTS, TEST_SEGMENTS } ray_kind;
+
+// A numpy array of points in any layout: strides are in bytes, and may be zero or negative.
+typedef struct point_rows {
+    Py_buffer buffer;
+    const char *first;
+    Py_ssize_t row, column;
+    bool is_double;
+} point_rows;
 
 typedef struct ray_batch {
     const tl_soup *soup;
     ray_kind kind;
-    const tl_vec3 *origins;
-    const tl_vec3 *directions; // or the ends of segments
-    const float *tmax;         // one, or one for each ray
+    point_rows origins;
+    point_rows directions; // or the ends of segments
+    const float *tmax;     // one, or one for each ray
     bool each_tmax;
     uint32_t count;
     tl_ray_filter filter;
-    float *t;
-    int32_t *triangles;
-    float *barycentrics; // [2 * count], or NULL; as all below
-    tl_vec3 *normals;
-    uint16_t *materials;
-    uint8_t *backs;
-    uint8_t *tests; // hit, or blocked
+    binding_hit_arrays out;
+    bool *tests; // whether a ray hits, or a segment is clear
 } ray_batch;
 
-static void scatter(const ray_batch *batch, uint32_t first, const tl_ray_hit *hits, uint32_t count)
+// Takes an (N, 3) array; false: an exception is set.
+static bool take_points(PyObject *array, const char *name, point_rows *rows)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        batch->t[first + i] = hits[i].t;
-        batch->triangles[first + i] = (int32_t)hits[i].triangle; // TL_NO_TRIANGLE becomes -1
+    if (PyObject_GetBuffer(array, &rows->buffer, PyBUF_RECORDS_RO) != 0) {
+        return false;
     }
-    if (batch->barycentrics != NULL) {
-        for (uint32_t i = 0; i < count; i++) {
-            bool hit = hits[i].triangle != TL_NO_TRIANGLE;
-            batch->barycentrics[2 * (size_t)(first + i)] = hit ? hits[i].u : 0.0f;
-            batch->barycentrics[2 * (size_t)(first + i) + 1] = hit ? hits[i].v : 0.0f;
-            batch->normals[first + i] = hit ? hits[i].normal : tl_vec3_make(0, 0, 0);
-            batch->materials[first + i] = hit ? hits[i].material : 0;
-            batch->backs[first + i] = hit && hits[i].back;
+    const Py_buffer *b = &rows->buffer;
+    const char *format = b->format != NULL ? b->format : "";
+    format += *format == '='; // this machine's byte order, not aligned
+    bool is_float = strcmp(format, "f") == 0;
+    rows->is_double = strcmp(format, "d") == 0;
+    if (b->ndim != 2 || b->shape[1] != 3 || !(is_float || rows->is_double)) {
+        PyErr_Format(PyExc_ValueError, "%s should be an (N, 3) array of float32 or float64", name);
+        return false;
+    }
+    rows->first = b->buf;
+    rows->row = b->strides[0];
+    rows->column = b->strides[1];
+    return true;
+}
+
+// Copies rows to points, `step` floats apart; with `spare` the float after each of them may be written too. By memcpy,
+// since a view into records may lie at any address.
+static void gather_points(const point_rows *rows, uint32_t first, uint32_t count, float *restrict points, size_t step,
+                          bool spare)
+{
+    const char *from = rows->first + (Py_ssize_t)first * rows->row;
+    if (!rows->is_double && rows->column == (Py_ssize_t)sizeof(float)) {
+        // Of a dense array four floats are one load and one store; there is no fourth one after the last row.
+        for (bool dense = spare && rows->row == 3 * (Py_ssize_t)sizeof(float); dense && count > 1;
+             count--, from += rows->row, points += step) {
+            memcpy(points, from, 4 * sizeof(float));
+        }
+        for (uint32_t i = 0; i < count; i++, from += rows->row, points += step) {
+            memcpy(points, from, 3 * sizeof(float));
+        }
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++, from += rows->row, points += step) {
+        for (int axis = 0; axis < 3; axis++) {
+            if (rows->is_double) {
+                double value;
+                memcpy(&value, from + axis * rows->column, sizeof(value));
+                points[axis] = (float)value;
+            } else {
+                memcpy(&points[axis], from + axis * rows->column, sizeof(float));
+            }
         }
     }
 }
 
-static void cast_gathered(const ray_batch *batch, uint32_t first, uint32_t count)
+static void cast_rays(const ray_batch *batch, uint32_t first, uint32_t count)
 {
     tl_ray rays[GATHERED];
     tl_ray_hit hits[GATHERED];
+    gather_points(&batch->origins, first, count, &rays[0].origin.x, sizeof(tl_ray) / sizeof(float), true);
+    gather_points(&batch->directions, first, count, &rays[0].direction.x, sizeof(tl_ray) / sizeof(float), true);
     for (uint32_t i = 0; i < count; i++) {
-        rays[i].origin = batch->origins[first + i];
-        rays[i].direction = batch->directions[first + i];
         rays[i].tmax = batch->tmax[batch->each_tmax ? first + i : 0];
     }
     if (batch->kind == TEST_RAYS) {
-        for (uint32_t i = 0; i < count; i++) {
-            batch->tests[first + i] = tl_soup_occluded(batch->soup, &rays[i], &batch->filter);
-        }
-        return;
+        tl_soup_occluded_rays(batch->soup, rays, count, &batch->filter, NULL, batch->tests + first);
+    } else {
+        tl_soup_cast_rays(batch->soup, rays, count, &batch->filter, NULL, hits);
+        binding_scatter_hits(hits, count, &batch->out, first);
     }
-    tl_soup_cast_rays(batch->soup, rays, count, &batch->filter, NULL, hits);
-    scatter(batch, first, hits, count);
 }
 
 static void cast_segments(const ray_batch *batch, uint32_t first, uint32_t count)
 {
+    tl_segment segments[GATHERED];
     tl_ray_hit hits[GATHERED];
-    for (uint32_t i = 0; i < count; i++) {
-        tl_vec3 a = batch->origins[first + i];
-        tl_vec3 b = batch->directions[first + i];
-        if (batch->kind == TEST_SEGMENTS) {
-            batch->tests[first + i] = !tl_soup_line_of_sight(batch->soup, a, b, &batch->filter);
-        } else if (!tl_soup_cast_segment(batch->soup, a, b, &batch->filter, &hits[i])) {
-            memset(&hits[i], 0, sizeof(hits[i]));
-            hits[i].t = INFINITY;
-            hits[i].triangle = TL_NO_TRIANGLE;
-        }
-    }
-    if (batch->kind == CAST_SEGMENTS) {
-        scatter(batch, first, hits, count);
+    gather_points(&batch->origins, first, count, &segments[0].a.x, sizeof(tl_segment) / sizeof(float), false);
+    gather_points(&batch->directions, first, count, &segments[0].b.x, sizeof(tl_segment) / sizeof(float), false);
+    if (batch->kind == TEST_SEGMENTS) {
+        tl_soup_lines_of_sight(batch->soup, segments, count, &batch->filter, NULL, batch->tests + first);
+    } else {
+        tl_soup_cast_segments(batch->soup, segments, count, &batch->filter, NULL, hits);
+        binding_scatter_hits(hits, count, &batch->out, first);
     }
 }
 
@@ -97,76 +129,93 @@ static void run_rays(uint32_t index, uint32_t worker, void *user)
     for (; first < end; first += GATHERED) {
         uint32_t count = end - first > GATHERED ? GATHERED : end - first;
         if (batch->kind == CAST_RAYS || batch->kind == TEST_RAYS) {
-            cast_gathered(batch, first, count);
+            cast_rays(batch, first, count);
         } else {
             cast_segments(batch, first, count);
         }
     }
 }
 
+// Outputs: t, triangles, barycentrics, normals, materials, backs; tests.
+enum { OUTPUTS = 7 };
+
+// Fills the batch from its arrays; false: an exception is set.
+static bool take_batch(ray_batch *batch, PyObject *const points[2], const Py_buffer *tmax, const Py_buffer *out)
+{
+    bool segments = batch->kind == CAST_SEGMENTS || batch->kind == TEST_SEGMENTS;
+    if (!take_points(points[0], segments ? "starts" : "origins", &batch->origins) ||
+        !take_points(points[1], segments ? "ends" : "directions", &batch->directions)) {
+        return false;
+    }
+    Py_ssize_t count = batch->origins.buffer.shape[0];
+    if (batch->directions.buffer.shape[0] != count || count > (Py_ssize_t)(UINT32_MAX - RAYS_A_TASK)) {
+        PyErr_SetString(PyExc_ValueError, "the arrays differ in length, or hold more than 4 G rays");
+        return false;
+    }
+    bool tested = batch->kind == TEST_RAYS || batch->kind == TEST_SEGMENTS;
+    static const struct {
+        const char *name;
+        size_t size;
+    } kinds[OUTPUTS] = {
+        { "t", sizeof(float) },         { "triangles", sizeof(int32_t) },  { "barycentrics", 2 * sizeof(float) },
+        { "normals", sizeof(tl_vec3) }, { "materials", sizeof(uint16_t) }, { "backs", 1 },
+        { "tests", sizeof(bool) }
+    };
+    for (int i = 0; i < OUTPUTS; i++) {
+        if (!binding_has(&out[i], kinds[i].size, count, (i == OUTPUTS - 1) != tested, kinds[i].name)) {
+            return false;
+        }
+        if (out[i].buf != NULL && out[i].readonly) {
+            PyErr_SetString(PyExc_ValueError, "an output array is read-only");
+            return false;
+        }
+    }
+    batch->each_tmax = tmax->len != sizeof(float);
+    if (batch->each_tmax && !binding_has(tmax, sizeof(float), count, false, "max_distance")) {
+        return false;
+    }
+    batch->tmax = tmax->buf;
+    batch->count = (uint32_t)count;
+    batch->out = (binding_hit_arrays){ out[0].buf, out[1].buf, out[2].buf, out[3].buf, out[4].buf, out[5].buf };
+    batch->tests = out[6].buf;
+    return true;
+}
+
 // cast(soup, kind, origins, directions, tmax, cull, ignored, threads, t, triangles, barycentrics, normals, materials,
-//      backs, tests): kind 0 rays, 1 rays tested, 2 segments, 3 segments tested. What a kind does not write may be
-//      None.
+//      backs, tests): kind 0 rays, 1 whether rays hit, 2 segments, 3 whether segments are clear. 0 and 2 write all but
+//      tests, which is None, and the others tests alone.
 static PyObject *cast(PyObject *self, PyObject *args)
 {
     (void)self;
     PyObject *capsule;
-    Py_buffer b[10];
+    PyObject *points[2];
+    Py_buffer b[1 + OUTPUTS];
     memset(b, 0, sizeof(b));
     int kind = 0;
     int cull = 0;
     unsigned long long ignored = 0;
     unsigned threads = 1;
     // z* reads; outputs are numpy arrays that the package made itself, writable and contiguous.
-    if (!PyArg_ParseTuple(args, "Oiy*y*y*iKIz*z*z*z*z*z*z*", &capsule, &kind, &b[0], &b[1], &b[2], &cull, &ignored,
-                          &threads, &b[3], &b[4], &b[5], &b[6], &b[7], &b[8], &b[9])) {
+    if (!PyArg_ParseTuple(args, "OiOOy*iKIz*z*z*z*z*z*z*", &capsule, &kind, &points[0], &points[1], &b[0], &cull,
+                          &ignored, &threads, &b[1], &b[2], &b[3], &b[4], &b[5], &b[6], &b[7])) {
         return NULL;
     }
     ray_batch batch;
     memset(&batch, 0, sizeof(batch));
     batch.soup = binding_blob_of(capsule, BINDING_SOUP);
     batch.kind = (ray_kind)kind;
-    bool tested = kind == TEST_RAYS || kind == TEST_SEGMENTS;
-    Py_ssize_t count = batch.soup != NULL ? binding_count(&b[0], sizeof(tl_vec3), "origins") : -1;
-    bool good = count >= 0 && binding_has(&b[1], sizeof(tl_vec3), count, false, "directions") &&
-                (b[2].len == sizeof(float) || binding_has(&b[2], sizeof(float), count, false, "max_distance")) &&
-                binding_has(&b[3], sizeof(float), count, tested, "t") &&
-                binding_has(&b[4], sizeof(int32_t), count, tested, "triangles") &&
-                binding_has(&b[5], 2 * sizeof(float), count, true, "barycentrics") &&
-                binding_has(&b[6], sizeof(tl_vec3), count, true, "normals") &&
-                binding_has(&b[7], sizeof(uint16_t), count, true, "materials") &&
-                binding_has(&b[8], 1, count, true, "backs") && binding_has(&b[9], 1, count, !tested, "tests");
-    for (int i = 3; i < 10 && good; i++) {
-        good = b[i].buf == NULL || !b[i].readonly;
-        if (!good) {
-            PyErr_SetString(PyExc_ValueError, "an output array is read-only");
-        }
-    }
-    if (good && count > UINT32_MAX - RAYS_A_TASK) {
-        PyErr_SetString(PyExc_ValueError, "more than 4 G rays in one batch");
-        good = false;
-    }
+    batch.filter.cull = (tl_ray_cull)cull;
+    batch.filter.ignored_materials = ignored;
+    bool good = batch.soup != NULL && take_batch(&batch, points, &b[0], &b[1]);
     if (good) {
-        batch.origins = b[0].buf;
-        batch.directions = b[1].buf;
-        batch.tmax = b[2].buf;
-        batch.each_tmax = b[2].len != sizeof(float);
-        batch.count = (uint32_t)count;
-        batch.filter.cull = (tl_ray_cull)cull;
-        batch.filter.ignored_materials = ignored;
-        batch.t = b[3].buf;
-        batch.triangles = b[4].buf;
-        batch.barycentrics = b[6].buf != NULL && b[7].buf != NULL && b[8].buf != NULL ? b[5].buf : NULL;
-        batch.normals = b[6].buf;
-        batch.materials = b[7].buf;
-        batch.backs = b[8].buf;
-        batch.tests = b[9].buf;
         binding_host host;
         binding_begin(&host, Py_None, threads);
-        host.tasks.run(run_rays, (uint32_t)((count + RAYS_A_TASK - 1) / RAYS_A_TASK), &batch, host.tasks.user);
+        host.tasks.run(run_rays, (batch.count + RAYS_A_TASK - 1) / RAYS_A_TASK, &batch, host.tasks.user);
         binding_end(&host);
     }
-    binding_release(b, 10);
+    binding_release(&batch.origins.buffer, 1);
+    binding_release(&batch.directions.buffer, 1);
+    binding_release(b, 1 + OUTPUTS);
     return good ? Py_NewRef(Py_None) : NULL;
 }
 

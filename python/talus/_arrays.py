@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from typing import Any, Literal, Union
+from typing import Any, Literal, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -38,6 +38,36 @@ def points(array: ArrayLike, name: str) -> Floats:
     if result.ndim != 2 or result.shape[1] != 3:
         raise ValueError(f"{name} has the shape {result.shape}; it should be (N, 3)")
     return result
+
+
+Reals = npt.NDArray[np.float32] | npt.NDArray[np.float64]
+"""float32 or float64 array."""
+
+
+def point_rows(array: ArrayLike, name: str) -> Reals:
+    """An (N, 3) float32 or float64 array of any strides; a single point becomes one row. An array is not copied."""
+    result = np.asarray(array)
+    if result.dtype != np.float32 and result.dtype != np.float64:
+        result = np.asarray(result, dtype=np.float32)
+    if result.ndim == 1 and result.shape[0] == 3:
+        result = result.reshape(1, 3)
+    if result.ndim == 2 and result.shape == (0, 0):
+        result = result.reshape(0, 3)
+    if result.ndim != 2 or result.shape[1] != 3:
+        raise ValueError(f"{name} has the shape {result.shape}; it should be (N, 3)")
+    return result
+
+
+def row_pairs(a: ArrayLike, b: ArrayLike, names: tuple[str, str]) -> tuple[Reals, Reals]:
+    """Two arrays of points of one length, of which one is repeated, without a copy, where it has a single row."""
+    first, second = point_rows(a, names[0]), point_rows(b, names[1])
+    if len(first) == len(second):
+        return first, second
+    if len(first) == 1:
+        return cast(Reals, np.broadcast_to(first, second.shape)), second
+    if len(second) == 1:
+        return first, cast(Reals, np.broadcast_to(second, first.shape))
+    raise ValueError(f"{names[0]}, {names[1]} have {len(first)} and {len(second)} rows")
 
 
 def faces(array: ArrayLike) -> npt.NDArray[np.uint32]:

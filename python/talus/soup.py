@@ -17,11 +17,12 @@ from ._arrays import (
     Cull,
     Floats,
     Progress,
+    Reals,
     cull_code,
     material_bits,
     mesh_of,
     points as as_points,
-    same_length,
+    row_pairs,
     thread_count,
     triple,
 )
@@ -49,10 +50,10 @@ class RayHits:
     """(N,) the triangle's material."""
     back: npt.NDArray[np.bool_]
     """(N,) whether the ray came from behind."""
-    origins: Floats = field(repr=False)
-    """(N, 3) the rays' origins."""
-    directions: Floats = field(repr=False)
-    """(N, 3) the rays' directions."""
+    origins: Reals = field(repr=False)
+    """(N, 3) the rays' origins: the array that was given, where it was one of float32 or float64. Not a copy."""
+    directions: Reals = field(repr=False)
+    """(N, 3) the rays' directions, in the same way; of segments, end - start in a new array."""
 
     @property
     def hit(self) -> npt.NDArray[np.bool_]:
@@ -63,7 +64,9 @@ class RayHits:
     def points(self) -> npt.NDArray[np.float64]:
         """(N, 3) where, in metres; NaN where nothing was hit."""
         t = np.where(self.hit, self.t, np.nan).astype(np.float64)
-        return np.asarray(self.origins + t[:, None] * self.directions, dtype=np.float64)
+        # The rays that were cast are of float32.
+        origins, directions = self.origins.astype(np.float32), self.directions.astype(np.float32)
+        return np.asarray(origins + t[:, None] * directions, dtype=np.float64)
 
     def __len__(self) -> int:
         return len(self.t)
@@ -317,7 +320,8 @@ class Soup:
         """The closest hit of each ray.
 
         Args:
-            origins: (N, 3) metres. One origin serves all directions, and the other way round.
+            origins: (N, 3) metres. One origin serves all directions, and the other way round. Arrays of float32 and
+                float64 are read where they lie, whatever their strides; the rays are of float32.
             directions: (N, 3) of any length but zero.
             max_distance: number or (N,): how far, in units of the direction's length.
             cull: ignore triangles seen from the ``back`` or ``front``.
@@ -326,7 +330,7 @@ class Soup:
 
         A ray with a NaN or infinite coordinate or a zero direction hits nothing.
         """
-        a, b = same_length(as_points(origins, "origins"), as_points(directions, "directions"), "origins, directions")
+        a, b = row_pairs(origins, directions, ("origins", "directions"))
         return self._cast(0, a, b, max_distance, cull, ignored_materials, threads)
 
     def cast_segments(
@@ -339,15 +343,15 @@ class Soup:
         threads: int | None = None,
     ) -> RayHits:
         """The hit of each segment that is closest to its start; ``t`` runs from 0 to 1. Both ends are exact."""
-        a, b = same_length(as_points(starts, "starts"), as_points(ends, "ends"), "starts, ends")
+        a, b = row_pairs(starts, ends, ("starts", "ends"))
         hits = self._cast(2, a, b, math.inf, cull, ignored_materials, threads)
         return RayHits(hits.t, hits.triangle, hits.barycentric, hits.normal, hits.material, hits.back, a, b - a)
 
     def _cast(
         self,
         kind: int,
-        a: Floats,
-        b: Floats,
+        a: Reals,
+        b: Reals,
         max_distance: float | ArrayLike,
         cull: Cull,
         ignored: Sequence[int],
@@ -377,7 +381,7 @@ class Soup:
         threads: int | None = None,
     ) -> npt.NDArray[np.bool_]:
         """(N,) whether each ray hits anything; arguments as in `cast`, and faster."""
-        a, b = same_length(as_points(origins, "origins"), as_points(directions, "directions"), "origins, directions")
+        a, b = row_pairs(origins, directions, ("origins", "directions"))
         return self._test(1, a, b, max_distance, cull, ignored_materials, threads)
 
     def line_of_sight(
@@ -389,14 +393,14 @@ class Soup:
         threads: int | None = None,
     ) -> npt.NDArray[np.bool_]:
         """(N,) whether no triangle meets the segment from each start to its end. The same from the end to the start."""
-        a, b = same_length(as_points(starts, "starts"), as_points(ends, "ends"), "starts, ends")
-        return ~self._test(3, a, b, math.inf, "none", ignored_materials, threads)
+        a, b = row_pairs(starts, ends, ("starts", "ends"))
+        return self._test(3, a, b, math.inf, "none", ignored_materials, threads)
 
     def _test(
         self,
         kind: int,
-        a: Floats,
-        b: Floats,
+        a: Reals,
+        b: Reals,
         max_distance: float | ArrayLike,
         cull: Cull,
         ignored: Sequence[int],

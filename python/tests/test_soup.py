@@ -79,6 +79,80 @@ def test_broadcast_and_strides(soup: talus.Soup) -> None:
     assert len(soup.cast(np.zeros((0, 3)), np.zeros((0, 3)))) == 0
 
 
+def layouts_of(rows: np.ndarray) -> dict[str, np.ndarray]:
+    """The same float32 rows as arrays that lie in memory in other ways."""
+    records = np.zeros(len(rows), np.dtype([("tag", "u1"), ("at", "f4", 3)]))  # not aligned
+    records["at"] = rows
+    wide = np.zeros((len(rows), 5), np.float32)
+    wide[:, 4:1:-1] = rows
+    frozen = rows.copy()
+    frozen.flags.writeable = False
+    return {
+        "float64": rows.astype(np.float64),
+        "columns first": np.asfortranarray(rows),
+        "float64, columns first": np.asfortranarray(rows.astype(np.float64)),
+        "reversed": rows[::-1].copy()[::-1],
+        "columns backwards": wide[:, 4:1:-1],
+        "records": records["at"],
+        "other byte order": rows.astype(rows.dtype.newbyteorder()),
+        "read-only": frozen,
+        "list": rows.tolist(),  # type: ignore[dict-item]
+    }
+
+
+def same_hits(a: talus.RayHits, b: talus.RayHits) -> bool:
+    names = ("t", "triangle", "barycentric", "normal", "material", "back")
+    return all(np.array_equal(getattr(a, name), getattr(b, name)) for name in names)
+
+
+@pytest.mark.parametrize("count", [1, 5, 259])
+def test_layouts_give_the_same(soup: talus.Soup, count: int) -> None:
+    origins, directions = random_rays(count)
+    expected = soup.cast(origins, directions)
+    segments = soup.cast_segments(origins, directions)
+    assert count < 9 or 0 < expected.hit.sum() < count
+    for name, other in layouts_of(origins).items():
+        assert same_hits(soup.cast(other, directions), expected), name
+        assert same_hits(soup.cast_segments(other, directions), segments), name
+    for name, other in layouts_of(directions).items():
+        assert same_hits(soup.cast(origins, other), expected), name
+        assert (soup.any_hit(origins, other) == expected.hit).all(), name
+        assert (soup.line_of_sight(origins, other) == ~segments.hit).all(), name
+
+
+def test_one_row_serves_all(soup: talus.Soup) -> None:
+    origins, directions = random_rays(1000)
+    fan = soup.cast(origins[0], directions)
+    assert same_hits(fan, soup.cast(np.tile(origins[:1], (1000, 1)), directions))
+    assert fan.points.shape == (1000, 3)
+    assert same_hits(soup.cast(origins, directions[:1]), soup.cast(origins, np.tile(directions[:1], (1000, 1))))
+    with pytest.raises(ValueError, match="origins, directions have 2 and 3 rows"):
+        soup.cast(origins[:2], directions[:3])
+
+
+def test_batches_are_single_casts(hall: Mesh) -> None:
+    materials = (np.arange(len(hall[1])) * 9973 + 60_000).astype(np.uint16)  # above and below 2^15
+    soup = talus.Soup(*hall, materials=materials)
+    origins, directions = random_rays(1027)
+    all_hits = soup.cast(origins, directions)
+    some_hit = all_hits.hit
+    assert 200 < some_hit.sum() < 1000
+    assert all_hits.back.sum() > 50
+    assert (all_hits.material[some_hit] == materials[all_hits.triangle[some_hit]]).all()
+    assert all_hits.material.max() > 0x8000 > all_hits.material[some_hit].min()
+    for i in range(0, 1027, 13):
+        one = soup.cast(origins[i], directions[i])
+        for name in ("t", "triangle", "barycentric", "normal", "material", "back"):
+            assert np.array_equal(getattr(one, name)[0], getattr(all_hits, name)[i]), (name, i)
+
+
+def test_values_beyond_float32_miss(soup: talus.Soup) -> None:
+    far = soup.cast([[1e300, 5, 1], [1, 5, 1], [np.nan, 5, 1]], np.array([[0, -1, 0], [0, -1e300, 0], [0, -1, 0]]))
+    assert (~far.hit).all()
+    assert np.isinf(far.t).all()
+    assert (far.normal == 0).all()
+
+
 def test_limits_cull_and_materials(hall: Mesh) -> None:
     materials = np.zeros(len(hall[1]), np.uint16)
     materials[:12] = 5  # the floor
