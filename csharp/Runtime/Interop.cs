@@ -2517,6 +2517,9 @@ namespace Talus.Interop
     public unsafe delegate tl_result tl_write_fn(void* a0, UIntPtr a1, void* a2);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate tl_result tl_pack_fetch_fn(uint a0, void** a1, void* a2);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate tl_result tl_nav_world_read_fn(ulong a0, void* a1, UIntPtr a2, void* a3);
 
     public static unsafe partial class Api
@@ -3163,6 +3166,10 @@ namespace Talus.Interop
         public static extern tl_result tl_pack_index_open(void* bytes, ulong size, tl_pack_index* index_out, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_pack_entry_open(tl_pack_entry* entry, void* bytes, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_pack_entry_make(uint type, uint id, void* bytes, ulong size, tl_pack_entry* entry_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_pack_write_fetched(tl_pack_entry* entries, uint count, tl_allocator* allocator, IntPtr fetch, IntPtr write, void* user, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_pack_meta_encode(byte* source_name, ulong source_vertices, ulong source_triangles, tl_aabb bounds, tl_allocator* allocator, tl_pack_meta** meta_out, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -144,6 +144,27 @@ TL_API tl_result tl_pack_index_open(void *bytes, uint64_t size, tl_pack_index *i
 TL_API tl_result tl_pack_entry_open(const tl_pack_entry *entry, void *bytes, tl_report *report_out);
 
 // ---------------------------------------------------------------------------------------------------------
+// Writing a file that is larger than memory: first what each chunk is called, its size and its hash; then the chunks,
+// one at a time, fetched when their turn has come. The file has the bytes that tl_pack_write would write.
+
+/// The entry of a chunk whose bytes stand as the file is to have them: blobs by tl_blob_to_file_order. Its offset is 0
+/// until it is written. `type` is not 0; `bytes` may be NULL when size is 0. TL_ERR_ARGUMENT: `*entry_out`, if it is
+/// there, is zeroed. O(size).
+TL_API tl_result tl_pack_entry_make(uint32_t type, uint32_t id, const void *bytes, uint64_t size,
+                                    tl_pack_entry *entry_out);
+
+/// Gives the bytes of chunk `index`, which stay the callee's and stand there until the next call. Called once for each
+/// chunk, in order. Any result but TL_OK ends the writing and is returned by tl_pack_write_fetched.
+typedef tl_result tl_pack_fetch_fn(uint32_t index, const void **bytes_out, void *user);
+
+/// Writes a whole container of `count` entries, those of tl_pack_entry_make, in the order given; `user` is for both
+/// callbacks. `allocator` (NULL: malloc) lends about 64 bytes a chunk. `report_out` may be NULL. TL_ERR_ARGUMENT (as of
+/// tl_pack_write), TL_ERR_HASH (what was fetched is not what its entry says: element "chunk"), TL_ERR_MEMORY, and what
+/// `fetch` and `write` return.
+TL_API tl_result tl_pack_write_fetched(const tl_pack_entry *entries, uint32_t count, const tl_allocator *allocator,
+                                       tl_pack_fetch_fn *fetch, tl_write_fn *write, void *user, tl_report *report_out);
+
+// ---------------------------------------------------------------------------------------------------------
 // The chunks that belong to the file itself.
 
 #define TL_PACK_META_MAGIC      TL_PACK_META

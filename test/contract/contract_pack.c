@@ -73,6 +73,47 @@ static tl_result pack_write(contract_run *run)
     return result;
 }
 
+// Hands out the items that level_items makes, as entries say.
+static tl_result fetch_item(uint32_t index, const void **bytes_out, void *user)
+{
+    tl_pack_item items[MAX_ITEMS];
+    (void)user;
+    TEST_CHECK(index < level_items(items));
+    *bytes_out = items[index].bytes;
+    return TL_OK;
+}
+
+static tl_result pack_write_fetched(contract_run *run)
+{
+    const bool null_input = run->what == CONTRACT_NULL_INPUT;
+    tl_pack_item items[MAX_ITEMS];
+    tl_pack_entry entries[MAX_ITEMS];
+    file_bytes file = file_room();
+    const uint32_t count = level_items(items);
+    for (uint32_t i = 0; i < count; i++) {
+        TEST_RESULT(tl_pack_entry_make(items[i].type, items[i].id, items[i].bytes, items[i].size, &entries[i]), TL_OK);
+    }
+    const tl_result result =
+        tl_pack_write_fetched(null_input && run->variant == 0 ? NULL : entries, count, run->host->allocator,
+                              null_input && run->variant == 1 ? NULL : fetch_item,
+                              null_input && run->variant == 2 ? NULL : append, &file, run->report);
+    run->is_clear = file.size == 0;
+    run->answer = contract_hash(file.bytes, file.size, 0);
+    free(file.bytes);
+    return result;
+}
+
+static tl_result pack_entry_make(contract_run *run)
+{
+    tl_pack_entry entry;
+    memset(&entry, 0x5a, sizeof entry);
+    const tl_result result = tl_pack_entry_make(TL_PACK_NAVT, 3, run->what == CONTRACT_NULL_INPUT ? NULL : "talus", 5,
+                                                run->what == CONTRACT_NULL_OUTPUT ? NULL : &entry);
+    run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&entry, sizeof entry);
+    run->answer = entry.hash;
+    return result;
+}
+
 static tl_result pack_open(contract_run *run)
 {
     file_bytes file = make_file();
@@ -427,6 +468,11 @@ const contract_entry CONTRACT_TABLE_pack[] = {
     { "tl_pack_write",
       CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NO_MEMORY), 2, 0, NULL,
       pack_write, NULL },
+    { "tl_pack_write_fetched",
+      CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NO_MEMORY), 3, 0, NULL,
+      pack_write_fetched, NULL },
+    { "tl_pack_entry_make", CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NULL_OUTPUT), 1, 1, NULL,
+      pack_entry_make, NULL },
     { "tl_pack_size", 0, 0, 0, NULL, NULL, "a sum: test_pack.c" },
     { "tl_pack_open", CHECK | CONTRACT_BIT(NULL_OUTPUT), 1, 1, NULL, pack_open, NULL },
     { "tl_pack_index_size", CHECK | CONTRACT_BIT(NULL_OUTPUT), 1, 1, NULL, pack_index_size, NULL },

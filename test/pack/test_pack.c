@@ -70,6 +70,72 @@ static void test_round_trip(void **state)
     free(sink.bytes);
 }
 
+// The same file from chunks that are fetched one at a time into one place.
+typedef struct fetched_words {
+    memory_sink sink;
+    const tl_pack_item *items;
+    char room[128];
+    uint32_t next;
+    uint32_t alter, fail; // chunks that are handed out otherwise than announced, or not at all; UINT32_MAX: none
+} fetched_words;
+
+static tl_result fetch_words(uint32_t index, const void **bytes_out, void *user)
+{
+    fetched_words *words = user;
+    TEST_CHECK(index == words->next++);
+    memset(words->room, 0x5a, sizeof words->room);
+    memcpy(words->room, words->items[index].bytes, (size_t)words->items[index].size);
+    words->room[0] = (char)(words->room[0] ^ (index == words->alter));
+    *bytes_out = words->room;
+    return index == words->fail ? TL_ERR_IO : TL_OK;
+}
+
+static tl_result write_words(const void *bytes, size_t size, void *user)
+{
+    return sink_write(bytes, size, &((fetched_words *)user)->sink);
+}
+
+static void test_fetched(void **state)
+{
+    (void)state;
+    const tl_pack_item items[] = { { TL_PACK_TYPE('W', 'O', 'R', 'D'), 0, WORDS, 70 },
+                                   { TL_PACK_TYPE('W', 'O', 'R', 'D'), 2, WORDS, 0 },
+                                   { TL_PACK_TYPE('W', 'O', 'R', 'D'), 1, WORDS, 64 },
+                                   { TL_PACK_TYPE('L', 'A', 'S', 'T'), 7, WORDS + 5, 1 } };
+    tl_pack_entry entries[4];
+    memory_sink whole = write_items(items, 4);
+    for (uint32_t i = 0; i < 4; i++) {
+        TEST_RESULT(tl_pack_entry_make(items[i].type, items[i].id, items[i].bytes, items[i].size, &entries[i]), TL_OK);
+        TEST_CHECK(entries[i].offset == 0 && entries[i].size == items[i].size);
+    }
+    fetched_words words = { sink_make(whole.size), items, { 0 }, 0, UINT32_MAX, UINT32_MAX };
+    TEST_RESULT(tl_pack_write_fetched(entries, 4, NULL, fetch_words, write_words, &words, NULL), TL_OK);
+    TEST_CHECK(words.next == 4 && words.sink.size == whole.size);
+    TEST_CHECK(memcmp(words.sink.bytes, whole.bytes, whole.size) == 0);
+    for (uint32_t i = 0; i < 4; i++) {
+        tl_report report;
+        words.next = 0;
+        words.sink.size = 0;
+        words.alter = i;
+        const tl_result expected = items[i].size > 0 ? TL_ERR_HASH : TL_OK; // of nothing nothing is altered
+        TEST_RESULT(tl_pack_write_fetched(entries, 4, NULL, fetch_words, write_words, &words, &report), expected);
+        TEST_CHECK(expected == TL_OK || (strcmp(report.element, "chunk") == 0 && report.element_index == i));
+        words.alter = UINT32_MAX;
+        words.fail = i;
+        words.next = 0;
+        words.sink.size = 0;
+        TEST_RESULT(tl_pack_write_fetched(entries, 4, NULL, fetch_words, write_words, &words, NULL), TL_ERR_IO);
+        TEST_CHECK(words.next == i + 1);
+        words.fail = UINT32_MAX;
+    }
+    tl_report report;
+    entries[3] = entries[0];
+    TEST_RESULT(tl_pack_write_fetched(entries, 4, NULL, fetch_words, write_words, &words, &report), TL_ERR_ARGUMENT);
+    TEST_CHECK(strcmp(report.element, "chunk") == 0);
+    free(words.sink.bytes);
+    free(whole.bytes);
+}
+
 // The layout is a promise to other programs: some of its bytes, and its hash.
 static void test_layout(void **state)
 {
@@ -384,10 +450,10 @@ static void test_load_navmesh(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_layout),           cmocka_unit_test(test_empty),
-        cmocka_unit_test(test_prefixes),   cmocka_unit_test(test_altered),          cmocka_unit_test(test_bad_items),
-        cmocka_unit_test(test_meta),       cmocka_unit_test(test_navmesh_settings), cmocka_unit_test(test_marks),
-        cmocka_unit_test(test_pruning),    cmocka_unit_test(test_load_navmesh),
+        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_fetched),  cmocka_unit_test(test_layout),
+        cmocka_unit_test(test_empty),      cmocka_unit_test(test_prefixes), cmocka_unit_test(test_altered),
+        cmocka_unit_test(test_bad_items),  cmocka_unit_test(test_meta),     cmocka_unit_test(test_navmesh_settings),
+        cmocka_unit_test(test_marks),      cmocka_unit_test(test_pruning),  cmocka_unit_test(test_load_navmesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -194,6 +194,7 @@ pub type tl_nav_cost_fn =
 pub type tl_nav_agent = u64;
 pub type tl_nav_obstacle_id = u64;
 pub type tl_write_fn = unsafe extern "C" fn(*const c_void, usize, *mut c_void) -> tl_result;
+pub type tl_pack_fetch_fn = unsafe extern "C" fn(u32, *mut *const c_void, *mut c_void) -> tl_result;
 pub type tl_nav_world_read_fn =
     unsafe extern "C" fn(u64, *mut c_void, usize, *mut c_void) -> tl_result;
 #[repr(C)]
@@ -3609,6 +3610,22 @@ extern "C" {
     pub fn tl_pack_entry_open(
         entry: *const tl_pack_entry,
         bytes: *mut c_void,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_pack_entry_make(
+        r#type: u32,
+        id: u32,
+        bytes: *const c_void,
+        size: u64,
+        entry_out: *mut tl_pack_entry,
+    ) -> tl_result;
+    pub fn tl_pack_write_fetched(
+        entries: *const tl_pack_entry,
+        count: u32,
+        allocator: *const tl_allocator,
+        fetch: Option<tl_pack_fetch_fn>,
+        write: Option<tl_write_fn>,
+        user: *mut c_void,
         report_out: *mut tl_report,
     ) -> tl_result;
     pub fn tl_pack_meta_encode(
