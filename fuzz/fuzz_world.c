@@ -122,8 +122,11 @@ static void read_tile(size_t size)
         tile.z = tl_get_u32(bytes + 36);
     }
     tl_world_layers layers;
-    if (tl_world_tile_read(path, &tile, &layers, NULL) == TL_OK && !tl_world_tile_is_there(path, &tile)) {
-        abort();
+    if (tl_world_tile_read(path, &tile, true, &layers, NULL) == TL_OK) {
+        if (!tl_world_tile_is_there(path, &tile)) {
+            abort();
+        }
+        (void)tl_world_layers_check(&layers, path, &tile, NULL);
     }
     tl_world_layers_free(&layers);
 }

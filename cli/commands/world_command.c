@@ -171,7 +171,11 @@ static tl_exit run_merge(tl_cli *cli, world_options *options)
 {
     tl_world_merge_report report;
     tl_io_error error;
+    const bool to_stdout = strcmp(options->output, "-") == 0;
     memset(&error, 0, sizeof error);
+    if (to_stdout && cli->json) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "--json and -o -: both would be written to standard output");
+    }
     const tl_world_merge_def def = {
         cli->arguments.words[1], options->output, options->as_planned, cli->host, warn_of_tile, cli
     };
@@ -192,9 +196,11 @@ static tl_exit run_merge(tl_cli *cli, world_options *options)
                                            (json_int_t)report.tiles, "polygons", (json_int_t)report.polygons, "area",
                                            tl_json_double(report.area), "bytes", (json_int_t)report.bytes));
     }
-    printf("navmesh  %llu polygons, %.1f m2, %llu tiles at %llu places\n", (unsigned long long)report.polygons,
-           report.area, (unsigned long long)report.tiles, (unsigned long long)report.places);
-    printf("wrote    %s\n", def.output);
+    if (!to_stdout) {
+        printf("navmesh  %llu polygons, %.1f m2, %llu tiles at %llu places\n", (unsigned long long)report.polygons,
+               report.area, (unsigned long long)report.tiles, (unsigned long long)report.places);
+        printf("wrote    %s\n", def.output);
+    }
     return report.tiles > 0 ? TL_EXIT_OK
                             : tl_cli_fail(cli, TL_EXIT_EMPTY,
                                           "%s: nothing is walkable; check --up, and the agent's "

@@ -378,6 +378,9 @@ static void test_full_disk(void **state)
     cli_do(0, "world merge full -o full.talus");
     cli_do(0, "bake full.obj --no-soup --tile-size 64 -o plain.talus");
     cli_check_same_files("plain.talus", "full.talus");
+    assert_int_equal(cli_wait(cli_start("world merge full -o -", "/dev/null", "piped.talus", "piped.err")), 0);
+    cli_check_same_files("plain.talus", "piped.talus");
+    cli_check_error(2, "world merge full -o - --json", "--json and -o -", "standard output");
 }
 
 // The schedulers' variables, as the processes of a job see them.

@@ -1,17 +1,50 @@
 // SPDX-License-Identifier: MIT
+//
+// The file is read once, front to back, a chunk at a time. Tiles come by z, so a navmesh of the row that is read and
+// the one before joins every two tiles that are neighbours; what lies further back leaves it.
 
 #include "io/files/file_pack.h"
+#include "world/bytes/random_read.h"
 #include "world/job/merge_tiles.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <talus/pack.h>
 
-static tl_result fail_chunk(const char *path, uint32_t chunk, const char *what, tl_io_error *error_out)
+enum { FIRST_ROOM = 64 };
+
+typedef struct check_job {
+    const char *path;
+    tl_random_file file;
+    void *index_bytes; // of the index
+    tl_pack_index index;
+    tl_pack_navmesh *settings;
+    tl_navmesh *rows;
+    tl_nav_tile **held; // [held_count], of `rows`, by z
+    uint32_t held_count, held_room;
+    tl_nav_tile last; // the head of the last tile, for the order
+    bool has_last, has_links;
+    tl_world_check_report *report;
+    tl_io_error *error;
+} check_job;
+
+static tl_result fail_chunk(const check_job *job, tl_result result, uint32_t chunk, const char *what)
 {
-    return tl_io_blame(error_out,
-                       tl_io_fail(error_out, TL_ERR_CORRUPT, path, 0, "merge it again", "chunk %u: %s", chunk, what),
+    return tl_io_blame(job->error,
+                       tl_io_fail(job->error, result, job->path, 0, "merge it again", "chunk %u: %s", chunk, what),
                        "chunk", chunk);
+}
+
+static tl_result fail_check_memory(const check_job *job)
+{
+    return tl_io_fail(job->error, TL_ERR_MEMORY, job->path, 0, "", "out of memory");
+}
+
+static tl_result fail_pack(const check_job *job, tl_result result, const tl_report *why)
+{
+    return tl_io_fail(job->error, result, job->path, 0, "merge it again", "%s%s%s",
+                      why->element != NULL ? why->element : "", why->element != NULL ? ": " : "",
+                      tl_result_text(result));
 }
 
 static int compare_places(const tl_nav_tile *a, const tl_nav_tile *b)
@@ -44,80 +77,274 @@ static const char *tile_fault(const tl_nav_tile *tile, const tl_nav_tile *before
     return NULL;
 }
 
-static tl_result check_tiles(const char *path, const tl_pack *pack, const tl_pack_navmesh *navmesh,
-                             tl_world_check_report *report, tl_io_error *error_out)
+// ---- Rows of tiles -----------------------------------------------------------------------------------------
+
+// Takes out the rows before that of `z` less one.
+static void drop_rows(check_job *job, int32_t z)
 {
-    const tl_nav_tile *before = NULL;
-    for (uint32_t i = 0; i < pack->chunk_count; i++) {
-        const tl_pack_chunk chunk = tl_pack_chunk_at(pack, i);
-        if (chunk.type != TL_PACK_NAVT) {
-            continue;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->held_count; i++) {
+        tl_nav_tile *tile = job->held[i];
+        if (tile->tile_z >= z - 1) {
+            job->held[count++] = tile;
+        } else {
+            (void)tl_navmesh_remove_layer(job->rows, tile->tile_x, tile->layer, tile->tile_z);
+            free(tile);
         }
-        if (tl_nav_tile_check(chunk.bytes, chunk.size, NULL) != TL_OK) {
-            return fail_chunk(path, i, "no sound tile", error_out);
-        }
-        const tl_nav_tile *tile = chunk.bytes;
-        const char *fault = tile_fault(tile, before, navmesh);
-        if (fault != NULL) {
-            return fail_chunk(path, i, fault, error_out);
-        }
-        before = tile;
-        report->tiles++;
-        report->polygons += tile->polygon_count;
-        report->links += tile->portal_count;
-        report->area += tile->area;
     }
-    report->tiles_x = navmesh->tiles_x;
-    report->tiles_z = navmesh->tiles_z;
-    if (report->tiles != navmesh->tile_count) {
-        return tl_io_fail(error_out, TL_ERR_CORRUPT, path, 0, "merge it again", "holds %llu tiles, and says %u",
-                          (unsigned long long)report->tiles, navmesh->tile_count);
+    job->held_count = count;
+}
+
+static bool reserve_held(check_job *job)
+{
+    if (job->held_count < job->held_room) {
+        return true;
+    }
+    const uint32_t room = job->held_room > 0 ? 2 * job->held_room : FIRST_ROOM;
+    tl_nav_tile **grown = realloc(job->held, (size_t)room * sizeof *grown);
+    if (grown == NULL) {
+        return false;
+    }
+    job->held = grown;
+    job->held_room = room;
+    return true;
+}
+
+// Joins the tile with its neighbours. Its memory is the job's from now on.
+static tl_result join_tile(check_job *job, uint32_t chunk, tl_nav_tile *tile)
+{
+    if (!job->has_last || tile->tile_z != job->last.tile_z) {
+        drop_rows(job, tile->tile_z);
+    }
+    const tl_result result =
+        reserve_held(job) ? tl_navmesh_add_tile(job->rows, tile, TL_NAV_TILE_BORROWED) : TL_ERR_MEMORY;
+    if (result != TL_OK) {
+        free(tile);
+        return result == TL_ERR_MEMORY ? fail_check_memory(job)
+                                       : fail_chunk(job, result, chunk, "the tile does not join the others");
+    }
+    job->held[job->held_count++] = tile;
+    return TL_OK;
+}
+
+// ---- Chunks ------------------------------------------------------------------------------------------------
+
+static tl_result take_tile(check_job *job, uint32_t chunk, tl_nav_tile *tile)
+{
+    const char *fault = tl_nav_tile_check(tile, job->index.entries[chunk].size, NULL) != TL_OK
+                            ? "no sound tile"
+                            : tile_fault(tile, job->has_last ? &job->last : NULL, job->settings);
+    if (fault != NULL) {
+        free(tile);
+        return fail_chunk(job, TL_ERR_CORRUPT, chunk, fault);
+    }
+    job->report->tiles++;
+    job->report->polygons += tile->polygon_count;
+    job->report->links += tile->portal_count;
+    job->report->area += tile->area;
+    const tl_nav_tile head = *tile;
+    const tl_result result = join_tile(job, chunk, tile);
+    job->last = head;
+    job->has_last = true;
+    return result;
+}
+
+static bool is_zero(const unsigned char *bytes, size_t size)
+{
+    size_t i = 0;
+    while (i < size && bytes[i] == 0) {
+        i++;
+    }
+    return i == size;
+}
+
+// The chunk and the padding behind it, verified. The bytes are freed with free().
+static tl_result read_chunk(const check_job *job, uint32_t chunk, void **bytes_out)
+{
+    const tl_pack_index *index = &job->index;
+    const tl_pack_entry *entry = &index->entries[chunk];
+    const uint64_t end = chunk + 1 < index->count ? entry[1].offset : index->file_size;
+    const size_t size = (size_t)(end - entry->offset);
+    *bytes_out = NULL;
+    unsigned char *bytes = end - entry->offset < SIZE_MAX ? malloc(size + 1) : NULL;
+    if (bytes == NULL) {
+        return fail_check_memory(job);
+    }
+    tl_result result = tl_random_file_read(&job->file, job->path, entry->offset, bytes, size, job->error);
+    if (result == TL_OK) {
+        const bool is_clear = is_zero(bytes + entry->size, size - (size_t)entry->size);
+        result = is_clear ? tl_pack_entry_open(entry, bytes, NULL) : TL_ERR_CORRUPT;
+        if (result != TL_OK) {
+            result = fail_chunk(job, result, chunk, is_clear ? tl_result_text(result) : "bytes behind it are not zero");
+        }
+    }
+    if (result != TL_OK) {
+        free(bytes);
+        return result;
+    }
+    *bytes_out = bytes;
+    return TL_OK;
+}
+
+static tl_result read_settings(check_job *job)
+{
+    uint32_t chunk = 0;
+    while (chunk < job->index.count && job->index.entries[chunk].type != TL_PACK_NAVM) {
+        chunk++;
+    }
+    tl_result result = TL_ERR_CORRUPT;
+    if (chunk < job->index.count) {
+        void *bytes;
+        result = read_chunk(job, chunk, &bytes);
+        if (result != TL_OK) {
+            return result;
+        }
+        job->settings = bytes;
+        result = tl_pack_navmesh_check(bytes, job->index.entries[chunk].size, NULL);
+    }
+    return result == TL_OK ? TL_OK
+                           : tl_io_fail(job->error, TL_ERR_CORRUPT, job->path, 0, "give a file of 'talus world merge'",
+                                        "holds no navmesh's settings");
+}
+
+static tl_result check_chunks(check_job *job)
+{
+    for (uint32_t i = 0; i < job->index.count; i++) {
+        const uint32_t type = job->index.entries[i].type;
+        void *bytes;
+        tl_result result = read_chunk(job, i, &bytes);
+        if (result == TL_OK && type == TL_PACK_NAVT) {
+            result = take_tile(job, i, bytes);
+        } else {
+            free(bytes);
+        }
+        if (result != TL_OK) {
+            return result;
+        }
+        job->has_links = job->has_links || type == TL_PACK_LINK || type == TL_PACK_OFFM;
+    }
+    job->report->tiles_x = job->settings->tiles_x;
+    job->report->tiles_z = job->settings->tiles_z;
+    if (job->report->tiles != job->settings->tile_count) {
+        return tl_io_fail(job->error, TL_ERR_CORRUPT, job->path, 0, "merge it again", "holds %llu tiles, and says %u",
+                          (unsigned long long)job->report->tiles, job->settings->tile_count);
     }
     return TL_OK;
 }
 
-static tl_result check_pack(const char *path, const tl_file_map *map, tl_world_check_report *report,
-                            tl_io_error *error_out)
+// Links are anchored to tiles anywhere: a file with some is joined as a whole, in memory.
+static tl_result join_links(check_job *job)
 {
+    tl_file_map map;
     tl_pack pack;
-    tl_pack_chunk chunk;
     tl_report why;
+    tl_navmesh *navmesh = NULL;
     memset(&why, 0, sizeof why);
-    tl_result result = tl_file_open_pack(map, &pack, &why);
+    tl_result result = tl_file_read(job->path, 0, &map, job->error);
     if (result != TL_OK) {
-        return tl_io_fail(error_out, result, path, 0, "merge it again", "%s%s%s",
-                          why.element != NULL ? why.element : "", why.element != NULL ? ": " : "",
-                          tl_result_text(result));
+        return result;
     }
-    result = tl_pack_find(&pack, TL_PACK_NAVM, 0, &chunk);
+    result = tl_file_open_pack(&map, &pack, &why);
     if (result == TL_OK) {
-        result = tl_pack_navmesh_check(chunk.bytes, chunk.size, NULL);
-    }
-    if (result != TL_OK) {
-        return tl_io_fail(error_out, TL_ERR_CORRUPT, path, 0, "give a file of 'talus world merge'",
-                          "holds no navmesh's settings");
-    }
-    result = check_tiles(path, &pack, chunk.bytes, report, error_out);
-    if (result == TL_OK && report->tiles > 0) {
-        tl_navmesh *navmesh = NULL;
         result = tl_pack_load_navmesh(&pack, NULL, &navmesh, &why);
-        tl_navmesh_destroy(navmesh);
-        if (result != TL_OK) {
-            return tl_io_fail(error_out, result, path, 0, "merge it again", "the tiles do not join: %s",
-                              tl_result_text(result));
-        }
+    }
+    tl_navmesh_destroy(navmesh);
+    tl_file_map_close(&map);
+    return result == TL_OK ? TL_OK : fail_pack(job, result, &why);
+}
+
+// ---- The file ----------------------------------------------------------------------------------------------
+
+// Between the index and the first chunk.
+static tl_result check_padding(const check_job *job, uint64_t end)
+{
+    unsigned char padding[TL_BLOB_ALIGNMENT];
+    const tl_pack_index *index = &job->index;
+    const size_t size = (size_t)((index->count > 0 ? index->entries[0].offset : index->file_size) - end);
+    tl_result result = tl_random_file_read(&job->file, job->path, end, padding, size, job->error);
+    if (result == TL_OK && !is_zero(padding, size)) {
+        result = tl_io_fail(job->error, TL_ERR_CORRUPT, job->path, 0, "merge it again",
+                            "bytes behind its table are not zero");
+    }
+    return result;
+}
+
+static tl_result open_index(check_job *job)
+{
+    _Alignas(8) unsigned char head[TL_PACK_HEAD_SIZE];
+    tl_file_facts facts;
+    tl_report why;
+    uint64_t size = 0;
+    memset(&why, 0, sizeof why);
+    tl_result result = tl_random_file_open(job->path, &job->file, job->error);
+    if (result != TL_OK) {
+        return result;
+    }
+    if (!tl_file_look(job->path, &facts) || facts.size < sizeof head) {
+        return tl_io_fail(job->error, TL_ERR_TRUNCATED, job->path, 0, "give a file of 'talus world merge'",
+                          "is too short for a baked file");
+    }
+    result = tl_random_file_read(&job->file, job->path, 0, head, sizeof head, job->error);
+    if (result != TL_OK) {
+        return result;
+    }
+    result = tl_pack_index_size(head, &size, &why);
+    if (result != TL_OK) {
+        return fail_pack(job, result, &why);
+    }
+    if (size > facts.size) {
+        return tl_io_fail(job->error, TL_ERR_TRUNCATED, job->path, 0, "merge it again", "%s",
+                          tl_result_text(TL_ERR_TRUNCATED));
+    }
+    job->index_bytes = malloc((size_t)size);
+    if (job->index_bytes == NULL) {
+        return fail_check_memory(job);
+    }
+    result = tl_random_file_read(&job->file, job->path, 0, job->index_bytes, (size_t)size, job->error);
+    if (result != TL_OK) {
+        return result;
+    }
+    result = tl_pack_index_open(job->index_bytes, size, &job->index, &why);
+    if (result == TL_OK && job->index.file_size != facts.size) {
+        result = job->index.file_size > facts.size ? TL_ERR_TRUNCATED : TL_ERR_CORRUPT;
+    }
+    return result == TL_OK ? check_padding(job, size) : fail_pack(job, result, &why);
+}
+
+static tl_result check_file(check_job *job)
+{
+    tl_result result = open_index(job);
+    if (result == TL_OK) {
+        result = read_settings(job);
+    }
+    if (result == TL_OK && tl_navmesh_create(NULL, &job->rows) != TL_OK) {
+        result = fail_check_memory(job);
+    }
+    if (result == TL_OK) {
+        result = check_chunks(job);
+    }
+    if (result == TL_OK && job->has_links) {
+        result = join_links(job);
     }
     return result;
 }
 
 tl_result tl_world_check(const char *path, tl_world_check_report *report_out, tl_io_error *error_out)
 {
-    tl_file_map map;
+    check_job job;
+    memset(&job, 0, sizeof job);
     memset(report_out, 0, sizeof *report_out);
-    tl_result result = tl_file_read(path, 0, &map, error_out);
-    if (result == TL_OK) {
-        result = check_pack(path, &map, report_out, error_out);
-        tl_file_map_close(&map);
+    job.path = path;
+    job.report = report_out;
+    job.error = error_out;
+    const tl_result result = check_file(&job);
+    tl_navmesh_destroy(job.rows);
+    for (uint32_t i = 0; i < job.held_count; i++) {
+        free(job.held[i]);
     }
+    free(job.held);
+    free(job.settings);
+    free(job.index_bytes);
+    tl_random_file_close(&job.file);
     return result;
 }

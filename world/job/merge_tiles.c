@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: MIT
+//
+// Two passes over the tiles' files: the first proves every tile and notes its size and hash, the second copies them
+// into the file. So what is in memory is one place, and 100 bytes for each tile of the world. Copying while proving
+// would need an output whose head can be written last, which standard output is not, and would write what one missing
+// tile makes useless.
 
 #include "world/job/merge_tiles.h"
 
@@ -14,14 +19,22 @@ enum { OTHER_CHUNKS = 3, TOLD_EVERY = 64 };
 typedef struct merge_job {
     const tl_world_merge_def *def;
     tl_world_plan plan;
-    tl_world_layers *places; // [plan.tile_count]
-    tl_pack_meta *meta;
-    tl_pack_frame *frame;
-    tl_pack_navmesh *navmesh;
-    tl_pack_item *items;
-    uint32_t item_count;
+    uint32_t *layers; // [plan.tile_count]: at each place
+    tl_pack_entry *entries;
+    size_t entry_count, entry_capacity;
+    void *others[OTHER_CHUNKS]; // META, FRAM, NAVM, in the file's byte order; entries of their own come first
+    uint32_t other_count;
+    tl_atomic_file *file;
+    tl_world_layers open; // the second pass: the tiles of a place, and which of them is next
+    uint64_t open_place, next_place;
+    uint32_t next_layer;
     tl_io_error *error;
 } merge_job;
+
+static tl_result fail_merge_memory(merge_job *job)
+{
+    return tl_io_fail(job->error, TL_ERR_MEMORY, job->def->job, 0, "", "out of memory");
+}
 
 static tl_result tell_progress(const merge_job *job, const char *stage, uint64_t done, uint64_t total)
 {
@@ -41,22 +54,61 @@ static void note_damage(merge_job *job, const char *path, const tl_io_error *why
     }
 }
 
+// ---- The first pass ----------------------------------------------------------------------------------------
+
+static bool reserve_entries(merge_job *job, size_t more)
+{
+    if (job->entry_count + more <= job->entry_capacity) {
+        return true;
+    }
+    const size_t capacity = (job->entry_count + more) * 3 / 2;
+    tl_pack_entry *grown = realloc(job->entries, capacity * sizeof *grown);
+    if (grown == NULL) {
+        return false;
+    }
+    job->entries = grown;
+    job->entry_capacity = capacity;
+    return true;
+}
+
+// The layers of a place that is sound.
+static tl_result note_layers(merge_job *job, uint64_t index, const tl_world_layers *layers,
+                             tl_world_merge_report *report)
+{
+    if (!reserve_entries(job, layers->count)) {
+        return fail_merge_memory(job);
+    }
+    for (uint32_t k = 0; k < layers->count; k++) {
+        job->entries[job->entry_count] = layers->entries[k];
+        job->entries[job->entry_count++].id = (uint32_t)report->tiles++;
+        report->polygons += layers->tiles[k]->polygon_count;
+        report->area += layers->tiles[k]->area;
+    }
+    job->layers[index] = layers->count;
+    return TL_OK;
+}
+
 // Reads one place. Failures of the machine end the merge; a tile that is missing or damaged is counted.
 static tl_result read_place(merge_job *job, uint64_t index, tl_world_merge_report *report, const tl_world_tile **first)
 {
     const tl_world_tile *tile = &job->plan.tiles[index];
+    tl_world_layers layers;
     tl_io_error why;
     memset(&why, 0, sizeof why);
+    memset(&layers, 0, sizeof layers);
     char *path = tl_world_tile_path(job->def->job, tile->key);
     if (path == NULL) {
-        return tl_io_fail(job->error, TL_ERR_MEMORY, job->def->job, 0, "", "out of memory");
+        return fail_merge_memory(job);
     }
     tl_result result = TL_OK;
     if (!tl_file_look(path, NULL)) {
         report->missing++;
         *first = *first == NULL ? tile : *first;
     } else {
-        result = tl_world_tile_read(path, tile, &job->places[index], &why);
+        result = tl_world_tile_read(path, tile, true, &layers, &why);
+        if (result == TL_OK) {
+            result = tl_world_layers_check(&layers, path, tile, &why);
+        }
     }
     if (result == TL_ERR_MEMORY || result == TL_ERR_IO) {
         *job->error = why;
@@ -64,7 +116,10 @@ static tl_result read_place(merge_job *job, uint64_t index, tl_world_merge_repor
         note_damage(job, path, &why, report);
         *first = *first == NULL ? tile : *first;
         result = TL_OK;
+    } else {
+        result = note_layers(job, index, &layers, report);
     }
+    tl_world_layers_free(&layers);
     free(path);
     return result;
 }
@@ -73,22 +128,18 @@ static tl_result read_places(merge_job *job, tl_world_merge_report *report)
 {
     const uint64_t count = job->plan.tile_count;
     const tl_world_tile *first = NULL;
-    job->places = calloc((size_t)count + 1, sizeof *job->places);
-    if (job->places == NULL) {
-        return tl_io_fail(job->error, TL_ERR_MEMORY, job->def->job, 0, "", "out of memory");
+    job->layers = calloc((size_t)count + 1, sizeof *job->layers);
+    if (job->layers == NULL || !reserve_entries(job, (size_t)count + OTHER_CHUNKS)) {
+        return fail_merge_memory(job);
     }
+    job->entry_count = OTHER_CHUNKS; // filled in last
     for (uint64_t i = 0; i < count; i++) {
         tl_result result = read_place(job, i, report, &first);
         if (result == TL_OK && i % TOLD_EVERY == 0) {
-            result = tell_progress(job, "read tiles", i, count);
+            result = tell_progress(job, "prove tiles", i, count);
         }
         if (result != TL_OK) {
             return result;
-        }
-        for (uint32_t k = 0; k < job->places[i].count; k++) {
-            report->tiles++;
-            report->polygons += job->places[i].tiles[k]->polygon_count;
-            report->area += job->places[i].tiles[k]->area;
         }
     }
     report->places = count;
@@ -106,76 +157,128 @@ static tl_result read_places(merge_job *job, tl_world_merge_report *report)
     return TL_OK;
 }
 
-static void add_item(merge_job *job, uint32_t type, uint32_t id, const void *blob)
+// ---- The file's own chunks ---------------------------------------------------------------------------------
+
+static tl_result take_other(merge_job *job, uint32_t type, tl_result result, void *blob)
 {
-    if (blob != NULL) {
-        const tl_pack_item item = { type, id, blob, ((const tl_blob *)blob)->size };
-        job->items[job->item_count++] = item;
+    if (result == TL_OK) {
+        const uint64_t size = ((const tl_blob *)blob)->size;
+        job->others[job->other_count] = blob;
+        result = tl_blob_to_file_order(blob, size, NULL);
+        if (result == TL_OK) {
+            result = tl_pack_entry_make(type, 0, blob, size, &job->entries[job->other_count++]);
+        }
     }
+    return result != TL_OK ? tl_io_fail(job->error, result, job->def->job, 0, "", "%s", tl_result_text(result)) : TL_OK;
 }
 
-static tl_result make_items(merge_job *job, uint64_t tiles)
+static tl_result make_others(merge_job *job, uint64_t tiles)
 {
     const tl_world_plan *plan = &job->plan;
     const double *origin = plan->grid.origin;
+    tl_pack_meta *meta = NULL;
+    tl_pack_frame *frame = NULL;
+    tl_pack_navmesh *navmesh = NULL;
     tl_result result =
-        tl_pack_meta_encode(plan->name, plan->vertices, plan->triangles, plan->bounds, NULL, &job->meta, NULL);
+        tl_pack_meta_encode(plan->name, plan->vertices, plan->triangles, plan->bounds, NULL, &meta, NULL);
+    result = take_other(job, TL_PACK_META, result, meta);
     if (result == TL_OK && (origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0)) {
-        result = tl_pack_frame_encode(TL_PACK_AXES_Y_UP, origin, NULL, &job->frame, NULL);
+        result = tl_pack_frame_encode(TL_PACK_AXES_Y_UP, origin, NULL, &frame, NULL);
+        result = take_other(job, TL_PACK_FRAM, result, frame);
     }
     if (result == TL_OK) {
         result = tl_pack_navmesh_encode(&plan->grid.def, plan->grid.tiles_x, plan->grid.tiles_z, (uint32_t)tiles, NULL,
-                                        &job->navmesh, NULL);
+                                        &navmesh, NULL);
+        result = take_other(job, TL_PACK_NAVM, result, navmesh);
     }
-    job->items = malloc((size_t)(tiles + OTHER_CHUNKS) * sizeof *job->items);
-    if (result == TL_OK && job->items == NULL) {
-        result = TL_ERR_MEMORY;
-    }
-    if (result != TL_OK) {
-        return tl_io_fail(job->error, result, job->def->job, 0, "", "%s", tl_result_text(result));
-    }
-    add_item(job, TL_PACK_META, 0, job->meta);
-    add_item(job, TL_PACK_FRAM, 0, job->frame);
-    add_item(job, TL_PACK_NAVM, 0, job->navmesh);
-    uint32_t id = 0;
-    for (uint64_t i = 0; i < plan->tile_count; i++) {
-        for (uint32_t k = 0; k < job->places[i].count; k++) {
-            add_item(job, TL_PACK_NAVT, id++, job->places[i].tiles[k]);
-        }
-    }
-    return TL_OK;
+    return result;
 }
 
-typedef struct merge_sink {
-    tl_atomic_file *file;
-    tl_io_error error;
-} merge_sink;
+// ---- The second pass ---------------------------------------------------------------------------------------
+
+// Closes the place that is open, and opens the next that has tiles.
+static tl_result open_next_place(merge_job *job)
+{
+    tl_world_layers_free(&job->open);
+    while (job->layers[job->next_place] == 0) {
+        job->next_place++;
+    }
+    job->open_place = job->next_place++;
+    job->next_layer = 0;
+    const tl_world_tile *tile = &job->plan.tiles[job->open_place];
+    char *path = tl_world_tile_path(job->def->job, tile->key);
+    if (path == NULL) {
+        return fail_merge_memory(job);
+    }
+    tl_result result = tl_world_tile_read(path, tile, false, &job->open, job->error);
+    if (result == TL_OK && job->open.count != job->layers[job->open_place]) {
+        result = TL_ERR_HASH; // as the writer says of other changes
+    }
+    free(path);
+    return result;
+}
+
+static tl_result fetch_chunk(uint32_t index, const void **bytes_out, void *user)
+{
+    merge_job *job = user;
+    tl_result result = TL_OK;
+    if (index < job->other_count) {
+        *bytes_out = job->others[index];
+        return TL_OK;
+    }
+    if (job->next_layer == job->open.count) {
+        result = open_next_place(job);
+        if (result == TL_OK && job->open_place % TOLD_EVERY == 0) {
+            result = tell_progress(job, "write tiles", job->open_place, job->plan.tile_count);
+        }
+    }
+    if (result == TL_OK) {
+        *bytes_out = job->open.tiles[job->next_layer++];
+    }
+    return result;
+}
 
 static tl_result write_bytes(const void *bytes, size_t size, void *user)
 {
-    merge_sink *sink = user;
-    return tl_atomic_file_write(sink->file, bytes, size, &sink->error);
+    merge_job *job = user;
+    return tl_atomic_file_write(job->file, bytes, size, job->error);
 }
 
 static tl_result write_file(merge_job *job, tl_world_merge_report *report)
 {
-    merge_sink sink;
-    memset(&sink, 0, sizeof sink);
-    tl_result result = tl_atomic_file_open(job->def->output, &sink.file, job->error);
+    tl_result result = tl_atomic_file_open(job->def->output, &job->file, job->error);
     if (result != TL_OK) {
         return result;
     }
-    result = tl_pack_write(job->items, job->item_count, NULL, write_bytes, &sink, NULL);
+    // The others' entries, moved up to the tiles'.
+    const uint32_t first = OTHER_CHUNKS - job->other_count;
+    memmove(job->entries + first, job->entries, job->other_count * sizeof *job->entries);
+    result = tl_pack_write_fetched(job->entries + first, (uint32_t)(job->entry_count - first), NULL, fetch_chunk,
+                                   write_bytes, job, NULL);
     if (result != TL_OK) {
-        tl_atomic_file_abort(sink.file);
-        if (sink.error.result != TL_OK) {
-            *job->error = sink.error;
-            return result;
+        tl_atomic_file_abort(job->file);
+        if (result == TL_ERR_HASH) {
+            const tl_world_tile *tile = &job->plan.tiles[job->open_place];
+            return tl_io_fail(job->error, result, job->def->job, 0, "run it again when nothing else writes there",
+                              "tile %u,%u changed while it was merged", tile->x, tile->z);
         }
-        return tl_io_fail(job->error, result, job->def->output, 0, "", "%s", tl_result_text(result));
+        return job->error->result != TL_OK
+                   ? result
+                   : tl_io_fail(job->error, result, job->def->output, 0, "", "%s", tl_result_text(result));
     }
-    report->bytes = tl_atomic_file_size(sink.file);
-    return tl_atomic_file_commit(sink.file, job->error);
+    report->bytes = tl_atomic_file_size(job->file);
+    return tl_atomic_file_commit(job->file, job->error);
+}
+
+static void free_merge(merge_job *job)
+{
+    tl_world_layers_free(&job->open);
+    for (uint32_t i = 0; i < OTHER_CHUNKS; i++) {
+        tl_blob_free(job->others[i]);
+    }
+    free(job->layers);
+    free(job->entries);
+    tl_world_plan_free(&job->plan);
 }
 
 tl_result tl_world_merge(const tl_world_merge_def *def, tl_world_merge_report *report_out, tl_io_error *error_out)
@@ -193,19 +296,11 @@ tl_result tl_world_merge(const tl_world_merge_def *def, tl_world_merge_report *r
         result = read_places(&job, report_out);
     }
     if (result == TL_OK) {
-        result = make_items(&job, report_out->tiles);
+        result = make_others(&job, report_out->tiles);
     }
     if (result == TL_OK) {
         result = write_file(&job, report_out);
     }
-    for (uint64_t i = 0; job.places != NULL && i < job.plan.tile_count; i++) {
-        tl_world_layers_free(&job.places[i]);
-    }
-    free(job.places);
-    free(job.items);
-    tl_blob_free(job.meta);
-    tl_blob_free(job.frame);
-    tl_blob_free(job.navmesh);
-    tl_world_plan_free(&job.plan);
+    free_merge(&job);
     return result;
 }

@@ -114,18 +114,7 @@ bool tl_world_tile_is_there(const char *path, const tl_world_tile *tile)
     return read && header_fault(bytes, facts.size, tile, &result) == NULL;
 }
 
-static tl_result check_layer(unsigned char *bytes, uint64_t size, const tl_world_tile *tile)
-{
-    tl_result result = tl_blob_to_host_order(bytes, size, NULL);
-    if (result == TL_OK) {
-        result = tl_nav_tile_check(bytes, size, NULL);
-    }
-    const tl_nav_tile *layer = (const tl_nav_tile *)(const void *)bytes;
-    const bool placed = result == TL_OK && layer->tile_x == (int32_t)tile->x && layer->tile_z == (int32_t)tile->z;
-    return result != TL_OK ? result : placed ? TL_OK : TL_ERR_CORRUPT;
-}
-
-static tl_result take_layers(unsigned char *bytes, uint64_t size, const tl_world_tile *tile, tl_world_layers *layers)
+static tl_result take_layers(unsigned char *bytes, uint64_t size, bool hashed, tl_world_layers *layers)
 {
     const uint64_t count = tl_get_u32(bytes + 12);
     uint64_t offset = TL_WORLD_TILE_HEADER + (uint64_t)table_size(count);
@@ -133,26 +122,38 @@ static tl_result take_layers(unsigned char *bytes, uint64_t size, const tl_world
         return TL_ERR_CORRUPT;
     }
     layers->tiles = malloc((size_t)(count + 1) * sizeof *layers->tiles);
-    if (layers->tiles == NULL) {
+    layers->entries = calloc((size_t)(count + 1), sizeof *layers->entries);
+    if (layers->tiles == NULL || layers->entries == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint64_t i = 0; i < count; i++) {
         const uint64_t layer = tl_get_u64(bytes + TL_WORLD_TILE_HEADER + 8 * i);
-        if (layer % 64 != 0 || layer > size - offset) {
+        if (layer % 64 != 0 || layer < sizeof(tl_blob) || layer > size - offset) {
             return TL_ERR_CORRUPT;
         }
-        const tl_result result = check_layer(bytes + offset, layer, tile);
-        if (result != TL_OK) {
-            return result;
-        }
         layers->tiles[i] = (const tl_nav_tile *)(const void *)(bytes + offset);
+        layers->entries[i].size = layer;
+        if (hashed) {
+            const tl_result result =
+                tl_pack_entry_make(TL_PACK_NAVT, (uint32_t)i, bytes + offset, layer, &layers->entries[i]);
+            if (result != TL_OK) {
+                return result;
+            }
+        }
         offset += layer;
     }
     layers->count = (uint32_t)count;
     return offset == size ? TL_OK : TL_ERR_CORRUPT;
 }
 
-tl_result tl_world_tile_read(const char *path, const tl_world_tile *tile, tl_world_layers *layers_out,
+static tl_result fail_tile_file(tl_io_error *error_out, tl_result result, const char *path, const tl_world_tile *tile,
+                                const char *fault)
+{
+    return tl_io_fail(error_out, result, path, 0, result == TL_ERR_MEMORY ? "" : bake_again, "tile %u,%u %s", tile->x,
+                      tile->z, fault);
+}
+
+tl_result tl_world_tile_read(const char *path, const tl_world_tile *tile, bool hashed, tl_world_layers *layers_out,
                              tl_io_error *error_out)
 {
     memset(layers_out, 0, sizeof *layers_out);
@@ -169,13 +170,36 @@ tl_result tl_world_tile_read(const char *path, const tl_world_tile *tile, tl_wor
         fault = "is damaged: its content was altered";
     }
     if (fault == NULL) {
-        result = take_layers(bytes, size, tile, layers_out);
+        result = take_layers(bytes, size, hashed, layers_out);
         fault = result != TL_OK ? tl_result_text(result) : NULL;
     }
     if (fault != NULL) {
         tl_world_layers_free(layers_out);
-        return tl_io_fail(error_out, result, path, 0, result == TL_ERR_MEMORY ? "" : bake_again, "tile %u,%u %s",
-                          tile->x, tile->z, fault);
+        return fail_tile_file(error_out, result, path, tile, fault);
+    }
+    return TL_OK;
+}
+
+static tl_result check_layer(void *bytes, uint64_t size, const tl_world_tile *tile)
+{
+    tl_result result = tl_blob_to_host_order(bytes, size, NULL);
+    if (result == TL_OK) {
+        result = tl_nav_tile_check(bytes, size, NULL);
+    }
+    const tl_nav_tile *layer = bytes;
+    const bool placed = result == TL_OK && layer->tile_x == (int32_t)tile->x && layer->tile_z == (int32_t)tile->z;
+    return result != TL_OK ? result : placed ? TL_OK : TL_ERR_CORRUPT;
+}
+
+tl_result tl_world_layers_check(tl_world_layers *layers, const char *path, const tl_world_tile *tile,
+                                tl_io_error *error_out)
+{
+    for (uint32_t i = 0; i < layers->count; i++) {
+        const tl_result result =
+            check_layer((void *)(uintptr_t)layers->tiles[i], layers->entries[i].size, tile); // of the map's copy
+        if (result != TL_OK) {
+            return fail_tile_file(error_out, result, path, tile, tl_result_text(result));
+        }
     }
     return TL_OK;
 }
@@ -183,6 +207,7 @@ tl_result tl_world_tile_read(const char *path, const tl_world_tile *tile, tl_wor
 void tl_world_layers_free(tl_world_layers *layers)
 {
     free(layers->tiles);
+    free(layers->entries);
     tl_file_map_close(&layers->map);
     memset(layers, 0, sizeof *layers);
 }

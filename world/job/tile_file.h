@@ -13,6 +13,8 @@
 #include "io/files/file_map.h"
 #include "world/job/plan_file.h"
 
+#include <talus/pack.h>
+
 #define TL_WORLD_TILE_MAGIC   "TLWTILE\n"
 #define TL_WORLD_TILE_VERSION 1u
 
@@ -26,17 +28,23 @@ tl_result tl_world_tile_write(const char *path, const tl_world_tile *tile, const
 /// right counts as missing.
 bool tl_world_tile_is_there(const char *path, const tl_world_tile *tile);
 
-/// The layers of a tile's file, checked, in the machine's byte order. They lie in `map`.
+/// The layers of a tile's file. They lie in `map`.
 typedef struct tl_world_layers {
     tl_file_map map;
-    const tl_nav_tile **tiles; ///< [count]
+    tl_pack_entry *entries;    ///< [count], as a baked file is to list them: NAVT, with the layer's number as id
+    const tl_nav_tile **tiles; ///< [count], in the file's byte order until tl_world_layers_check
     uint32_t count;
 } tl_world_layers;
 
-/// TL_ERR_IO, TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_TRUNCATED, TL_ERR_HASH, TL_ERR_CORRUPT, TL_ERR_MEMORY. On failure
-/// `*layers_out` is zeroed. Free with tl_world_layers_free.
-tl_result tl_world_tile_read(const char *path, const tl_world_tile *tile, tl_world_layers *layers_out,
+/// Reads a tile's file. `hashed`: the entries are filled; else they have sizes alone. TL_ERR_IO, TL_ERR_MAGIC,
+/// TL_ERR_VERSION, TL_ERR_TRUNCATED, TL_ERR_HASH, TL_ERR_CORRUPT, TL_ERR_MEMORY. On failure `*layers_out` is zeroed.
+/// Free with tl_world_layers_free.
+tl_result tl_world_tile_read(const char *path, const tl_world_tile *tile, bool hashed, tl_world_layers *layers_out,
                              tl_io_error *error_out);
+/// Turns the layers to the machine's byte order, and proves each a sound tile of that place. TL_ERR_CORRUPT, and those
+/// of tl_nav_tile_check; the layers are of no use then.
+tl_result tl_world_layers_check(tl_world_layers *layers, const char *path, const tl_world_tile *tile,
+                                tl_io_error *error_out);
 void tl_world_layers_free(tl_world_layers *layers);
 
 #endif
