@@ -47,6 +47,9 @@ typedef struct binding_host {
     PyThreadState *state;
 } binding_host;
 
+/// Fills tasks that run loops on so many threads; it stays where it is while it is used.
+void binding_tasks(tl_tasks *tasks, unsigned threads);
+
 /// Gives up the GIL. `callback`: None, or called with (stage, done, total); returning False cancels.
 void binding_begin(binding_host *host, PyObject *callback, unsigned threads);
 /// Takes the GIL back.
@@ -157,5 +160,7 @@ extern PyMethodDef binding_edit_methods[];
 extern PyMethodDef binding_path_methods[];
 extern PyMethodDef binding_audit_methods[];
 extern PyMethodDef binding_pack_methods[];
+extern PyMethodDef binding_crowd_methods[];
+extern PyMethodDef binding_character_methods[];
 
 #endif

@@ -78,10 +78,15 @@ static bool update_progress(const char *stage, uint64_t done, uint64_t total, vo
     return on;
 }
 
+void binding_tasks(tl_tasks *tasks, unsigned threads)
+{
+    *tasks = (tl_tasks){ run_loop, threads > 0 ? threads : 1, tasks };
+}
+
 void binding_begin(binding_host *host, PyObject *callback, unsigned threads)
 {
     host->host = (tl_host){ NULL, &host->tasks, &host->progress };
-    host->tasks = (tl_tasks){ run_loop, threads > 0 ? threads : 1, &host->tasks };
+    binding_tasks(&host->tasks, threads);
     host->progress = (tl_progress){ update_progress, host };
     host->callback = callback != Py_None ? callback : NULL;
     host->state = PyEval_SaveThread();

@@ -10,6 +10,8 @@ Takes a level's loose triangles as numpy arrays, in metres with y up.
 """
 
 from . import _talus
+from .characters import CHARACTER, CHARACTER_HIT, Characters, Moves
+from .crowd import AgentStates, Crowd, CrowdReport
 from .errors import Error
 from .hull import Hull
 from .level import Level, load
@@ -64,13 +66,19 @@ from .soup import AllHits, Locations, NearestPoints, RayHits, Soup, SoupStats, S
 __version__: str = _talus.version
 
 __all__ = [
+    "CHARACTER",
+    "CHARACTER_HIT",
     "JUMP_LINK",
     "WALKABLE_AREA",
+    "AgentStates",
     "AllHits",
     "Audit",
     "Box",
     "CastHits",
+    "Characters",
     "Contacts",
+    "Crowd",
+    "CrowdReport",
     "Cylinder",
     "Error",
     "Filter",
@@ -79,6 +87,7 @@ __all__ = [
     "Level",
     "Link",
     "Locations",
+    "Moves",
     "Navmesh",
     "NearestPoints",
     "Obstacle",
