@@ -115,6 +115,12 @@ static inline bool tl_f64x2_any(tl_f64x2 a, tl_f64x2 b, tl_f64x2 c, tl_f64x2 d)
     return (_mm_movemask_pd(a) | _mm_movemask_pd(b) | _mm_movemask_pd(c) | _mm_movemask_pd(d)) != 0;
 }
 
+/// { a[0] + a[1], b[0] + b[1] }.
+static inline tl_f64x2 tl_f64x2_pair_sums(tl_f64x2 a, tl_f64x2 b)
+{
+    return _mm_add_pd(_mm_unpacklo_pd(a, b), _mm_unpackhi_pd(a, b));
+}
+
 /// Four points, x y z x y z ..., as doubles, two and two.
 static inline void tl_f64x2_load_points(const float *points, tl_f64x2 x[2], tl_f64x2 y[2], tl_f64x2 z[2])
 {

@@ -85,10 +85,10 @@ static inline tl_vec3 tl_vec3d_unit_or_zero(tl_vec3d a)
 // A unit vector across a unit vector.
 static inline tl_vec3d tl_vec3d_perpendicular(tl_vec3d d)
 {
-    // Across the axis that d is least along.
-    tl_vec3d axis = fabs(d.x) <= fabs(d.y) && fabs(d.x) <= fabs(d.z) ? tl_vec3d_make(1.0, 0.0, 0.0)
-                    : fabs(d.y) <= fabs(d.z)                         ? tl_vec3d_make(0.0, 1.0, 0.0)
-                                                                     : tl_vec3d_make(0.0, 0.0, 1.0);
+    // Across the axis that d is least along; chosen without a branch, since it is as good as random.
+    double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
+    double along_x = x <= y && x <= z ? 1.0 : 0.0, along_y = y <= z ? 1.0 - along_x : 0.0;
+    tl_vec3d axis = tl_vec3d_make(along_x, along_y, 1.0 - along_x - along_y);
     tl_vec3d p = tl_vec3d_cross(d, axis);
     return tl_vec3d_scale(p, 1.0 / tl_vec3d_length(p));
 }

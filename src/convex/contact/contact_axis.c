@@ -60,13 +60,31 @@ static double motion_since(const tl_minkowski *pair, const tl_contact_cache *cac
     return tl_vec3d_length(tl_vec3d_sub(is, was)) + sqrt(turn_sq) * reach + rounding;
 }
 
-static tl_vec3d unit(tl_vec3d v)
+// Of a unit vector that was rounded to floats: its length squared is 1 + e, and 3/8 e^2 is less than double rounding.
+static tl_vec3d unit(tl_vec3 v)
 {
-    return tl_vec3d_scale(v, 1.0 / tl_vec3d_length(v));
+    tl_vec3d d = tl_vec3d_from(v);
+    return tl_vec3d_scale(d, 1.5 - 0.5 * tl_vec3d_dot(d, d));
 }
 
+// How far a box reaches along a direction, and the size of its coordinates.
+static double box_reach(const tl_convex *box, tl_vec3d d, double *size)
+{
+    tl_vec3d c = tl_vec3d_from(box->corners[0]), h = tl_vec3d_from(box->corners[1]);
+    *size = tl_vec3d_size(c) + tl_vec3d_size(h);
+    return tl_vec3d_dot(d, c) + (fabs(d.x) * h.x + fabs(d.y) * h.y + fabs(d.z) * h.z);
+}
+
+// The value of A - B's support function.
 static double depth_along(tl_minkowski *pair, tl_vec3d normal)
 {
+    if (pair->a->kind == TL_CONVEX_BOX && pair->b->kind == TL_CONVEX_BOX) {
+        tl_vec3d back = tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, normal));
+        double size_a, size_b, reach_a = box_reach(pair->a, normal, &size_a),
+                               reach_b = box_reach(pair->b, back, &size_b);
+        pair->scale = fmax(pair->scale, size_a + size_b + pair->origin_size);
+        return reach_a + reach_b - tl_vec3d_dot(normal, pair->b_to_a.origin);
+    }
     tl_minkowski_point point;
     tl_minkowski_support(pair, normal, &point);
     return tl_vec3d_dot(normal, point.w) + pair->direction_error;
@@ -83,8 +101,7 @@ bool tl_axis_holds(tl_minkowski *pair, const tl_contact_cache *cache, double sla
     if (!(least > 0.0)) {
         return false;
     }
-    tl_vec3d by_a = unit(tl_vec3d_from(cache->axis_a)),
-             by_b = unit(tl_frame_rotate(&pair->b_to_a, tl_vec3d_from(cache->axis_b)));
+    tl_vec3d by_a = unit(cache->axis_a), by_b = tl_frame_rotate(&pair->b_to_a, unit(cache->axis_b));
     double depth_a = depth_along(pair, by_a), depth_b = depth_along(pair, by_b);
     double depth = depth_a <= depth_b ? depth_a : depth_b;
     if (!(depth - least <= slack)) {

@@ -68,11 +68,14 @@ static void add_known(tl_patch *patch, choice *c)
     }
 }
 
-static uint32_t find_lowest(const tl_patch *patch)
+uint32_t tl_patch_lowest(const tl_patch *patch)
 {
     uint32_t lowest = 0;
+    double least = tl_patch_separation(&patch->points[0]);
     for (uint32_t i = 1; i < patch->count; i++) {
-        lowest = tl_patch_separation(&patch->points[i]) < tl_patch_separation(&patch->points[lowest]) ? i : lowest;
+        double separation = tl_patch_separation(&patch->points[i]);
+        lowest = separation < least ? i : lowest;
+        least = separation < least ? separation : least;
     }
     return lowest;
 }
@@ -121,7 +124,7 @@ static double distance_sq(const tl_patch_point *p, const tl_patch_point *q)
 }
 
 // Of a patch that is a line: the two farthest from one another.
-static uint32_t keep_two(const choice *c, tl_patch_point kept[4])
+static uint32_t keep_two(const choice *c, const tl_patch_point *kept[4])
 {
     uint32_t first = 0, second = 0;
     for (uint32_t i = 0; i < c->count; i++) {
@@ -132,12 +135,12 @@ static uint32_t keep_two(const choice *c, tl_patch_point kept[4])
             }
         }
     }
-    kept[0] = *c->points[first];
-    kept[1] = *c->points[second];
+    kept[0] = c->points[first];
+    kept[1] = c->points[second];
     return first != second ? 2 : 1;
 }
 
-static uint32_t keep_largest(const choice *c, double least_area, tl_patch_point kept[4])
+static uint32_t keep_largest(const choice *c, double least_area, const tl_patch_point *kept[4])
 {
     double bonus[MAX_CANDIDATES], most = least_area;
     uint32_t best[4] = { 0 };
@@ -164,26 +167,32 @@ static uint32_t keep_largest(const choice *c, double least_area, tl_patch_point 
         return keep_two(c, kept);
     }
     for (int i = 0; i < 4; i++) {
-        kept[i] = *c->points[best[i]];
+        kept[i] = c->points[best[i]];
     }
     return 4;
 }
 
+static double box_area(const tl_patch *patch)
+{
+    double low_x = patch->points[0].x, high_x = low_x, low_y = patch->points[0].y, high_y = low_y;
+    for (uint32_t i = 1; i < patch->count; i++) {
+        double x = patch->points[i].x, y = patch->points[i].y;
+        low_x = x < low_x ? x : low_x;
+        high_x = x > high_x ? x : high_x;
+        low_y = y < low_y ? y : low_y;
+        high_y = y > high_y ? y : high_y;
+    }
+    return (high_x - low_x) * (high_y - low_y);
+}
+
 // The last manifold's corners, if there are four and they still span enough: of the box around the patch, or, which
 // takes longer, of its corners.
-static uint32_t keep_last(tl_patch *patch, tl_patch_point kept[4])
+static uint32_t keep_last(tl_patch *patch, const tl_patch_point *kept[4])
 {
     choice last = { { NULL }, 0 }, all = { { NULL }, 0 };
-    double low_x = patch->points[0].x, high_x = low_x, low_y = patch->points[0].y, high_y = low_y;
-    for (uint32_t i = 0; i < patch->count; i++) {
-        tl_patch_point *p = &patch->points[i];
-        low_x = p->x < low_x ? p->x : low_x;
-        high_x = p->x > high_x ? p->x : high_x;
-        low_y = p->y < low_y ? p->y : low_y;
-        high_y = p->y > high_y ? p->y : high_y;
-        if (p->previous < 4 && last.count < 4) { // the fifth is the deepest, which came and goes
-            last.points[last.count++] = p;
-        }
+    for (uint32_t i = 0; i < patch->count && last.count < 4; i++) {
+        last.points[last.count] = &patch->points[i];
+        last.count += patch->points[i].previous < 4 ? 1u : 0u; // the fifth is the deepest, which came and goes
     }
     if (last.count < 4) {
         return 0;
@@ -192,7 +201,7 @@ static uint32_t keep_last(tl_patch *patch, tl_patch_point kept[4])
         sort_around(&last);
     }
     double area = whole_area(&last);
-    if (!(area >= 2.0 * KEPT_AREA * (high_x - low_x) * (high_y - low_y))) {
+    if (!(area >= 2.0 * KEPT_AREA * box_area(patch))) {
         add_extremes(patch, &all);
         sort_around(&all);
         if (!(area >= KEPT_AREA * whole_area(&all))) {
@@ -200,18 +209,32 @@ static uint32_t keep_last(tl_patch *patch, tl_patch_point kept[4])
         }
     }
     for (int i = 0; i < 4; i++) {
-        kept[i] = *last.points[i];
+        kept[i] = last.points[i];
     }
     return 4;
 }
 
-// Where features changed though places did not.
-static void match_places(tl_patch *patch, double extent)
+static double extent_of_patch(const tl_patch *patch)
 {
-    uint32_t taken = 0;
-    for (uint32_t i = 0; i < patch->count; i++) {
-        taken |= patch->points[i].previous != TL_NO_CONTACT ? 1u << patch->points[i].previous : 0u;
+    double most = 0.0;
+    for (uint32_t i = 1; i < patch->count; i++) {
+        double apart = distance_sq(&patch->points[0], &patch->points[i]);
+        most = apart > most ? apart : most;
     }
+    return sqrt(most);
+}
+
+// Where features changed though places did not.
+static void match_places(tl_patch *patch)
+{
+    uint32_t taken = 0, every = (1u << patch->last->count) - 1u;
+    for (uint32_t i = 0; i < patch->count; i++) {
+        taken |= 1u << (patch->points[i].previous & 31u); // a new one's bit is none of a contact
+    }
+    if ((taken & every) == every) {
+        return;
+    }
+    double extent = extent_of_patch(patch);
     for (uint32_t k = 0; k < patch->last->count; k++) {
         if ((taken >> k & 1u) != 0) {
             continue;
@@ -232,37 +255,23 @@ static void match_places(tl_patch *patch, double extent)
     }
 }
 
-static double extent_of_patch(const tl_patch *patch)
-{
-    double most = 0.0;
-    for (uint32_t i = 1; i < patch->count; i++) {
-        double apart = distance_sq(&patch->points[0], &patch->points[i]);
-        most = apart > most ? apart : most;
-    }
-    return sqrt(most);
-}
-
-static void keep_points(tl_patch *patch, const tl_patch_point *kept, uint32_t count)
-{
-    patch->count = count;
-    for (uint32_t i = 0; i < count; i++) {
-        patch->points[i] = kept[i];
-    }
-}
-
 void tl_patch_choose(tl_patch *patch, double slack)
 {
-    double extent = extent_of_patch(patch);
-    if (patch->last != NULL && patch->last->count > 0) {
-        match_places(patch, extent);
+    const uint32_t last_count = patch->last != NULL ? patch->last->count : 0;
+    const tl_patch_point **kept = patch->chosen;
+    if (last_count > 0) {
+        match_places(patch);
     }
+    patch->chosen_count = patch->count;
     if (patch->count <= 4) {
+        for (uint32_t i = 0; i < patch->count; i++) {
+            kept[i] = &patch->points[i];
+        }
         return;
     }
-    choice c = { { NULL }, 0 };
-    tl_patch_point kept[4], lowest = patch->points[find_lowest(patch)];
-    uint32_t count = patch->last != NULL && patch->last->count >= 4 ? keep_last(patch, kept) : 0;
+    uint32_t count = last_count >= 4 ? keep_last(patch, kept) : 0;
     if (count == 0) {
+        choice c = { { NULL }, 0 };
         if (patch->in_order && patch->count <= DIRECTIONS) {
             for (; c.count < patch->count; c.count++) {
                 c.points[c.count] = &patch->points[c.count];
@@ -272,24 +281,33 @@ void tl_patch_choose(tl_patch *patch, double slack)
             add_known(patch, &c);
             sort_around(&c);
         }
-        count = keep_largest(&c, patch->gap * extent, kept);
+        count = keep_largest(&c, patch->gap * extent_of_patch(patch), kept);
     }
-    keep_points(patch, kept, count);
-    if (tl_patch_separation(&kept[find_lowest(patch)]) > tl_patch_separation(&lowest) + slack) {
-        patch->points[patch->count++] = lowest;
+    const tl_patch_point *lowest = &patch->points[tl_patch_lowest(patch)];
+    double least = (double)INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        double separation = tl_patch_separation(kept[i]);
+        least = separation < least ? separation : least;
     }
+    if (least > tl_patch_separation(lowest) + slack) {
+        kept[count++] = lowest;
+    }
+    patch->chosen_count = count;
 }
 
 void tl_patch_thin(tl_patch *patch)
 {
     choice c = { { NULL }, 0 };
     add_extremes(patch, &c);
-    add_candidate(&c, &patch->points[find_lowest(patch)]);
+    add_candidate(&c, &patch->points[tl_patch_lowest(patch)]);
     add_known(patch, &c);
     tl_patch_point kept[MAX_CANDIDATES];
     for (uint32_t i = 0; i < c.count; i++) {
         kept[i] = *c.points[i];
     }
-    keep_points(patch, kept, c.count);
+    for (uint32_t i = 0; i < c.count; i++) {
+        patch->points[i] = kept[i];
+    }
+    patch->count = c.count;
     patch->in_order = false;
 }

@@ -22,7 +22,6 @@
 #include "math/tolerance.h"
 
 #include <float.h>
-#include <string.h>
 
 // A corner of the patch within so many float roundings of the coordinates is the deepest point: sides are plane to
 // eight roundings, and so are their planes.
@@ -37,37 +36,9 @@ typedef struct contact_search {
     tl_patch patch;
 } contact_search;
 
-static void add_contact(contact_search *s, const tl_vec3d points[2], tl_vec3d normal, const uint32_t features[2],
-                        uint32_t previous)
-{
-    const tl_minkowski *pair = &s->pair;
-    double radius_a = (double)pair->a->radius, radius_b = (double)pair->b->radius;
-    tl_contact *contact = &s->out->contacts[s->out->count++];
-    contact->point_a = tl_minkowski_to_world(pair, tl_vec3d_mul_add(points[0], normal, radius_a));
-    contact->point_b = tl_minkowski_to_world(pair, tl_vec3d_mul_add(points[1], normal, -radius_b));
-    contact->separation = (float)(tl_vec3d_dot(normal, tl_vec3d_sub(points[1], points[0])) - radius_a - radius_b);
-    contact->feature_a = features[0];
-    contact->feature_b = features[1];
-    contact->previous = previous;
-}
-
-// A contact's place, which the next call looks for, is on A's core.
-static void keep_in_cache(contact_search *s, uint32_t contact, tl_vec3d on_a)
-{
-    if (s->cache != NULL) {
-        s->cache->points[contact] = tl_vec3d_to_float(on_a);
-        s->cache->features[contact][0] = s->out->contacts[contact].feature_a;
-        s->cache->features[contact][1] = s->out->contacts[contact].feature_b;
-    }
-}
-
 static double lowest_of(const tl_patch *patch)
 {
-    double lowest = (double)INFINITY;
-    for (uint32_t i = 0; i < patch->count; i++) {
-        lowest = fmin(lowest, tl_patch_separation(&patch->points[i]));
-    }
-    return lowest;
+    return tl_patch_separation(&patch->points[tl_patch_lowest(patch)]);
 }
 
 static void add_deepest(tl_patch *patch, const tl_deepest *deepest)
@@ -112,26 +83,66 @@ static bool find_common_patch(contact_search *s, const tl_deepest *deepest)
     return true;
 }
 
+// The next call looks for a contact's features, or for its place on A's core.
+static void keep_in_cache(tl_contact_cache *cache, uint32_t contact, tl_vec3d on_a, const uint32_t features[2])
+{
+    if (cache != NULL) {
+        cache->points[contact] = tl_vec3d_to_float(on_a);
+        cache->features[contact][0] = features[0];
+        cache->features[contact][1] = features[1];
+    }
+}
+
+// The deepest points alone.
+static void write_deepest(contact_search *s, const tl_deepest *deepest)
+{
+    const tl_minkowski *pair = &s->pair;
+    tl_contact *contact = &s->out->contacts[0];
+    tl_vec3d normal = deepest->normal;
+    contact->point_a = tl_minkowski_to_world(pair, tl_vec3d_mul_add(deepest->on_a, normal, (double)pair->a->radius));
+    contact->point_b = tl_minkowski_to_world(pair, tl_vec3d_mul_add(deepest->on_b, normal, -(double)pair->b->radius));
+    contact->separation = (float)(tl_vec3d_dot(normal, tl_vec3d_sub(deepest->on_b, deepest->on_a)) - s->radii);
+    contact->feature_a = deepest->features[0];
+    contact->feature_b = deepest->features[1];
+    bool known = s->cache != NULL && s->cache->count == 1 && deepest->features[0] != 0 &&
+                 deepest->features[0] == s->cache->features[0][0] && deepest->features[1] == s->cache->features[0][1];
+    contact->previous = known ? 0 : TL_NO_CONTACT;
+    keep_in_cache(s->cache, 0, deepest->on_a, deepest->features);
+    s->out->count = 1;
+}
+
+// Points of the patch's plane in the world: the axes are turned once for all.
+static void write_patch(contact_search *s, tl_vec3d normal)
+{
+    const tl_patch *patch = &s->patch;
+    const tl_frame *to_world = &s->pair.a_to_world;
+    const tl_vec3d u = tl_frame_rotate(to_world, patch->u), v = tl_frame_rotate(to_world, patch->v);
+    const double radius_a = (double)s->pair.a->radius, radius_b = (double)s->pair.b->radius;
+    for (uint32_t i = 0; i < patch->chosen_count; i++) {
+        const tl_patch_point *p = patch->chosen[i];
+        tl_contact *contact = &s->out->contacts[i];
+        tl_vec3d flat = tl_vec3d_mul_add(tl_vec3d_mul_add(to_world->origin, u, p->x), v, p->y);
+        contact->point_a = tl_vec3d_to_float(tl_vec3d_mul_add(flat, normal, p->on_a + radius_a));
+        contact->point_b = tl_vec3d_to_float(tl_vec3d_mul_add(flat, normal, p->on_b - radius_b));
+        contact->separation = (float)(p->on_b - p->on_a - s->radii);
+        contact->feature_a = p->features[0];
+        contact->feature_b = p->features[1];
+        contact->previous = p->previous;
+        tl_vec3d on_a = tl_vec3d_mul_add(tl_vec3d_scale(patch->u, p->x), patch->v, p->y);
+        keep_in_cache(s->cache, i, tl_vec3d_mul_add(on_a, patch->normal, p->on_a), p->features);
+    }
+    s->out->count = patch->chosen_count;
+}
+
 static void write_manifold(contact_search *s, const tl_deepest *deepest)
 {
-    const tl_vec3d normal = deepest->normal;
-    s->out->count = 0;
-    s->out->normal = tl_vec3d_to_float(tl_frame_rotate(&s->pair.a_to_world, normal));
+    const tl_vec3d normal = tl_frame_rotate(&s->pair.a_to_world, deepest->normal);
+    s->out->normal = tl_vec3d_to_float(normal);
     s->out->separation = (float)(deepest->separation - s->radii);
     if (s->patch.count == 0) {
-        const tl_vec3d points[2] = { deepest->on_a, deepest->on_b };
-        bool known = s->cache != NULL && s->cache->count == 1 && deepest->features[0] != 0 &&
-                     deepest->features[0] == s->cache->features[0][0] &&
-                     deepest->features[1] == s->cache->features[0][1];
-        add_contact(s, points, normal, deepest->features, known ? 0 : TL_NO_CONTACT);
-        keep_in_cache(s, 0, points[0]);
-    }
-    for (uint32_t i = 0; i < s->patch.count; i++) {
-        const tl_patch_point *p = &s->patch.points[i];
-        tl_vec3d flat = tl_vec3d_mul_add(tl_vec3d_scale(s->patch.u, p->x), s->patch.v, p->y);
-        const tl_vec3d points[2] = { tl_vec3d_mul_add(flat, normal, p->on_a), tl_vec3d_mul_add(flat, normal, p->on_b) };
-        add_contact(s, points, normal, p->features, p->previous);
-        keep_in_cache(s, i, points[0]);
+        write_deepest(s, deepest);
+    } else {
+        write_patch(s, normal);
     }
 }
 
@@ -222,13 +233,26 @@ static bool start_search(contact_search *s, const tl_convex *a, tl_transform pos
     s->tolerance = limits != NULL ? (double)limits->tolerance : 0.0;
     s->slack = 0.0;
     s->cache = NULL;
-    memset(s->out, 0, sizeof *s->out);
+    // Contacts beyond the count are zeroed once that is known.
+    s->out->count = 0;
+    s->out->normal = tl_vec3_make(0.0f, 0.0f, 0.0f);
+    s->out->separation = 0.0f;
+    s->out->status = TL_CONVEX_CONVERGED;
     if (!tl_minkowski_init(&s->pair, a, pose_a, b, pose_b) || isnan(s->margin) || isnan(s->tolerance)) {
         s->out->status = TL_CONVEX_NOT_FINITE;
         return false;
     }
     s->radii = (double)a->radius + (double)b->radius;
     return true;
+}
+
+static uint32_t end_search(contact_search *s)
+{
+    static const tl_contact none = { 0 };
+    for (uint32_t i = s->out->count; i < TL_MAX_CONTACTS; i++) {
+        s->out->contacts[i] = none;
+    }
+    return s->out->count;
 }
 
 uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
@@ -238,7 +262,7 @@ uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_co
     contact_search s;
     s.out = manifold_out;
     if (!start_search(&s, a, pose_a, b, pose_b, limits)) {
-        return 0;
+        return end_search(&s);
     }
     if (cache != NULL && cache->count > TL_MAX_CONTACTS) {
         cache->count = 0; // not what a call left there
@@ -249,7 +273,7 @@ uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_co
     if (cache != NULL) {
         cache->count = manifold_out->count;
     }
-    return manifold_out->count;
+    return end_search(&s);
 }
 
 // B's farthest point on A's face, when it lies over that.
@@ -286,13 +310,13 @@ uint32_t tl_convex_contacts_along(const tl_convex *a, tl_transform pose_a, const
     contact_search s;
     s.out = manifold_out;
     if (!start_search(&s, a, pose_a, b, pose_b, limits)) {
-        return 0;
+        return end_search(&s);
     }
     tl_vec3d along = tl_frame_rotate_back(&s.pair.a_to_world, tl_vec3d_from(normal));
     double length = tl_vec3d_length(along);
     if (!(length > 0.0 && length <= DBL_MAX)) {
         manifold_out->status = TL_CONVEX_NOT_FINITE;
-        return 0;
+        return end_search(&s);
     }
     tl_deepest deepest;
     deepest.normal = tl_vec3d_scale(along, 1.0 / length);
@@ -315,5 +339,5 @@ uint32_t tl_convex_contacts_along(const tl_convex *a, tl_transform pose_a, const
         tl_patch_choose(&s.patch, DEEPEST_GAP * s.pair.scale);
         write_manifold(&s, &deepest);
     }
-    return manifold_out->count;
+    return end_search(&s);
 }

@@ -114,24 +114,34 @@ static void number_face_edges(tl_face *face, uint32_t count, uint32_t stride)
     }
 }
 
+// Corners of a box's faces, -x, x, -y, ..., by the bits of minkowski.c; counter-clockwise seen from outside.
+static const uint8_t box_corners[6][4] = { { 4, 6, 2, 0 }, { 1, 3, 7, 5 }, { 1, 5, 4, 0 },
+                                           { 2, 6, 7, 3 }, { 2, 3, 1, 0 }, { 4, 5, 7, 6 } };
+
 static void box_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
 {
-    double size[3] = { fabs(d.x), fabs(d.y), fabs(d.z) };
-    int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
-    double side = (axis == 0 ? d.x : axis == 1 ? d.y : d.z) < 0.0 ? -1.0 : 1.0;
-    tl_vec3d h = tl_vec3d_from(shape->corners[1]), axes[3] = { { h.x, 0, 0 }, { 0, h.y, 0 }, { 0, 0, h.z } };
-    tl_vec3d out = tl_vec3d_scale(axes[axis], side), u = axes[(axis + 1) % 3],
-             v = tl_vec3d_scale(axes[(axis + 2) % 3], side);
-    tl_vec3d middle = tl_vec3d_add(tl_vec3d_from(shape->corners[0]), out);
-    static const double corners[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
-    uint32_t u_bit = 1u << (axis + 1) % 3, v_bit = 1u << (axis + 2) % 3, bits = side > 0.0 ? 1u << axis : 0u;
+    double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
+    uint32_t axis = x >= y && x >= z ? 0
+                    : y >= z         ? 1
+                                     : 2,
+             side = (axis == 0   ? d.x
+                     : axis == 1 ? d.y
+                                 : d.z) < 0.0
+                        ? 0
+                        : 1;
+    tl_vec3d c = tl_vec3d_from(shape->corners[0]), h = tl_vec3d_from(shape->corners[1]);
+    const double ends[3][2] = { { c.x - h.x, c.x + h.x }, { c.y - h.y, c.y + h.y }, { c.z - h.z, c.z + h.z } };
+    const uint8_t *bits = box_corners[2 * axis + side];
     for (int i = 0; i < 4; i++) {
-        face->corners[i] = tl_vec3d_mul_add(tl_vec3d_mul_add(middle, u, corners[i][0]), v, corners[i][1]);
-        face->vertices[i] = bits | (corners[i][0] > 0.0 ? u_bit : 0u) | (corners[i][1] * side > 0.0 ? v_bit : 0u);
+        uint32_t p = bits[i], q = bits[i < 3 ? i + 1 : 0], least = p < q ? p : q;
+        face->corners[i] = tl_vec3d_make(ends[0][p & 1u], ends[1][p >> 1 & 1u], ends[2][p >> 2]);
+        face->vertices[i] = TL_FEATURE_VERTEX | p;
+        face->edges[i] = TL_FEATURE_EDGE | (7 * least + p + q); // 8 times the lesser, and the greater
     }
-    number_face_edges(face, 4, 8);
-    face->feature = TL_FEATURE_FACE | (2 * (uint32_t)axis + (side > 0.0 ? 1u : 0u));
-    face->normal = tl_vec3d_make(axis == 0 ? side : 0.0, axis == 1 ? side : 0.0, axis == 2 ? side : 0.0);
+    double sign = side == 0 ? -1.0 : 1.0;
+    face->count = 4;
+    face->feature = TL_FEATURE_FACE | (2 * axis + side);
+    face->normal = tl_vec3d_make(axis == 0 ? sign : 0.0, axis == 1 ? sign : 0.0, axis == 2 ? sign : 0.0);
 }
 
 static bool triangle_face(const tl_convex *shape, tl_vec3d d, tl_face *face)

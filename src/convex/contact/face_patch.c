@@ -24,6 +24,13 @@ static tl_patch_heights face_heights(const tl_face *face, const tl_patch *patch)
 static double extent(const tl_face *face)
 {
     double most = 0.0;
+    if (face->count > 0) {
+        for (uint32_t i = 0; i < face->count; i++) {
+            double size = tl_vec3d_size(face->corners[i]);
+            most = size > most ? size : most;
+        }
+        return most;
+    }
     uint32_t at = face->first;
     do {
         double size = tl_vec3d_size(tl_face_corner(face, at));
@@ -31,29 +38,6 @@ static double extent(const tl_face *face)
         at = tl_face_next(face, at);
     } while (at != face->first);
     return most;
-}
-
-void tl_patch_match(const tl_patch *patch, tl_patch_point *point)
-{
-    point->previous = TL_NO_CONTACT;
-    for (uint32_t i = 0; patch->last != NULL && i < patch->last->count; i++) {
-        const uint32_t *known = patch->last->features[i];
-        if (known[0] == point->features[0] && known[1] == point->features[1] && known[0] != 0 && known[1] != 0) {
-            point->previous = i;
-        }
-    }
-}
-
-void tl_patch_add_new(tl_patch *patch, tl_patch_point *point)
-{
-    if (tl_patch_separation(point) > patch->limit) {
-        return;
-    }
-    tl_patch_match(patch, point);
-    patch->points[patch->count++] = *point;
-    if (patch->count == TL_PATCH_POINTS) {
-        tl_patch_thin(patch);
-    }
 }
 
 void tl_patch_add(tl_patch *patch, tl_patch_point *point)
@@ -65,7 +49,14 @@ void tl_patch_add(tl_patch *patch, tl_patch_point *point)
             return;
         }
     }
-    tl_patch_add_new(patch, point);
+    if (tl_patch_separation(point) > patch->limit) {
+        return;
+    }
+    tl_patch_match(patch, point);
+    patch->points[patch->count++] = *point;
+    if (patch->count == TL_PATCH_POINTS) {
+        tl_patch_thin(patch);
+    }
 }
 
 // The part of an edge that is within a face, and the features that its ends lie on; nothing when low > high.
@@ -174,6 +165,9 @@ void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double l
     patch->u = tl_vec3d_perpendicular(normal);
     patch->v = tl_vec3d_cross(normal, patch->u);
     patch->last = last;
+    for (uint32_t i = 0; i < TL_MAX_CONTACTS; i++) {
+        patch->known[i] = last != NULL && i < last->count ? tl_patch_key(last->features[i]) : 0;
+    }
     patch->limit = limit;
     patch->count = 0;
     patch->in_order = false;
@@ -186,9 +180,8 @@ void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double l
         patch_of_edge(patch, a, b, true, heights);
     } else if (b->count == 2) {
         patch_of_edge(patch, b, a, false, heights);
-    } else if (a->count > 0 && a->count <= TL_SMALL_FACE && b->count > 0 && b->count <= TL_SMALL_FACE) {
-        tl_face_clip(a, b, heights, patch);
-    } else {
+    } else if (!(a->count > 0 && a->count <= TL_SMALL_FACE && b->count > 0 && b->count <= TL_SMALL_FACE &&
+                 tl_face_clip(a, b, heights, patch))) {
         tl_face_sweep(a, b, heights, patch);
     }
 }

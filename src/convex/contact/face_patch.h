@@ -58,9 +58,12 @@ enum { TL_PATCH_POINTS = 32 };
 
 typedef struct tl_patch {
     tl_vec3d u, v, normal;
-    const tl_contact_cache *last; // may be NULL
+    const tl_contact_cache *last;    // may be NULL
+    uint64_t known[TL_MAX_CONTACTS]; // features of its contacts, as tl_patch_key; 0: none
     tl_patch_point points[TL_PATCH_POINTS];
     uint32_t count;
+    const tl_patch_point *chosen[TL_MAX_CONTACTS]; // by tl_patch_choose
+    uint32_t chosen_count;
     bool in_order; // they go around, counter-clockwise
     double gap;    // metres; corners closer than this are one
     double limit;  // metres; points farther apart than this are left out
@@ -78,8 +81,6 @@ void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double l
                    tl_patch *patch_out);
 // Adds a point unless it is too far apart or there already.
 void tl_patch_add(tl_patch *patch, tl_patch_point *point);
-// The same of a point that is known to be new.
-void tl_patch_add_new(tl_patch *patch, tl_patch_point *point);
 
 // face_sweep.c
 // Two faces of any number of corners seen in the patch's plane: calls tl_patch_add for each corner of their
@@ -87,23 +88,45 @@ void tl_patch_add_new(tl_patch *patch, tl_patch_point *point);
 void tl_face_sweep(const tl_face *a, const tl_face *b, const tl_patch_heights heights[2], tl_patch *patch);
 
 // face_clip.c
-// The same of two faces whose corners are kept, at most TL_SMALL_FACE of each.
+// The same of two faces whose corners are kept, at most TL_SMALL_FACE of each. False, and nothing is added, where
+// rounding leaves a part that is not convex.
 enum { TL_SMALL_FACE = 8 };
-void tl_face_clip(const tl_face *a, const tl_face *b, const tl_patch_heights heights[2], tl_patch *patch);
-
-// Sets the contact of the last manifold that has the point's features.
-void tl_patch_match(const tl_patch *patch, tl_patch_point *point);
+bool tl_face_clip(const tl_face *a, const tl_face *b, const tl_patch_heights heights[2], tl_patch *patch);
 
 // contact_choice.c
-// Cuts a patch down to four points, which are the last ones where these still do, and one more where none of them is
-// within `slack` metres of the deepest.
+// Chooses at most four points, which are the last ones where these still do, and one more where none of them is within
+// `slack` metres of the deepest.
 void tl_patch_choose(tl_patch *patch, double slack);
 // Cuts it down so far that there is space for more points.
 void tl_patch_thin(tl_patch *patch);
+// Index of the deepest point, of count >= 1.
+uint32_t tl_patch_lowest(const tl_patch *patch);
 
 static inline bool tl_same_place(const tl_patch *patch, double x, double y, double other_x, double other_y)
 {
     return fabs(x - other_x) + fabs(y - other_y) <= 2.0 * patch->gap;
+}
+
+// Both features in one word; 0 where one is not known.
+static inline uint64_t tl_patch_key(const uint32_t features[2])
+{
+    return features[0] != 0 && features[1] != 0 ? (uint64_t)features[0] << 32 | features[1] : 0;
+}
+
+// The contact of the last manifold that has a key, which is not 0.
+static inline uint32_t tl_patch_find_known(const tl_patch *patch, uint64_t key)
+{
+    uint32_t found = TL_NO_CONTACT;
+    for (uint32_t i = 0; i < TL_MAX_CONTACTS; i++) {
+        found = key == patch->known[i] ? i : found;
+    }
+    return found;
+}
+
+static inline void tl_patch_match(const tl_patch *patch, tl_patch_point *point)
+{
+    uint64_t key = tl_patch_key(point->features);
+    point->previous = key != 0 ? tl_patch_find_known(patch, key) : TL_NO_CONTACT;
 }
 
 static inline double tl_patch_separation(const tl_patch_point *point)

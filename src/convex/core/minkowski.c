@@ -110,10 +110,6 @@ static void find_support(const tl_minkowski *pair, const tl_convex *shape, const
         points = shape->corners;
         *vertex = tl_farthest(points, shape->point_count, direction);
         break;
-    case TL_CONVEX_BOX:
-        *vertex = (direction->x > 0.0 ? 1u : 0u) | (direction->y > 0.0 ? 2u : 0u) | (direction->z > 0.0 ? 4u : 0u);
-        *point = box_vertex(shape, *vertex);
-        return;
     default:
         *vertex = TL_NO_VERTEX;
         *point = curved_support(shape, *direction);
@@ -122,7 +118,7 @@ static void find_support(const tl_minkowski *pair, const tl_convex *shape, const
     *point = tl_vec3d_from(points[*vertex]);
 }
 
-// The same; small hulls, which are asked most often, without a call.
+// The same; boxes and small hulls, which are asked most often, without a call.
 static TL_ALWAYS_INLINE void support_of(const tl_minkowski *pair, const tl_convex *shape, const tl_vec3d *direction,
                                         uint32_t *vertex, tl_vec3d *point)
 {
@@ -130,6 +126,13 @@ static TL_ALWAYS_INLINE void support_of(const tl_minkowski *pair, const tl_conve
         const tl_vec3 *points = tl_hull_vertices(shape->hull);
         *vertex = tl_farthest(points, 8, direction);
         *point = tl_vec3d_from(points[*vertex]);
+        return;
+    }
+    if (shape->kind == TL_CONVEX_BOX) {
+        tl_vec3d c = tl_vec3d_from(shape->corners[0]), h = tl_vec3d_from(shape->corners[1]);
+        bool x = direction->x > 0.0, y = direction->y > 0.0, z = direction->z > 0.0;
+        *vertex = (x ? 1u : 0u) | (y ? 2u : 0u) | (z ? 4u : 0u);
+        *point = tl_vec3d_make(x ? c.x + h.x : c.x - h.x, y ? c.y + h.y : c.y - h.y, z ? c.z + h.z : c.z - h.z);
         return;
     }
     find_support(pair, shape, direction, vertex, point);
