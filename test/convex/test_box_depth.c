@@ -29,7 +29,7 @@ static void test_depth(void **state)
         pose_b.position =
             tl_mul_add(pose_a.position, test_random_direction(&random), test_random_range(&random, 0.1f, 2.0f));
         tl_minkowski pair;
-        TEST_CHECK(tl_minkowski_init(&pair, &a, pose_a, &b, pose_b));
+        TEST_CHECK(tl_minkowski_init(&pair, &a, &pose_a, &b, &pose_b));
         tl_deepest found;
         tl_box box_a, box_b;
         TEST_CHECK(tl_box_of(&a, &box_a) && tl_box_of(&b, &box_b));

@@ -32,7 +32,7 @@ static void test_matches_brute_force(void **state)
         if (expected > 1e-3 * size && expected < (double)INFINITY) {
             tl_minkowski pair;
             tl_core_depth depth;
-            tl_minkowski_init(&pair, &a.shape, pose_a, &b.shape, pose_b);
+            tl_minkowski_init(&pair, &a.shape, &pose_a, &b.shape, &pose_b);
             memset(&depth, 0, sizeof depth);
             depth.upper = 4.0 * size;
             tl_direction_search(&pair, &depth);

@@ -147,7 +147,8 @@ static void test_polygons(void **state)
         set_face(&face_b, b, b_count, false);
         tl_patch patch;
         tl_vec3d normal = tl_vec3d_make(0.0, 1.0, 0.0);
-        tl_patch_find(&face_a, &face_b, normal, 1.0, NULL, &patch);
+        tl_patch_start(&patch, normal);
+        tl_patch_find(&face_a, &face_b, 1.0, NULL, &patch);
         uint32_t count = clip(a, a_count, b, b_count, both);
         // Small faces are cut; swept they have the same corners.
         static const tl_patch_heights flat[2];

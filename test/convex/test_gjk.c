@@ -48,7 +48,7 @@ static void make_pair(test_random *random, cloud_pair *p)
         p->shape[k] = tl_convex_from_points(p->points[k], p->count[k], 0.0f);
     }
     p->size = (double)scale * 4.0;
-    TEST_CHECK(tl_minkowski_init(&p->minkowski, &p->shape[0], poses[0], &p->shape[1], poses[1]));
+    TEST_CHECK(tl_minkowski_init(&p->minkowski, &p->shape[0], &poses[0], &p->shape[1], &poses[1]));
 }
 
 // How far the points of shape k reach along a direction.
@@ -83,9 +83,9 @@ static void supports_are_the_farthest_differences(void **state)
         TEST_CHECK(tl_vec3d_length(tl_vec3d_sub(same.w, first.w)) <= 1e-12 * p.size);
         TEST_CHECK(!tl_minkowski_vertex(&p.minkowski, p.count[0], 0, &same));
     }
-    tl_transform bad = tl_transform_identity();
+    tl_transform at_origin = tl_transform_identity(), bad = at_origin;
     bad.position.y = NAN;
-    TEST_CHECK(!tl_minkowski_init(&p.minkowski, &p.shape[0], tl_transform_identity(), &p.shape[1], bad));
+    TEST_CHECK(!tl_minkowski_init(&p.minkowski, &p.shape[0], &at_origin, &p.shape[1], &bad));
 }
 
 static void bounds_prove_themselves(void **state)

@@ -10,6 +10,7 @@
 
 #include "convex/contact/contact_axis.h"
 
+#include "convex/core/farthest.h"
 #include "math/tolerance.h"
 
 // A pose kept in floats, and support points: roundings of their size.
@@ -67,10 +68,21 @@ static tl_vec3d unit(tl_vec3 v)
     return tl_vec3d_scale(d, 1.5 - 0.5 * tl_vec3d_dot(d, d));
 }
 
-// How far a box reaches along a direction, and the size of its coordinates.
-static double box_reach(const tl_convex *box, tl_vec3d d, double *size)
+// Whether the support's value costs less than its point.
+static bool is_small(const tl_convex *shape)
 {
-    tl_vec3d c = tl_vec3d_from(box->corners[0]), h = tl_vec3d_from(box->corners[1]);
+    return shape->kind == TL_CONVEX_BOX || (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count == 8);
+}
+
+// How far a small shape reaches along a direction, and the size of its coordinates.
+static double small_reach(const tl_convex *shape, tl_vec3d d, double *size)
+{
+    tl_vec3d c = tl_vec3d_from(shape->corners[0]), h = tl_vec3d_from(shape->corners[1]);
+    if (shape->kind == TL_CONVEX_HULL) {
+        tl_aabb box = shape->hull->bounds;
+        *size = tl_vec3d_size(tl_vec3d_from(tl_max(tl_abs(box.min), tl_abs(box.max))));
+        return tl_reach_of_eight(tl_hull_vertices(shape->hull), &d);
+    }
     *size = tl_vec3d_size(c) + tl_vec3d_size(h);
     return tl_vec3d_dot(d, c) + (fabs(d.x) * h.x + fabs(d.y) * h.y + fabs(d.z) * h.z);
 }
@@ -78,12 +90,12 @@ static double box_reach(const tl_convex *box, tl_vec3d d, double *size)
 // The value of A - B's support function.
 static double depth_along(tl_minkowski *pair, tl_vec3d normal)
 {
-    if (pair->a->kind == TL_CONVEX_BOX && pair->b->kind == TL_CONVEX_BOX) {
+    if (is_small(pair->a) && is_small(pair->b)) {
         tl_vec3d back = tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, normal));
-        double size_a, size_b, reach_a = box_reach(pair->a, normal, &size_a),
-                               reach_b = box_reach(pair->b, back, &size_b);
+        double size_a, size_b;
+        double reach = small_reach(pair->a, normal, &size_a) + small_reach(pair->b, back, &size_b);
         pair->scale = fmax(pair->scale, size_a + size_b + pair->origin_size);
-        return reach_a + reach_b - tl_vec3d_dot(normal, pair->b_to_a.origin);
+        return reach - tl_vec3d_dot(normal, pair->b_to_a.origin);
     }
     tl_minkowski_point point;
     tl_minkowski_support(pair, normal, &point);

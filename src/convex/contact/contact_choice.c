@@ -10,6 +10,8 @@
 
 #include "convex/contact/face_patch.h"
 
+#include "base/lowest_bit.h"
+
 // The last four stay while they span at least this part of the patch.
 #define KEPT_AREA 0.5
 
@@ -190,12 +192,15 @@ static double box_area(const tl_patch *patch)
 static uint32_t keep_last(tl_patch *patch, const tl_patch_point *kept[4])
 {
     choice last = { { NULL }, 0 }, all = { { NULL }, 0 };
-    for (uint32_t i = 0; i < patch->count && last.count < 4; i++) {
-        last.points[last.count] = &patch->points[i];
-        last.count += patch->points[i].previous < 4 ? 1u : 0u; // the fifth is the deepest, which came and goes
+    uint32_t known = 0;
+    for (uint32_t i = 0; i < patch->count; i++) {
+        known |= (patch->points[i].previous < 4 ? 1u : 0u) << i; // the fifth is the deepest, which came and goes
     }
-    if (last.count < 4) {
+    if (tl_bit_count(known) < 4) {
         return 0;
+    }
+    for (; last.count < 4; known &= known - 1) {
+        last.points[last.count++] = &patch->points[tl_lowest_bit(known)];
     }
     if (!patch->in_order) {
         sort_around(&last);
@@ -255,7 +260,7 @@ static void match_places(tl_patch *patch)
     }
 }
 
-void tl_patch_choose(tl_patch *patch, double slack)
+void tl_patch_choose(tl_patch *patch, uint32_t lowest_at, double slack)
 {
     const uint32_t last_count = patch->last != NULL ? patch->last->count : 0;
     const tl_patch_point **kept = patch->chosen;
@@ -283,7 +288,7 @@ void tl_patch_choose(tl_patch *patch, double slack)
         }
         count = keep_largest(&c, patch->gap * extent_of_patch(patch), kept);
     }
-    const tl_patch_point *lowest = &patch->points[tl_patch_lowest(patch)];
+    const tl_patch_point *lowest = &patch->points[lowest_at];
     double least = (double)INFINITY;
     for (uint32_t i = 0; i < count; i++) {
         double separation = tl_patch_separation(kept[i]);

@@ -36,11 +36,6 @@ typedef struct contact_search {
     tl_patch patch;
 } contact_search;
 
-static double lowest_of(const tl_patch *patch)
-{
-    return tl_patch_separation(&patch->points[tl_patch_lowest(patch)]);
-}
-
 static void add_deepest(tl_patch *patch, const tl_deepest *deepest)
 {
     tl_patch_point point = { tl_vec3d_dot(patch->u, deepest->on_a),          tl_vec3d_dot(patch->v, deepest->on_a),
@@ -57,16 +52,17 @@ static bool find_common_patch(contact_search *s, const tl_deepest *deepest)
     const tl_vec3d normal = deepest->normal;
     const double gap = DEEPEST_GAP * s->pair.scale;
     tl_face face_a, face_b;
-    s->patch.count = 0;
+    tl_patch_start(&s->patch, normal);
     if (!tl_face_along(s->pair.a, NULL, normal, &face_a) ||
         !tl_face_along(s->pair.b, &s->pair.b_to_a, tl_vec3d_neg(normal), &face_b)) {
         return deepest->has_points;
     }
     double limit = fmin(deepest->separation + s->tolerance, s->margin + s->radii);
-    tl_patch_find(&face_a, &face_b, normal, fmax(limit, deepest->separation + gap), s->cache, &s->patch);
+    tl_patch_find(&face_a, &face_b, fmax(limit, deepest->separation + gap), s->cache, &s->patch);
     double slack = deepest->has_points ? gap : fmax(gap, s->slack);
-    if (s->patch.count > 0 && lowest_of(&s->patch) <= deepest->separation + slack) {
-        tl_patch_choose(&s->patch, fmax(gap, s->slack));
+    const uint32_t lowest = s->patch.count > 0 ? tl_patch_lowest(&s->patch) : 0;
+    if (s->patch.count > 0 && tl_patch_separation(&s->patch.points[lowest]) <= deepest->separation + slack) {
+        tl_patch_choose(&s->patch, lowest, fmax(gap, s->slack));
         return true;
     }
     if (!deepest->has_points) {
@@ -78,7 +74,7 @@ static bool find_common_patch(contact_search *s, const tl_deepest *deepest)
     }
     if (s->patch.count > 0) {
         add_deepest(&s->patch, deepest);
-        tl_patch_choose(&s->patch, fmax(gap, s->slack));
+        tl_patch_choose(&s->patch, s->patch.count - 1, fmax(gap, s->slack));
     }
     return true;
 }
@@ -226,8 +222,8 @@ static void find_manifold(contact_search *s)
 }
 
 // False when a pose, shape or limit is not finite.
-static bool start_search(contact_search *s, const tl_convex *a, tl_transform pose_a, const tl_convex *b,
-                         tl_transform pose_b, const tl_contact_limits *limits)
+static bool start_search(contact_search *s, const tl_convex *a, const tl_transform *pose_a, const tl_convex *b,
+                         const tl_transform *pose_b, const tl_contact_limits *limits)
 {
     s->margin = limits != NULL ? (double)limits->margin : 0.0;
     s->tolerance = limits != NULL ? (double)limits->tolerance : 0.0;
@@ -261,7 +257,7 @@ uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_co
     TL_ASSERT(a != NULL && b != NULL && manifold_out != NULL);
     contact_search s;
     s.out = manifold_out;
-    if (!start_search(&s, a, pose_a, b, pose_b, limits)) {
+    if (!start_search(&s, a, &pose_a, b, &pose_b, limits)) {
         return end_search(&s);
     }
     if (cache != NULL && cache->count > TL_MAX_CONTACTS) {
@@ -288,7 +284,7 @@ static void meet_by_point(contact_search *s, const tl_face *face_a, const tl_min
     spot.feature = spot.edges[0] = spot.edges[1] = spot.vertices[0];
     spot.offset = tl_vec3d_dot(spot.normal, spot.corners[0]);
     if (face_a->count != 2) {
-        tl_patch_find(face_a, &spot, s->patch.normal, s->margin + s->radii, NULL, &s->patch);
+        tl_patch_find(face_a, &spot, s->margin + s->radii, NULL, &s->patch);
     }
 }
 
@@ -309,7 +305,7 @@ uint32_t tl_convex_contacts_along(const tl_convex *a, tl_transform pose_a, const
     TL_ASSERT(a != NULL && b != NULL && manifold_out != NULL);
     contact_search s;
     s.out = manifold_out;
-    if (!start_search(&s, a, pose_a, b, pose_b, limits)) {
+    if (!start_search(&s, a, &pose_a, b, &pose_b, limits)) {
         return end_search(&s);
     }
     tl_vec3d along = tl_frame_rotate_back(&s.pair.a_to_world, tl_vec3d_from(normal));
@@ -323,20 +319,19 @@ uint32_t tl_convex_contacts_along(const tl_convex *a, tl_transform pose_a, const
     tl_minkowski_point point;
     tl_minkowski_support(&s.pair, deepest.normal, &point);
     tl_face face_a, face_b;
-    s.patch.count = 0;
-    s.patch.normal = deepest.normal;
+    tl_patch_start(&s.patch, deepest.normal);
     if (-tl_vec3d_dot(deepest.normal, point.w) - s.radii <= s.margin &&
         tl_face_along(a, NULL, deepest.normal, &face_a)) {
         if (tl_face_along(b, &s.pair.b_to_a, tl_vec3d_neg(deepest.normal), &face_b)) {
-            tl_patch_find(&face_a, &face_b, deepest.normal, s.margin + s.radii, NULL, &s.patch);
+            tl_patch_find(&face_a, &face_b, s.margin + s.radii, NULL, &s.patch);
         } else {
             meet_by_point(&s, &face_a, &point);
         }
     }
     if (s.patch.count > 0) {
-        deepest.separation = lowest_of(&s.patch);
+        deepest.separation = tl_patch_separation(&s.patch.points[tl_patch_lowest(&s.patch)]);
         drop_shallow(&s.patch, deepest.separation + fmax(s.tolerance, DEEPEST_GAP * s.pair.scale));
-        tl_patch_choose(&s.patch, DEEPEST_GAP * s.pair.scale);
+        tl_patch_choose(&s.patch, tl_patch_lowest(&s.patch), DEEPEST_GAP * s.pair.scale);
         write_manifold(&s, &deepest);
     }
     return end_search(&s);

@@ -39,6 +39,24 @@ static void consider_face(candidate *best, uint32_t face)
     }
 }
 
+// All of them, without branches.
+static void consider_faces(candidate *best)
+{
+    const tl_hull_plane_block *block = tl_hull_plane_blocks(best->hull);
+    const tl_vec3d d = best->direction;
+    double most = best->dot;
+    uint32_t face = best->face, count = best->hull->face_count;
+    for (uint32_t from = 0; from < count; from += 8, block++) {
+        for (uint32_t lane = 0; lane < 8 && from + lane < count; lane++) {
+            double dot = d.x * block->x[lane] + d.y * block->y[lane] + d.z * block->z[lane];
+            face = dot > most ? from + lane : face;
+            most = dot > most ? dot : most;
+        }
+    }
+    best->face = face;
+    best->dot = most;
+}
+
 static void consider_faces_around(candidate *best, uint32_t vertex)
 {
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(best->hull);
@@ -89,11 +107,9 @@ static void hull_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
     if (shape->hull->face_count > SCANNED_FACES) {
         climb(&best);
     } else {
-        for (uint32_t f = 0; f < shape->hull->face_count; f++) {
-            consider_face(&best, f);
-        }
+        consider_faces(&best);
     }
-    face->facet = tl_facet_around(shape->hull, best.face);
+    tl_facet_around(shape->hull, best.face, &face->facet);
     face->first = face->facet.first;
     face->feature = TL_FEATURE_FACE | best.face;
     const double *n = face->facet.plane.normal;

@@ -9,7 +9,6 @@
 
 #include "convex/contact/face_patch.h"
 
-#include "base/lowest_bit.h"
 #include "math/simd2d.h"
 
 // Lines are edges of A by number, or of B from FIRST_B on. In the table of a face's features its vertices come first,
@@ -160,10 +159,19 @@ static bool cut_by(face_cut *c, uint32_t by)
         c->count = 0;
         return true;
     }
-    if ((((run | (run - 1u)) + 1u) & run) != 0) {
+    // By branches rather than by counting bits: pairs at rest have the same cuts for many frames, and what is predicted
+    // need not wait for the products.
+    uint32_t begin = 1;
+    while ((run >> begin & 1u) == 0) {
+        begin++;
+    }
+    uint32_t end = begin + 1;
+    while ((run >> end & 1u) != 0) {
+        end++;
+    }
+    if (run >> end != 0) {
         return false;
     }
-    const uint32_t begin = tl_lowest_bit(run), end = tl_highest_bit(run) + 1;
     inside[count] = inside[0];
     const tl_point2 at_begin = cut_between(c, inside, begin - 1), at_end = cut_between(c, inside, end - 1);
     const uint32_t code_begin = cut_code(c, c->codes[begin - 1], by, !from_first),

@@ -158,12 +158,8 @@ static void patch_of_edges(tl_patch *patch, const tl_face faces[2])
     }
 }
 
-void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double limit, const tl_contact_cache *last,
-                   tl_patch *patch)
+void tl_patch_find(const tl_face *a, const tl_face *b, double limit, const tl_contact_cache *last, tl_patch *patch)
 {
-    patch->normal = normal;
-    patch->u = tl_vec3d_perpendicular(normal);
-    patch->v = tl_vec3d_cross(normal, patch->u);
     patch->last = last;
     for (uint32_t i = 0; i < TL_MAX_CONTACTS; i++) {
         patch->known[i] = last != NULL && i < last->count ? tl_patch_key(last->features[i]) : 0;

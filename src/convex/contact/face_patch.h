@@ -75,10 +75,10 @@ typedef struct tl_patch_heights {
 } tl_patch_heights;
 
 // face_patch.c
-// Corners of the common part of both faces, seen along the normal, where B's face lies at most `limit` above A's. A few
-// are kept where there are many: those that span the largest area, the deepest, and those of the last manifold.
-void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double limit, const tl_contact_cache *last,
-                   tl_patch *patch_out);
+// Corners of the common part of both faces, seen along the patch's normal, where B's face lies at most `limit` above
+// A's. A few are kept where there are many: those that span the largest area, the deepest, and those of the last
+// manifold.
+void tl_patch_find(const tl_face *a, const tl_face *b, double limit, const tl_contact_cache *last, tl_patch *patch);
 // Adds a point unless it is too far apart or there already.
 void tl_patch_add(tl_patch *patch, tl_patch_point *point);
 
@@ -94,9 +94,9 @@ enum { TL_SMALL_FACE = 8 };
 bool tl_face_clip(const tl_face *a, const tl_face *b, const tl_patch_heights heights[2], tl_patch *patch);
 
 // contact_choice.c
-// Chooses at most four points, which are the last ones where these still do, and one more where none of them is within
-// `slack` metres of the deepest.
-void tl_patch_choose(tl_patch *patch, double slack);
+// Chooses at most four points, which are the last ones where these still do, and one more, which is at `lowest`, where
+// none of them is within `slack` metres of it.
+void tl_patch_choose(tl_patch *patch, uint32_t lowest, double slack);
 // Cuts it down so far that there is space for more points.
 void tl_patch_thin(tl_patch *patch);
 // Index of the deepest point, of count >= 1.
@@ -105,6 +105,15 @@ uint32_t tl_patch_lowest(const tl_patch *patch);
 static inline bool tl_same_place(const tl_patch *patch, double x, double y, double other_x, double other_y)
 {
     return fabs(x - other_x) + fabs(y - other_y) <= 2.0 * patch->gap;
+}
+
+// An empty patch across a normal. A root and a division, which should be under way before the faces are looked for.
+static inline void tl_patch_start(tl_patch *patch, tl_vec3d normal)
+{
+    patch->normal = normal;
+    patch->u = tl_vec3d_perpendicular(normal);
+    patch->v = tl_vec3d_cross(normal, patch->u);
+    patch->count = 0;
 }
 
 // Both features in one word; 0 where one is not known.

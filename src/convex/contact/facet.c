@@ -35,6 +35,26 @@ static bool facet_holds(const tl_facet *facet, uint32_t face)
     return true;
 }
 
+// The same of the face beside a half-edge; a corner that lies off the edge mostly tells.
+static bool holds_beside(const tl_facet *facet, uint32_t edge)
+{
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
+    tl_hull_half_edge twin = half_edges[half_edges[edge].twin];
+    return height_above(facet, half_edges[half_edges[twin.next].next].origin) >= -facet->gap &&
+           facet_holds(facet, twin.face);
+}
+
+static bool is_alone(const tl_facet *facet)
+{
+    tl_hull_face face = tl_hull_faces(facet->hull)[facet->face];
+    for (uint32_t i = 0; i < face.count; i++) {
+        if (holds_beside(facet, face.first + i)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 // A half-edge of the outline that starts at the vertex, which the facet has a face at; TL_NO_VERTEX when it is inside.
 static uint32_t outline_at(const tl_facet *facet, uint32_t vertex)
 {
@@ -67,36 +87,41 @@ static uint32_t farther_neighbour(const tl_facet *facet, tl_vec3d direction, uin
     return best;
 }
 
-tl_facet tl_facet_around(const tl_hull *hull, uint32_t face)
+void tl_facet_around(const tl_hull *hull, uint32_t face, tl_facet *facet)
 {
     tl_vec3 size = tl_max(tl_abs(hull->bounds.min), tl_abs(hull->bounds.max));
-    tl_facet facet = { hull, face, tl_hull_face_plane(hull, face), 0.0, tl_hull_faces(hull)[face].first };
-    facet.gap = FLAT_GAP * (double)tl_maxf(size.x, tl_maxf(size.y, size.z));
-    if (!facet_holds(&facet, tl_hull_half_edges(hull)[tl_hull_half_edges(hull)[facet.first].twin].face)) {
-        return facet;
+    facet->hull = hull;
+    facet->face = face;
+    facet->plane = tl_hull_face_plane(hull, face);
+    facet->first = tl_hull_faces(hull)[face].first;
+    facet->gap = FLAT_GAP * (double)tl_maxf(size.x, tl_maxf(size.y, size.z));
+    facet->alone = is_alone(facet);
+    if (facet->alone || !holds_beside(facet, facet->first)) {
+        return;
     }
     // Go straight on in the plane until the outline: inside of it some neighbour is always farther.
-    const double *n = facet.plane.normal;
+    const double *n = facet->plane.normal;
     tl_vec3d direction = tl_vec3d_perpendicular(tl_vec3d_make(n[0], n[1], n[2]));
-    uint32_t vertex = tl_hull_half_edges(hull)[facet.first].origin, edge = outline_at(&facet, vertex);
+    uint32_t vertex = tl_hull_half_edges(hull)[facet->first].origin, edge = outline_at(facet, vertex);
     while (edge == TL_NO_VERTEX) {
-        uint32_t next = farther_neighbour(&facet, direction, vertex);
+        uint32_t next = farther_neighbour(facet, direction, vertex);
         if (next == vertex) {
-            facet.gap = -(double)INFINITY; // rounding: the face alone
-            return facet;
+            facet->gap = -(double)INFINITY; // rounding: the face alone
+            facet->alone = true;
+            return;
         }
         vertex = next;
-        edge = outline_at(&facet, vertex);
+        edge = outline_at(facet, vertex);
     }
-    facet.first = edge;
-    return facet;
+    facet->first = edge;
+    return;
 }
 
 uint32_t tl_facet_next(const tl_facet *facet, uint32_t half_edge)
 {
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
     uint32_t edge = half_edges[half_edge].next;
-    while (facet_holds(facet, half_edges[half_edges[edge].twin].face)) {
+    while (!facet->alone && holds_beside(facet, edge)) {
         edge = half_edges[half_edges[edge].twin].next;
     }
     return edge;
@@ -110,7 +135,7 @@ uint32_t tl_facet_previous(const tl_facet *facet, uint32_t half_edge)
         tl_hull_face face = tl_hull_faces(facet->hull)[half_edges[edge].face];
         edge = edge == face.first ? face.first + face.count - 1 : edge - 1;
         uint32_t twin = half_edges[edge].twin;
-        if (!facet_holds(facet, half_edges[twin].face)) {
+        if (facet->alone || !holds_beside(facet, edge)) {
             return edge;
         }
         edge = twin;

@@ -13,9 +13,10 @@ typedef struct tl_facet {
     tl_hull_plane plane;
     double gap;     // metres that a corner may lie below it
     uint32_t first; // a half-edge of the outline
+    bool alone;     // no neighbour lies in its plane
 } tl_facet;
 
-tl_facet tl_facet_around(const tl_hull *hull, uint32_t face);
+void tl_facet_around(const tl_hull *hull, uint32_t face, tl_facet *facet_out);
 
 // The half-edge of the outline that follows, counter-clockwise seen from outside.
 uint32_t tl_facet_next(const tl_facet *facet, uint32_t half_edge);

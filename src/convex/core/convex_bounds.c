@@ -33,9 +33,10 @@ tl_aabb tl_convex_bounds(const tl_convex *shape, tl_transform pose)
 {
     TL_ASSERT(shape != NULL);
     // The origin as shape A: then B's support points are in the world.
+    const tl_transform at_origin = tl_transform_identity();
     tl_convex origin = tl_convex_sphere(tl_vec3_make(0.0f, 0.0f, 0.0f), 0.0f);
     tl_minkowski pair;
-    if (!tl_minkowski_init(&pair, &origin, tl_transform_identity(), shape, pose)) {
+    if (!tl_minkowski_init(&pair, &origin, &at_origin, shape, &pose)) {
         return tl_aabb_empty();
     }
     tl_aabb box;

@@ -134,4 +134,18 @@ static inline uint32_t tl_farthest(const tl_vec3 *points, uint32_t count, const 
     return tl_farthest_plain(points, count, direction);
 }
 
+// The largest product itself, of 8 points.
+static inline double tl_reach_of_eight(const tl_vec3 *points, const tl_vec3d *direction)
+{
+#if TL_HAS_F64X2
+    const tl_f64x2 d[3] = { tl_f64x2_all(direction->x), tl_f64x2_all(direction->y), tl_f64x2_all(direction->z) };
+    double dots[4];
+    tl_f64x2 best = tl_f64x2_max(tl_farthest_four(d, points, dots), tl_farthest_four(d, points + 4, dots));
+    return tl_f64x2_get_x(tl_f64x2_max(best, tl_f64x2_swap(best)));
+#else
+    uint32_t vertex = tl_farthest_plain(points, 8, direction);
+    return tl_vec3d_dot(*direction, tl_vec3d_from(points[vertex]));
+#endif
+}
+
 #endif

@@ -189,10 +189,10 @@ static double sum_point(tl_vec3 p)
     return (double)p.x + (double)p.y + (double)p.z;
 }
 
-static double sum_pose(tl_transform pose)
+static double sum_pose(const tl_transform *pose)
 {
-    tl_quat r = pose.rotation;
-    return sum_point(pose.position) + (((double)r.x + (double)r.y) + ((double)r.z + (double)r.w));
+    tl_quat r = pose->rotation;
+    return sum_point(pose->position) + (((double)r.x + (double)r.y) + ((double)r.z + (double)r.w));
 }
 
 static double sum_shape(const tl_convex *shape)
@@ -201,14 +201,14 @@ static double sum_shape(const tl_convex *shape)
            (sum_point(shape->corners[2]) + (double)shape->radius);
 }
 
-bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b,
-                       tl_transform pose_b)
+bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, const tl_transform *pose_a, const tl_convex *b,
+                       const tl_transform *pose_b)
 {
     if (!isfinite((sum_pose(pose_a) + sum_pose(pose_b)) + (sum_shape(a) + sum_shape(b)))) {
         return false;
     }
-    tl_quatd rotation_a = tl_quatd_from(pose_a.rotation), rotation_b = tl_quatd_from(pose_b.rotation);
-    tl_vec3d position_a = tl_vec3d_from(pose_a.position), position_b = tl_vec3d_from(pose_b.position);
+    tl_quatd rotation_a = tl_quatd_from(pose_a->rotation), rotation_b = tl_quatd_from(pose_b->rotation);
+    tl_vec3d position_a = tl_vec3d_from(pose_a->position), position_b = tl_vec3d_from(pose_b->position);
     pair->a = a;
     pair->b = b;
     tl_frame_set(&pair->a_to_world, rotation_a, position_a);

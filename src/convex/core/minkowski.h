@@ -32,8 +32,8 @@ typedef struct tl_minkowski {
 } tl_minkowski;
 
 // False, and the pair is not set, when a pose or what a shape holds itself is not finite.
-bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b,
-                       tl_transform pose_b);
+bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, const tl_transform *pose_a, const tl_convex *b,
+                       const tl_transform *pose_b);
 
 // Vertices that are likely to be the next support points, or TL_NO_VERTEX for both. Where a hint is right it is faster
 // than any scan.

@@ -187,7 +187,7 @@ bool tl_convex_cast(const tl_convex *a, tl_transform pose_a, const tl_convex *b,
 {
     TL_ASSERT(a != NULL && b != NULL && hit_out != NULL);
     tl_minkowski pair;
-    if (!tl_minkowski_init(&pair, a, pose_a, b, pose_b) || !tl_is_finite(motion)) {
+    if (!tl_minkowski_init(&pair, a, &pose_a, b, &pose_b) || !tl_is_finite(motion)) {
         return refuse_not_finite(hit_out);
     }
     return cast_pair(&pair, motion, 1.0, hit_out);
@@ -225,7 +225,7 @@ bool tl_convex_cast_ray(const tl_convex *shape, tl_transform pose, tl_vec3 origi
     tl_transform at_origin = tl_transform_identity();
     at_origin.position = origin;
     tl_minkowski pair;
-    if (!tl_minkowski_init(&pair, shape, pose, &point, at_origin) || !tl_is_finite(direction) || isnan(t_max)) {
+    if (!tl_minkowski_init(&pair, shape, &pose, &point, &at_origin) || !tl_is_finite(direction) || isnan(t_max)) {
         return refuse_not_finite(hit_out);
     }
     if (shape->kind == TL_CONVEX_HULL && shape->radius == 0.0f &&

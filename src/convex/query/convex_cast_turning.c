@@ -96,8 +96,8 @@ bool tl_convex_cast_turning(const tl_convex *a, tl_transform pose_a, const tl_co
     memset(hit_out, 0, sizeof *hit_out);
     tl_minkowski pair;
     turning_cast c;
-    if (!tl_minkowski_init(&pair, a, pose_a, b, from) || !tl_minkowski_init(&pair, a, pose_a, b, to) || !(gap > 0.0f) ||
-        !start_turning(&c, b, from, to)) {
+    if (!tl_minkowski_init(&pair, a, &pose_a, b, &from) || !tl_minkowski_init(&pair, a, &pose_a, b, &to) ||
+        !(gap > 0.0f) || !start_turning(&c, b, from, to)) {
         hit_out->status = TL_CONVEX_NOT_FINITE;
         return false;
     }

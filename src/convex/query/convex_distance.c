@@ -15,7 +15,7 @@ void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex
     TL_ASSERT(a != NULL && b != NULL && separation_out != NULL);
     tl_minkowski pair;
     memset(separation_out, 0, sizeof *separation_out);
-    if (!tl_minkowski_init(&pair, a, pose_a, b, pose_b)) {
+    if (!tl_minkowski_init(&pair, a, &pose_a, b, &pose_b)) {
         separation_out->status = TL_CONVEX_NOT_FINITE;
         return;
     }
@@ -45,7 +45,7 @@ bool tl_convex_overlap(const tl_convex *a, tl_transform pose_a, const tl_convex 
 {
     TL_ASSERT(a != NULL && b != NULL);
     tl_minkowski pair;
-    if (!tl_minkowski_init(&pair, a, pose_a, b, pose_b)) {
+    if (!tl_minkowski_init(&pair, a, &pose_a, b, &pose_b)) {
         return false;
     }
     double radii = (double)a->radius + (double)b->radius;

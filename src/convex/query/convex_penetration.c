@@ -39,7 +39,7 @@ bool tl_convex_penetration(const tl_convex *a, tl_transform pose_a, const tl_con
     TL_ASSERT(a != NULL && b != NULL && penetration_out != NULL);
     tl_minkowski pair;
     memset(penetration_out, 0, sizeof *penetration_out);
-    if (!tl_minkowski_init(&pair, a, pose_a, b, pose_b)) {
+    if (!tl_minkowski_init(&pair, a, &pose_a, b, &pose_b)) {
         penetration_out->status = TL_CONVEX_NOT_FINITE;
         return false;
     }
