@@ -227,7 +227,7 @@ tl_vec3d tl_minkowski_offset(const tl_minkowski *pair)
 }
 
 // Sets w from the point of B in B's frame.
-static void finish_point(tl_minkowski *pair, tl_vec3d on_b, tl_minkowski_point *point)
+static TL_ALWAYS_INLINE void finish_point(tl_minkowski *pair, tl_vec3d on_b, tl_minkowski_point *point)
 {
     point->w = tl_vec3d_sub(point->a, tl_frame_point(&pair->b_to_a, on_b));
     double scale = tl_vec3d_size(point->a) + tl_vec3d_size(on_b) + pair->origin_size;
