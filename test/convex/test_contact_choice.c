@@ -195,12 +195,37 @@ static void test_contacts_continue(void **state)
     TEST_CHECK(contacts > 3 * calls && fresh < contacts / 200);
 }
 
+// A needle's tip over the edge of a box: what lies within rounding of both its sides is not beyond its tip.
+static void test_sharp_tips(void **state)
+{
+    (void)state;
+    test_random random = { 54 };
+    const tl_convex box = tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(0.5f, 0.5f, 0.5f), 0.0f);
+    uint32_t wrong = 0, found = 0;
+    for (uint32_t i = 0; i < 20000; i++) {
+        const float width = 1e-5f * (1.0f + (float)(i % 1000)), turn = test_random_range(&random, -1.0f, 1.0f);
+        const tl_vec3 tip = tl_vec3_make(0.5f + test_random_range(&random, -1e-4f, 1e-4f), 0.502f, 0.0f);
+        const tl_vec3 to = tl_vec3_make(tip.x - 0.8f, tip.y + test_random_range(&random, 0.1f, 0.6f), turn);
+        const tl_convex needle = tl_convex_triangle(tip, to, tl_vec3_make(to.x, to.y, to.z + width), 0.0f);
+        const tl_transform at = tl_transform_identity();
+        tl_contact_manifold m;
+        float bounds[2];
+        tl_convex_contacts(&box, at, &needle, at, &(tl_contact_limits){ 0.01f, 0.01f }, NULL, &m);
+        signed_distance(&box, at, &needle, at, bounds);
+        found += m.count > 0;
+        wrong += m.count > 0 && !(least_separation(&m) >= bounds[0] - 4e-6f);
+    }
+    print_message("%u tips, wrong %u\n", found, wrong);
+    TEST_CHECK(found > 19000 && wrong == 0);
+}
+
 int main(int argc, char **argv)
 {
     pair_count = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : pair_count;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_least_separation_is_the_distance),
         cmocka_unit_test(test_area_under_jitter),
+        cmocka_unit_test(test_sharp_tips),
         cmocka_unit_test(test_contacts_continue),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

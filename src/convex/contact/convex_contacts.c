@@ -46,6 +46,16 @@ static void add_deepest(tl_patch *patch, const tl_deepest *deepest)
     patch->in_order = false;
 }
 
+// No point is deeper than the support along the normal. At the tip of a needle, corners that are within rounding of
+// both its sides may lie far beyond it, and its plane there below it.
+static void raise_points(tl_patch *patch, double separation)
+{
+    for (uint32_t i = 0; i < patch->count; i++) {
+        tl_patch_point *p = &patch->points[i];
+        p->on_b = p->on_b - p->on_a < separation ? p->on_a + separation : p->on_b;
+    }
+}
+
 // The corners of the patch, with the deepest point. False when that is neither among them nor known.
 static bool find_common_patch(contact_search *s, const tl_deepest *deepest)
 {
@@ -61,6 +71,9 @@ static bool find_common_patch(contact_search *s, const tl_deepest *deepest)
     tl_patch_find(&face_a, &face_b, fmax(limit, deepest->separation + gap), s->cache, &s->patch);
     double slack = deepest->has_points ? gap : fmax(gap, s->slack);
     const uint32_t lowest = s->patch.count > 0 ? tl_patch_lowest(&s->patch) : 0;
+    if (s->patch.count > 0 && tl_patch_separation(&s->patch.points[lowest]) < deepest->separation - gap) {
+        raise_points(&s->patch, deepest->separation);
+    }
     if (s->patch.count > 0 && tl_patch_separation(&s->patch.points[lowest]) <= deepest->separation + slack) {
         tl_patch_choose(&s->patch, lowest, fmax(gap, s->slack));
         return true;
