@@ -255,7 +255,7 @@ static bool start_search(contact_search *s, const tl_convex *a, const tl_transfo
     return true;
 }
 
-static uint32_t end_search(contact_search *s)
+static uint32_t zero_the_rest(contact_search *s)
 {
     static const tl_contact none = { 0 };
     for (uint32_t i = s->out->count; i < TL_MAX_CONTACTS; i++) {
@@ -271,7 +271,7 @@ uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_co
     contact_search s;
     s.out = manifold_out;
     if (!start_search(&s, a, &pose_a, b, &pose_b, limits)) {
-        return end_search(&s);
+        return zero_the_rest(&s);
     }
     if (cache != NULL && cache->count > TL_MAX_CONTACTS) {
         cache->count = 0; // not what a call left there
@@ -282,7 +282,7 @@ uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_co
     if (cache != NULL) {
         cache->count = manifold_out->count;
     }
-    return end_search(&s);
+    return zero_the_rest(&s);
 }
 
 // B's farthest point on A's face, when it lies over that.
@@ -319,13 +319,13 @@ uint32_t tl_convex_contacts_along(const tl_convex *a, tl_transform pose_a, const
     contact_search s;
     s.out = manifold_out;
     if (!start_search(&s, a, &pose_a, b, &pose_b, limits)) {
-        return end_search(&s);
+        return zero_the_rest(&s);
     }
     tl_vec3d along = tl_frame_rotate_back(&s.pair.a_to_world, tl_vec3d_from(normal));
     double length = tl_vec3d_length(along);
     if (!(length > 0.0 && length <= DBL_MAX)) {
         manifold_out->status = TL_CONVEX_NOT_FINITE;
-        return end_search(&s);
+        return zero_the_rest(&s);
     }
     tl_deepest deepest;
     deepest.normal = tl_vec3d_scale(along, 1.0 / length);
@@ -347,5 +347,5 @@ uint32_t tl_convex_contacts_along(const tl_convex *a, tl_transform pose_a, const
         tl_patch_choose(&s.patch, tl_patch_lowest(&s.patch), DEEPEST_GAP * s.pair.scale);
         write_manifold(&s, &deepest);
     }
-    return end_search(&s);
+    return zero_the_rest(&s);
 }

@@ -188,7 +188,7 @@ static bool cut_by(face_cut *c, uint32_t by)
 }
 
 // Those that coincide are neighbours; the first of them stays.
-static void add_corners(const face_cut *c, const tl_patch_heights heights[2], tl_patch *patch)
+static void add_clipped(const face_cut *c, const tl_patch_heights heights[2], tl_patch *patch)
 {
     const tl_point2 first = c->corners[0];
     uint32_t count = c->count;
@@ -227,6 +227,6 @@ bool tl_face_clip(const tl_face *a, const tl_face *b, const tl_patch_heights hei
             return false;
         }
     }
-    add_corners(&c, heights, patch);
+    add_clipped(&c, heights, patch);
     return true;
 }
