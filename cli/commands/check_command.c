@@ -6,6 +6,7 @@
 #include "cli/level/open_input.h"
 #include "cli/shared/json_out.h"
 
+#include <talus/nav_routes.h>
 #include <talus/polygon.h>
 
 #include <stdio.h>
@@ -200,6 +201,9 @@ static tl_result check_chunk(findings *f, tl_pack_chunk chunk)
         break;
     case TL_PACK_PRUN:
         add_failed(f, part, tl_pack_pruning_check(chunk.bytes, chunk.size, &report), &report);
+        break;
+    case TL_PACK_ROUT:
+        add_failed(f, part, tl_nav_routes_check(chunk.bytes, chunk.size, &report), &report);
         break;
     default: // a later version may have more kinds; their bytes are covered by the file's hashes
         break;

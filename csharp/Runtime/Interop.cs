@@ -248,6 +248,14 @@ namespace Talus.Interop
         TL_NAV_PREPARED_LABELS = 3,
     }
 
+    public enum tl_pack_axes
+    {
+        TL_PACK_AXES_Y_UP = 0,
+        TL_PACK_AXES_Z_UP = 1,
+        TL_PACK_AXES_Y_UP_LEFT = 2,
+        TL_PACK_AXES_Z_UP_LEFT = 3,
+    }
+
     public enum tl_nav_wide_status
     {
         TL_NAV_WIDE_NONE = 0,
@@ -256,14 +264,6 @@ namespace Talus.Interop
         TL_NAV_WIDE_OUT_OF_NODES = 3,
         TL_NAV_WIDE_START_BLOCKED = 4,
         TL_NAV_WIDE_GOAL_BLOCKED = 5,
-    }
-
-    public enum tl_pack_axes
-    {
-        TL_PACK_AXES_Y_UP = 0,
-        TL_PACK_AXES_Z_UP = 1,
-        TL_PACK_AXES_Y_UP_LEFT = 2,
-        TL_PACK_AXES_Z_UP_LEFT = 3,
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -2178,107 +2178,6 @@ namespace Talus.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_nav_pvs_def
-    {
-        public float eye_height;
-        public float max_distance;
-        public tl_ray_filter* filter;
-        public tl_host host;
-        public uint cookie;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_nav_pvs
-    {
-        public tl_blob blob;
-        public uint slot_count;
-        public uint polygon_count;
-        public uint words;
-        public float eye_height;
-        public ulong first;
-        public ulong rows;
-        public ulong pair_count;
-        public ulong reserved;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_nav_cover_request
-    {
-        public tl_navmesh* navmesh;
-        public tl_soup* soup;
-        public tl_nav_filter* filter;
-        public tl_nav_location agent;
-        public tl_vec3 threat;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_nav_cover_def
-    {
-        public fixed float heights[8];
-        public uint height_count;
-        public float spacing;
-        public float max_length;
-        public tl_ray_filter* sight_filter;
-        public uint cookie;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_nav_cover
-    {
-        public tl_nav_location location;
-        public float length;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_nav_polygon_state
-    {
-        public ulong flags;
-        public byte area;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_nav_versions
-    {
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_nav_versions_state
-    {
-        public uint version_count;
-        public ulong newest;
-        public ulong oldest;
-        public ulong waiting_bytes;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_nav_wide_path
-    {
-        public tl_nav_wide_status status;
-        public uint corner_count;
-        public double wall_distance;
-        public double length;
-        public double surface_length;
-        public uint node_count;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_nav_wide_def
-    {
-        public float max_radius;
-        public uint cookie;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_nav_wide_report
-    {
-        public tl_report @base;
-        public ulong bytes;
-        public ulong wall_count;
-        public uint tile_count;
-        public uint made_tile_count;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_pack_item
     {
         public uint type;
@@ -2484,6 +2383,158 @@ namespace Talus.Interop
         public ulong peak_bytes;
         public ulong index_bytes;
         public ulong read_bytes;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_routes
+    {
+        public tl_blob blob;
+        public fixed uint tiles_hash[2];
+        public uint gate_count;
+        public uint length_count;
+        public uint block;
+        public fixed uint reserved[7];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_routes_def
+    {
+        public IntPtr read;
+        public void* user;
+        public uint block;
+        public tl_host host;
+        public uint cookie;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_router
+    {
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_world_route_request
+    {
+        public tl_nav_location start;
+        public tl_nav_location goal;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_world_route_point
+    {
+        public fixed double point[3];
+        public double length;
+        public int tile_x;
+        public int tile_z;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_world_route
+    {
+        public tl_nav_path_status status;
+        public uint point_count;
+        public double length;
+        public double lower_bound;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_pvs_def
+    {
+        public float eye_height;
+        public float max_distance;
+        public tl_ray_filter* filter;
+        public tl_host host;
+        public uint cookie;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_pvs
+    {
+        public tl_blob blob;
+        public uint slot_count;
+        public uint polygon_count;
+        public uint words;
+        public float eye_height;
+        public ulong first;
+        public ulong rows;
+        public ulong pair_count;
+        public ulong reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_cover_request
+    {
+        public tl_navmesh* navmesh;
+        public tl_soup* soup;
+        public tl_nav_filter* filter;
+        public tl_nav_location agent;
+        public tl_vec3 threat;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_cover_def
+    {
+        public fixed float heights[8];
+        public uint height_count;
+        public float spacing;
+        public float max_length;
+        public tl_ray_filter* sight_filter;
+        public uint cookie;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_cover
+    {
+        public tl_nav_location location;
+        public float length;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_polygon_state
+    {
+        public ulong flags;
+        public byte area;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_versions
+    {
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_versions_state
+    {
+        public uint version_count;
+        public ulong newest;
+        public ulong oldest;
+        public ulong waiting_bytes;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_wide_path
+    {
+        public tl_nav_wide_status status;
+        public uint corner_count;
+        public double wall_distance;
+        public double length;
+        public double surface_length;
+        public uint node_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_wide_def
+    {
+        public float max_radius;
+        public uint cookie;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_wide_report
+    {
+        public tl_report @base;
+        public ulong bytes;
+        public ulong wall_count;
+        public uint tile_count;
+        public uint made_tile_count;
     }
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
@@ -3085,64 +3136,6 @@ namespace Talus.Interop
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern byte tl_navmesh_is_prepared(tl_navmesh* navmesh);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_nav_pvs_def tl_default_nav_pvs_def();
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_pvs_bake(tl_nav_pvs_def* def, tl_navmesh* navmesh, tl_soup* soup, tl_nav_pvs** pvs_out, tl_report* report_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_pvs_check(void* bytes, ulong size, tl_report* report_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_pvs_sees(tl_nav_pvs* pvs, tl_navmesh* navmesh, ulong a, ulong b, byte* seen_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_pvs_seen_from(tl_nav_pvs* pvs, tl_navmesh* navmesh, ulong from, ulong* polygons_out, uint capacity, uint* count_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_nav_cover_def tl_default_nav_cover_def();
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_query_find_cover(tl_nav_query* query, tl_nav_cover_request* request, tl_nav_cover_def* def, tl_nav_cover* covers_out, uint capacity, uint* count_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_navmesh_polygon_flags(tl_navmesh* navmesh, ulong polygon, ulong* flags_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_navmesh_polygon_area(tl_navmesh* navmesh, ulong polygon, byte* area_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_navmesh_set_polygon_flags(tl_navmesh* navmesh, ulong polygon, ulong flags);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_navmesh_set_polygon_area(tl_navmesh* navmesh, ulong polygon, byte area);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_navmesh_store_state(tl_navmesh* navmesh, int tile_x, uint layer, int tile_z, tl_nav_polygon_state* states_out, uint capacity, uint* count_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_navmesh_restore_state(tl_navmesh* navmesh, int tile_x, uint layer, int tile_z, tl_nav_polygon_state* states, uint count, tl_report* report);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_navmesh_reset_state(tl_navmesh* navmesh, int tile_x, uint layer, int tile_z);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern byte tl_navmesh_is_state_changed(tl_navmesh* navmesh, int tile_x, uint layer, int tile_z);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_versions_create(tl_allocator* allocator, tl_nav_versions** versions_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern void tl_nav_versions_destroy(tl_nav_versions* versions);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_navmesh* tl_nav_versions_acquire(tl_nav_versions* versions);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern void tl_nav_versions_release(tl_nav_versions* versions, tl_navmesh* navmesh);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_versions_edit(tl_nav_versions* versions, tl_navmesh** draft_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_versions_publish(tl_nav_versions* versions);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_versions_reclaim(tl_nav_versions* versions, tl_nav_versions_state* state_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern byte* tl_nav_wide_status_name(tl_nav_wide_status status);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_query_find_wide_path(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_path_request* request, float agent_radius, tl_nav_corner* corners_out, uint capacity, tl_nav_wide_path* path_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_query_is_wide_reachable(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_path_request* request, float agent_radius, tl_nav_wide_status* status_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_nav_wide_def tl_default_nav_wide_def();
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_navmesh_prepare_wide(tl_navmesh* navmesh, tl_nav_wide_def* def, tl_nav_wide_report* report_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_query_find_wide_place(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_around_request* request, float agent_radius, tl_nav_location* place_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_nav_query_path_clearance(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_filter* filter, tl_nav_corner* corners, uint count, float max_distance, float* clearance_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_pack_write(tl_pack_item* items, uint count, tl_allocator* allocator, IntPtr write, void* user, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern ulong tl_pack_size(tl_pack_item* items, uint count);
@@ -3252,5 +3245,75 @@ namespace Talus.Interop
         public static extern tl_result tl_nav_world_find_path(tl_nav_world* world, tl_nav_query* query, tl_nav_path_request* request, tl_nav_path_buffers* buffers, tl_nav_shortest_path* path_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_nav_world_cast_ray(tl_nav_world* world, tl_nav_filter* filter, tl_nav_location* start, double* end, tl_nav_ray_hit* hit_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_nav_routes_def tl_default_nav_routes_def();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_routes_bake(tl_nav_routes_def* def, tl_nav_routes** routes_out, tl_report* report);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_routes_check(void* bytes, ulong size, tl_report* report);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_router_create(tl_nav_world* world, tl_allocator* allocator, tl_nav_router** router_out, tl_report* report);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_nav_router_destroy(tl_nav_router* router);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_world_find_route(tl_nav_world* world, tl_nav_router* router, tl_nav_world_route_request* request, tl_nav_world_route_point* points_out, uint capacity, tl_nav_world_route* route_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_nav_pvs_def tl_default_nav_pvs_def();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_pvs_bake(tl_nav_pvs_def* def, tl_navmesh* navmesh, tl_soup* soup, tl_nav_pvs** pvs_out, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_pvs_check(void* bytes, ulong size, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_pvs_sees(tl_nav_pvs* pvs, tl_navmesh* navmesh, ulong a, ulong b, byte* seen_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_pvs_seen_from(tl_nav_pvs* pvs, tl_navmesh* navmesh, ulong from, ulong* polygons_out, uint capacity, uint* count_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_nav_cover_def tl_default_nav_cover_def();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_query_find_cover(tl_nav_query* query, tl_nav_cover_request* request, tl_nav_cover_def* def, tl_nav_cover* covers_out, uint capacity, uint* count_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_navmesh_polygon_flags(tl_navmesh* navmesh, ulong polygon, ulong* flags_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_navmesh_polygon_area(tl_navmesh* navmesh, ulong polygon, byte* area_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_navmesh_set_polygon_flags(tl_navmesh* navmesh, ulong polygon, ulong flags);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_navmesh_set_polygon_area(tl_navmesh* navmesh, ulong polygon, byte area);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_navmesh_store_state(tl_navmesh* navmesh, int tile_x, uint layer, int tile_z, tl_nav_polygon_state* states_out, uint capacity, uint* count_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_navmesh_restore_state(tl_navmesh* navmesh, int tile_x, uint layer, int tile_z, tl_nav_polygon_state* states, uint count, tl_report* report);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_navmesh_reset_state(tl_navmesh* navmesh, int tile_x, uint layer, int tile_z);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern byte tl_navmesh_is_state_changed(tl_navmesh* navmesh, int tile_x, uint layer, int tile_z);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_versions_create(tl_allocator* allocator, tl_nav_versions** versions_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_nav_versions_destroy(tl_nav_versions* versions);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_navmesh* tl_nav_versions_acquire(tl_nav_versions* versions);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_nav_versions_release(tl_nav_versions* versions, tl_navmesh* navmesh);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_versions_edit(tl_nav_versions* versions, tl_navmesh** draft_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_versions_publish(tl_nav_versions* versions);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_versions_reclaim(tl_nav_versions* versions, tl_nav_versions_state* state_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern byte* tl_nav_wide_status_name(tl_nav_wide_status status);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_query_find_wide_path(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_path_request* request, float agent_radius, tl_nav_corner* corners_out, uint capacity, tl_nav_wide_path* path_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_query_is_wide_reachable(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_path_request* request, float agent_radius, tl_nav_wide_status* status_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_nav_wide_def tl_default_nav_wide_def();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_navmesh_prepare_wide(tl_navmesh* navmesh, tl_nav_wide_def* def, tl_nav_wide_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_query_find_wide_place(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_around_request* request, float agent_radius, tl_nav_location* place_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_query_path_clearance(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_filter* filter, tl_nav_corner* corners, uint count, float max_distance, float* clearance_out);
     }
 }

@@ -35,6 +35,7 @@ extern "C" {
 #define TL_PACK_MARK             TL_PACK_TYPE('M', 'A', 'R', 'K') ///< tl_pack_volumes: volumes the tiles were baked with
 #define TL_PACK_PRUN             TL_PACK_TYPE('P', 'R', 'U', 'N') ///< tl_pack_pruning: rules that islands were left out by
 #define TL_PACK_PRUT             TL_PACK_TYPE('P', 'R', 'U', 'T') ///< tl_nav_tile: what was left out; the id numbers them
+#define TL_PACK_ROUT             TL_PACK_TYPE('R', 'O', 'U', 'T') ///< tl_nav_routes: lengths over a whole world (nav_routes.h)
 
 /// One chunk to be written. The pair (type, id) is its name and must be unique in the file.
 typedef struct tl_pack_item {
@@ -181,6 +182,8 @@ TL_API tl_result tl_pack_write_fetched(const tl_pack_entry *entries, uint32_t co
 #define TL_PACK_OFFMESH_VERSION 1u
 #define TL_PACK_AREAS_MAGIC     TL_PACK_AREA
 #define TL_PACK_AREAS_VERSION   1u
+#define TL_PACK_ROUTES_MAGIC    TL_PACK_ROUT
+#define TL_PACK_ROUTES_VERSION  1u
 
 /// Where the geometry came from. A blob; the name follows it.
 typedef struct tl_pack_meta {

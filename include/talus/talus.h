@@ -22,6 +22,7 @@
 #include <talus/nav_prepare.h>
 #include <talus/nav_prune.h>
 #include <talus/nav_query.h>
+#include <talus/nav_routes.h>
 #include <talus/nav_sight.h>
 #include <talus/nav_state.h>
 #include <talus/nav_tile.h>

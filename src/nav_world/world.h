@@ -84,7 +84,17 @@ struct tl_nav_world {
     tl_sort_item *sorted; ///< scratch, twice the room
     uint32_t loading, ready, failed;
     uint64_t present_file_bytes, read_bytes;
+
+    struct tl_world_routes *routes; ///< NULL: the file has none
 };
+
+/// tl_nav_world_create; `bare`: what the file has of routes is not looked at.
+tl_result tl_nav_world_open(const tl_nav_world_def *def, bool bare, tl_nav_world **world_out, tl_report *report);
+
+/// Reads a tile of the file into `blob`, of the size that the index says, and checks it: hash, contents, and that it is
+/// the one that its head promised. `*advice` (not NULL) says what to do about a failure.
+tl_result tl_nav_world_read_tile(const tl_nav_world *world, const tl_nav_world_tile *tile, tl_nav_tile *blob,
+                                 const char **advice);
 
 /// The place at (x, z) of the file's grid, or TL_NAV_WORLD_NO_PLACE. O(log places).
 uint32_t tl_nav_world_find_place(const tl_nav_world *world, int64_t x, int64_t z);
@@ -93,6 +103,8 @@ uint32_t tl_nav_world_find_place(const tl_nav_world *world, int64_t x, int64_t z
 void tl_nav_world_frame_origin(const tl_nav_world *world, double out[2]);
 /// A point of the level in metres of the file, in double.
 void tl_nav_world_to_file(const tl_nav_world *world, const double point[3], double out[3]);
+/// And back.
+void tl_nav_world_from_file(const tl_nav_world *world, const double at[3], double out[3]);
 
 /// Moves a checked tile so many places of the grid towards local 0, which is the lattice's origin from then on: its
 /// place and corners are counted from there, exactly; inner points of the surface are rounded to 512ths of a cell

@@ -5,7 +5,7 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
-#include "nav_world/world.h"
+#include "nav_world/routes.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -254,7 +254,7 @@ static void gather_places(tl_nav_world *world)
     }
 }
 
-static tl_result open_world(tl_nav_world *world, tl_report *report)
+static tl_result open_world(tl_nav_world *world, bool bare, tl_report *report)
 {
     TL_TRY(read_index(world, report));
     TL_TRY(read_settings(world, report));
@@ -283,10 +283,18 @@ static tl_result open_world(tl_nav_world *world, tl_report *report)
     }
     TL_TRY(read_tiles(world, report));
     gather_places(world);
+    if (!bare) {
+        TL_TRY(tl_nav_world_open_routes(world, report));
+    }
     return tl_navmesh_create(&world->budgeted, &world->navmesh) == TL_OK ? TL_OK : out_of_memory(report);
 }
 
 tl_result tl_nav_world_create(const tl_nav_world_def *def, tl_nav_world **world_out, tl_report *report)
+{
+    return tl_nav_world_open(def, false, world_out, report);
+}
+
+tl_result tl_nav_world_open(const tl_nav_world_def *def, bool bare, tl_nav_world **world_out, tl_report *report)
 {
     tl_report_begin(report, "open world");
     TL_REFUSE_NULL(world_out, report);
@@ -306,7 +314,7 @@ tl_result tl_nav_world_create(const tl_nav_world_def *def, tl_nav_world **world_
     world->read = def->read;
     world->read_user = def->user;
     world->frame_reach = def->frame_reach;
-    const tl_result result = open_world(world, report);
+    const tl_result result = open_world(world, bare, report);
     if (result != TL_OK) {
         tl_nav_world_destroy(world);
         return result;
@@ -321,6 +329,7 @@ void tl_nav_world_destroy(tl_nav_world *world)
         return;
     }
     tl_navmesh_destroy(world->navmesh);
+    tl_nav_world_close_routes(world);
     for (uint32_t i = 0; i < world->place_count; i++) {
         tl_nav_world_drop_blobs(world, i);
     }

@@ -94,30 +94,30 @@ tl_result tl_nav_world_begin_load(tl_nav_world *world, tl_nav_world_load *load_o
 }
 
 // Whether a checked tile is the one that the index promised, of the file's own lattice.
-static bool is_promised(const tl_nav_world *world, const tl_nav_world_tile *tile)
+static bool is_promised(const tl_nav_world *world, const tl_nav_world_tile *tile, const tl_nav_tile *blob)
 {
-    const tl_nav_tile *blob = tile->blob;
     return blob->tile_x == tile->x && blob->tile_z == tile->z && blob->layer == tile->layer &&
            memcmp(&blob->bounds, &tile->bounds, sizeof tile->bounds) == 0 && blob->tile_size == world->tile_size &&
            blob->cell_size == world->cell_size && blob->origin.x == world->lattice_origin.x &&
            blob->origin.z == world->lattice_origin.z;
 }
 
-static tl_result load_tile(const tl_nav_world *world, const tl_nav_world_tile *tile, const char **advice)
+tl_result tl_nav_world_read_tile(const tl_nav_world *world, const tl_nav_world_tile *tile, tl_nav_tile *blob,
+                                 const char **advice)
 {
     const tl_pack_entry *entry = &world->index.entries[tile->entry];
     tl_report report;
     memset(&report, 0, sizeof report);
-    tl_result result = world->read(entry->offset, tile->blob, (size_t)entry->size, world->read_user);
+    tl_result result = world->read(entry->offset, blob, (size_t)entry->size, world->read_user);
     if (result != TL_OK) {
         *advice = "the file could not be read";
         return tl_is_error(result) ? result : TL_ERR_IO;
     }
-    result = tl_pack_entry_open(entry, tile->blob, &report);
+    result = tl_pack_entry_open(entry, blob, &report);
     if (result == TL_OK) {
-        result = tl_nav_tile_check(tile->blob, entry->size, &report);
+        result = tl_nav_tile_check(blob, entry->size, &report);
     }
-    if (result == TL_OK && !is_promised(world, tile)) {
+    if (result == TL_OK && !is_promised(world, tile, blob)) {
         report.advice = "it is another tile than its head said: merge the file again";
         result = TL_ERR_CORRUPT;
     }
@@ -134,7 +134,8 @@ tl_result tl_nav_world_run_load(tl_nav_world_load *load)
     const tl_nav_world_place *place = &world->places[load->place];
     load->result = TL_OK;
     for (uint32_t i = 0; load->result == TL_OK && i < place->tile_count; i++) {
-        load->result = load_tile(world, &world->tiles[place->first_tile + i], &load->advice);
+        const tl_nav_world_tile *tile = &world->tiles[place->first_tile + i];
+        load->result = tl_nav_world_read_tile(world, tile, tile->blob, &load->advice);
     }
     return load->result;
 }

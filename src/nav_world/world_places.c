@@ -94,6 +94,14 @@ void tl_nav_world_to_file(const tl_nav_world *world, const double point[3], doub
     turn_in(world->axes, from_origin, out);
 }
 
+void tl_nav_world_from_file(const tl_nav_world *world, const double at[3], double out[3])
+{
+    turn_out(world->axes, at, out);
+    for (int i = 0; i < 3; i++) {
+        out[i] += world->origin[i];
+    }
+}
+
 void tl_nav_world_frame_origin(const tl_nav_world *world, double out[2])
 {
     const double cell = (double)world->cell_size;
@@ -118,10 +126,7 @@ void tl_nav_world_place_out(const tl_nav_world *world, tl_vec3 point, double out
     TL_ASSERT(world != NULL && out != NULL);
     tl_nav_world_frame_origin(world, origin);
     const double at[3] = { (double)point.x + origin[0], (double)point.y, (double)point.z + origin[1] };
-    turn_out(world->axes, at, out);
-    for (int i = 0; i < 3; i++) {
-        out[i] += world->origin[i];
-    }
+    tl_nav_world_from_file(world, at, out);
 }
 
 const tl_navmesh *tl_nav_world_navmesh(const tl_nav_world *world)

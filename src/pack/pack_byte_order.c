@@ -85,6 +85,7 @@ static const blob_kind KINDS[] = {
     { TL_PACK_PRUNING_MAGIC, TL_PACK_PRUN, swap_pruning },
     { TL_PACK_OFFMESH_MAGIC, TL_PACK_OFFM, swap_offmesh },
     { TL_PACK_AREAS_MAGIC, TL_PACK_AREA, swap_areas },
+    { TL_PACK_ROUTES_MAGIC, TL_PACK_ROUT, swap_settings },
 };
 
 static const blob_kind *find_kind(const void *bytes, uint64_t size, bool foreign)

@@ -2,73 +2,21 @@
 //
 // nav_world.h.
 
-#include "contract_nav.h"
-
-#include <stdlib.h>
-#include <talus/nav_world.h>
-
-// The level's tiles as a file in memory, made once.
-typedef struct level_file {
-    unsigned char *bytes;
-    size_t size;
-} level_file;
-
-static tl_result append(const void *bytes, size_t size, void *user)
-{
-    level_file *file = user;
-    file->bytes = realloc(file->bytes, file->size + size);
-    TEST_CHECK(file->bytes != NULL);
-    memcpy(file->bytes + file->size, bytes, size);
-    file->size += size;
-    return TL_OK;
-}
-
-static tl_result read_file(uint64_t offset, void *bytes, size_t size, void *user)
-{
-    const level_file *file = user;
-    if (offset > file->size || size > file->size - offset) {
-        return TL_ERR_TRUNCATED;
-    }
-    memcpy(bytes, file->bytes + offset, size);
-    return TL_OK;
-}
-
-static level_file make_level_file(void)
-{
-    const contract_level *level = contract_level_get();
-    const tl_nav_tiles *tiles = &level->tiles;
-    tl_pack_item items[8];
-    level_file file = { NULL, 0 };
-    tl_pack_navmesh *navmesh = NULL;
-    tl_nav_def def = level->nav_def;
-    def.bounds.min = tiles->tiles[0]->origin;
-    def.bounds.max = tl_add(def.bounds.min, tl_vec3_make(30, 10, 30));
-    TEST_CHECK(tiles->tile_count < 8);
-    TEST_RESULT(tl_pack_navmesh_encode(&def, 4, 4, tiles->tile_count, NULL, &navmesh, NULL), TL_OK);
-    const tl_pack_item settings = { TL_PACK_NAVM, 0, navmesh, navmesh->blob.size };
-    items[0] = settings;
-    for (uint32_t i = 0; i < tiles->tile_count; i++) {
-        const tl_pack_item item = { TL_PACK_NAVT, i, tiles->tiles[i], tiles->tiles[i]->blob.size };
-        items[1 + i] = item;
-    }
-    TEST_RESULT(tl_pack_write(items, 1 + tiles->tile_count, NULL, append, &file, NULL), TL_OK);
-    tl_blob_free(navmesh);
-    return file;
-}
+#include "contract_world_file.h"
 
 static const char *const WORLD_FIELDS[] = { "read", "budget", "frame_reach", NULL };
 
 static tl_result world_create(contract_run *run)
 {
-    level_file file = make_level_file();
+    level_file file = level_file_make(NULL, 0);
     tl_nav_world_def def = tl_default_nav_world_def();
     tl_nav_world *world = NULL;
-    def.read = read_file;
+    def.read = level_file_read;
     def.user = &file;
     if (run->what == CONTRACT_ZEROED_DEF) {
         memset(&def, 0, sizeof def);
     } else if (run->what == CONTRACT_BAD_FIELD) {
-        def.read = run->variant == 0 ? NULL : read_file;
+        def.read = run->variant == 0 ? NULL : level_file_read;
         def.budget = run->variant == 1 ? 1 : def.budget;
         def.frame_reach = run->variant == 2 ? 0.0 : def.frame_reach;
     }
@@ -119,9 +67,9 @@ static open_world world_begin(const contract_run *run, bool loaded)
     memset(&open, 0, sizeof open);
     open.file = malloc(sizeof *open.file);
     TEST_CHECK(open.file != NULL);
-    *open.file = make_level_file();
+    *open.file = level_file_make(NULL, 0);
     tl_nav_world_def def = tl_default_nav_world_def();
-    def.read = read_file;
+    def.read = level_file_read;
     def.user = open.file;
     def.allocator = run->host->allocator;
     TEST_RESULT(tl_nav_world_create(&def, &open.world, NULL), TL_OK);

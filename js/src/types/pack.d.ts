@@ -29,7 +29,7 @@ export interface PackFrame {
 }
 
 export interface PackChunk {
-  /** Four characters: META, FRAM, SOUP, HULL, NAVM, NAVT, LINK, OFFM, AREA, MARK, PRUN, PRUT, or the user's own. */
+  /** Four characters: META, FRAM, SOUP, HULL, NAVM, NAVT, LINK, OFFM, AREA, MARK, PRUN, PRUT, ROUT, or the user's own. */
   type: string;
   id: number;
   size: number;

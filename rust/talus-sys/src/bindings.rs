@@ -168,6 +168,11 @@ pub const TL_NAV_PREPARED_NONE: tl_nav_prepared_kind = 0;
 pub const TL_NAV_PREPARED_GRAPH: tl_nav_prepared_kind = 1;
 pub const TL_NAV_PREPARED_TABLE: tl_nav_prepared_kind = 2;
 pub const TL_NAV_PREPARED_LABELS: tl_nav_prepared_kind = 3;
+pub type tl_pack_axes = c_int;
+pub const TL_PACK_AXES_Y_UP: tl_pack_axes = 0;
+pub const TL_PACK_AXES_Z_UP: tl_pack_axes = 1;
+pub const TL_PACK_AXES_Y_UP_LEFT: tl_pack_axes = 2;
+pub const TL_PACK_AXES_Z_UP_LEFT: tl_pack_axes = 3;
 pub type tl_nav_wide_status = c_int;
 pub const TL_NAV_WIDE_NONE: tl_nav_wide_status = 0;
 pub const TL_NAV_WIDE_COMPLETE: tl_nav_wide_status = 1;
@@ -175,11 +180,6 @@ pub const TL_NAV_WIDE_UNREACHABLE: tl_nav_wide_status = 2;
 pub const TL_NAV_WIDE_OUT_OF_NODES: tl_nav_wide_status = 3;
 pub const TL_NAV_WIDE_START_BLOCKED: tl_nav_wide_status = 4;
 pub const TL_NAV_WIDE_GOAL_BLOCKED: tl_nav_wide_status = 5;
-pub type tl_pack_axes = c_int;
-pub const TL_PACK_AXES_Y_UP: tl_pack_axes = 0;
-pub const TL_PACK_AXES_Z_UP: tl_pack_axes = 1;
-pub const TL_PACK_AXES_Y_UP_LEFT: tl_pack_axes = 2;
-pub const TL_PACK_AXES_Z_UP_LEFT: tl_pack_axes = 3;
 pub type tl_task_fn = unsafe extern "C" fn(u32, u32, *mut c_void);
 pub type tl_convex_support_fn = unsafe extern "C" fn(tl_vec3, *mut c_void) -> tl_vec3;
 pub type tl_triangle_filter_fn = unsafe extern "C" fn(u32, u16, *mut c_void) -> bool;
@@ -1896,96 +1896,6 @@ pub struct tl_nav_prepared {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct tl_nav_pvs_def {
-    pub eye_height: f32,
-    pub max_distance: f32,
-    pub filter: *const tl_ray_filter,
-    pub host: tl_host,
-    pub cookie: u32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_nav_pvs {
-    pub blob: tl_blob,
-    pub slot_count: u32,
-    pub polygon_count: u32,
-    pub words: u32,
-    pub eye_height: f32,
-    pub first: u64,
-    pub rows: u64,
-    pub pair_count: u64,
-    pub reserved: u64,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_nav_cover_request {
-    pub navmesh: *const tl_navmesh,
-    pub soup: *const tl_soup,
-    pub filter: *const tl_nav_filter,
-    pub agent: tl_nav_location,
-    pub threat: tl_vec3,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_nav_cover_def {
-    pub heights: [f32; 8],
-    pub height_count: u32,
-    pub spacing: f32,
-    pub max_length: f32,
-    pub sight_filter: *const tl_ray_filter,
-    pub cookie: u32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_nav_cover {
-    pub location: tl_nav_location,
-    pub length: f32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_nav_polygon_state {
-    pub flags: u64,
-    pub area: u8,
-}
-#[repr(C)]
-pub struct tl_nav_versions {
-    _private: [u8; 0],
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_nav_versions_state {
-    pub version_count: u32,
-    pub newest: u64,
-    pub oldest: u64,
-    pub waiting_bytes: u64,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_nav_wide_path {
-    pub status: tl_nav_wide_status,
-    pub corner_count: u32,
-    pub wall_distance: f64,
-    pub length: f64,
-    pub surface_length: f64,
-    pub node_count: u32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_nav_wide_def {
-    pub max_radius: f32,
-    pub cookie: u32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_nav_wide_report {
-    pub base: tl_report,
-    pub bytes: u64,
-    pub wall_count: u64,
-    pub tile_count: u32,
-    pub made_tile_count: u32,
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
 pub struct tl_pack_item {
     pub r#type: u32,
     pub id: u32,
@@ -2172,6 +2082,141 @@ pub struct tl_nav_world_state {
     pub peak_bytes: u64,
     pub index_bytes: u64,
     pub read_bytes: u64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_routes {
+    pub blob: tl_blob,
+    pub tiles_hash: [u32; 2],
+    pub gate_count: u32,
+    pub length_count: u32,
+    pub block: u32,
+    pub reserved: [u32; 7],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_routes_def {
+    pub read: Option<tl_nav_world_read_fn>,
+    pub user: *mut c_void,
+    pub block: u32,
+    pub host: tl_host,
+    pub cookie: u32,
+}
+#[repr(C)]
+pub struct tl_nav_router {
+    _private: [u8; 0],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_world_route_request {
+    pub start: tl_nav_location,
+    pub goal: tl_nav_location,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_world_route_point {
+    pub point: [f64; 3],
+    pub length: f64,
+    pub tile_x: i32,
+    pub tile_z: i32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_world_route {
+    pub status: tl_nav_path_status,
+    pub point_count: u32,
+    pub length: f64,
+    pub lower_bound: f64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_pvs_def {
+    pub eye_height: f32,
+    pub max_distance: f32,
+    pub filter: *const tl_ray_filter,
+    pub host: tl_host,
+    pub cookie: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_pvs {
+    pub blob: tl_blob,
+    pub slot_count: u32,
+    pub polygon_count: u32,
+    pub words: u32,
+    pub eye_height: f32,
+    pub first: u64,
+    pub rows: u64,
+    pub pair_count: u64,
+    pub reserved: u64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_cover_request {
+    pub navmesh: *const tl_navmesh,
+    pub soup: *const tl_soup,
+    pub filter: *const tl_nav_filter,
+    pub agent: tl_nav_location,
+    pub threat: tl_vec3,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_cover_def {
+    pub heights: [f32; 8],
+    pub height_count: u32,
+    pub spacing: f32,
+    pub max_length: f32,
+    pub sight_filter: *const tl_ray_filter,
+    pub cookie: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_cover {
+    pub location: tl_nav_location,
+    pub length: f32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_polygon_state {
+    pub flags: u64,
+    pub area: u8,
+}
+#[repr(C)]
+pub struct tl_nav_versions {
+    _private: [u8; 0],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_versions_state {
+    pub version_count: u32,
+    pub newest: u64,
+    pub oldest: u64,
+    pub waiting_bytes: u64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_wide_path {
+    pub status: tl_nav_wide_status,
+    pub corner_count: u32,
+    pub wall_distance: f64,
+    pub length: f64,
+    pub surface_length: f64,
+    pub node_count: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_wide_def {
+    pub max_radius: f32,
+    pub cookie: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_wide_report {
+    pub base: tl_report,
+    pub bytes: u64,
+    pub wall_count: u64,
+    pub tile_count: u32,
+    pub made_tile_count: u32,
 }
 extern "C" {
     pub fn tl_result_name(result: tl_result) -> *const c_char;
@@ -3416,148 +3461,6 @@ extern "C" {
         prepared_out: *mut tl_nav_prepared,
     ) -> tl_result;
     pub fn tl_navmesh_is_prepared(navmesh: *const tl_navmesh) -> bool;
-    pub fn tl_default_nav_pvs_def() -> tl_nav_pvs_def;
-    pub fn tl_nav_pvs_bake(
-        def: *const tl_nav_pvs_def,
-        navmesh: *const tl_navmesh,
-        soup: *const tl_soup,
-        pvs_out: *mut *mut tl_nav_pvs,
-        report_out: *mut tl_report,
-    ) -> tl_result;
-    pub fn tl_nav_pvs_check(
-        bytes: *const c_void,
-        size: u64,
-        report_out: *mut tl_report,
-    ) -> tl_result;
-    pub fn tl_nav_pvs_sees(
-        pvs: *const tl_nav_pvs,
-        navmesh: *const tl_navmesh,
-        a: tl_nav_ref,
-        b: tl_nav_ref,
-        seen_out: *mut bool,
-    ) -> tl_result;
-    pub fn tl_nav_pvs_seen_from(
-        pvs: *const tl_nav_pvs,
-        navmesh: *const tl_navmesh,
-        from: tl_nav_ref,
-        polygons_out: *mut tl_nav_ref,
-        capacity: u32,
-        count_out: *mut u32,
-    ) -> tl_result;
-    pub fn tl_default_nav_cover_def() -> tl_nav_cover_def;
-    pub fn tl_nav_query_find_cover(
-        query: *mut tl_nav_query,
-        request: *const tl_nav_cover_request,
-        def: *const tl_nav_cover_def,
-        covers_out: *mut tl_nav_cover,
-        capacity: u32,
-        count_out: *mut u32,
-    ) -> tl_result;
-    pub fn tl_navmesh_polygon_flags(
-        navmesh: *const tl_navmesh,
-        polygon: tl_nav_ref,
-        flags_out: *mut u64,
-    ) -> tl_result;
-    pub fn tl_navmesh_polygon_area(
-        navmesh: *const tl_navmesh,
-        polygon: tl_nav_ref,
-        area_out: *mut u8,
-    ) -> tl_result;
-    pub fn tl_navmesh_set_polygon_flags(
-        navmesh: *mut tl_navmesh,
-        polygon: tl_nav_ref,
-        flags: u64,
-    ) -> tl_result;
-    pub fn tl_navmesh_set_polygon_area(
-        navmesh: *mut tl_navmesh,
-        polygon: tl_nav_ref,
-        area: u8,
-    ) -> tl_result;
-    pub fn tl_navmesh_store_state(
-        navmesh: *const tl_navmesh,
-        tile_x: i32,
-        layer: u32,
-        tile_z: i32,
-        states_out: *mut tl_nav_polygon_state,
-        capacity: u32,
-        count_out: *mut u32,
-    ) -> tl_result;
-    pub fn tl_navmesh_restore_state(
-        navmesh: *mut tl_navmesh,
-        tile_x: i32,
-        layer: u32,
-        tile_z: i32,
-        states: *const tl_nav_polygon_state,
-        count: u32,
-        report: *mut tl_report,
-    ) -> tl_result;
-    pub fn tl_navmesh_reset_state(
-        navmesh: *mut tl_navmesh,
-        tile_x: i32,
-        layer: u32,
-        tile_z: i32,
-    ) -> tl_result;
-    pub fn tl_navmesh_is_state_changed(
-        navmesh: *const tl_navmesh,
-        tile_x: i32,
-        layer: u32,
-        tile_z: i32,
-    ) -> bool;
-    pub fn tl_nav_versions_create(
-        allocator: *const tl_allocator,
-        versions_out: *mut *mut tl_nav_versions,
-    ) -> tl_result;
-    pub fn tl_nav_versions_destroy(versions: *mut tl_nav_versions);
-    pub fn tl_nav_versions_acquire(versions: *mut tl_nav_versions) -> *const tl_navmesh;
-    pub fn tl_nav_versions_release(versions: *mut tl_nav_versions, navmesh: *const tl_navmesh);
-    pub fn tl_nav_versions_edit(
-        versions: *mut tl_nav_versions,
-        draft_out: *mut *mut tl_navmesh,
-    ) -> tl_result;
-    pub fn tl_nav_versions_publish(versions: *mut tl_nav_versions) -> tl_result;
-    pub fn tl_nav_versions_reclaim(
-        versions: *mut tl_nav_versions,
-        state_out: *mut tl_nav_versions_state,
-    ) -> tl_result;
-    pub fn tl_nav_wide_status_name(status: tl_nav_wide_status) -> *const c_char;
-    pub fn tl_nav_query_find_wide_path(
-        query: *mut tl_nav_query,
-        navmesh: *const tl_navmesh,
-        request: *const tl_nav_path_request,
-        agent_radius: f32,
-        corners_out: *mut tl_nav_corner,
-        capacity: u32,
-        path_out: *mut tl_nav_wide_path,
-    ) -> tl_result;
-    pub fn tl_nav_query_is_wide_reachable(
-        query: *mut tl_nav_query,
-        navmesh: *const tl_navmesh,
-        request: *const tl_nav_path_request,
-        agent_radius: f32,
-        status_out: *mut tl_nav_wide_status,
-    ) -> tl_result;
-    pub fn tl_default_nav_wide_def() -> tl_nav_wide_def;
-    pub fn tl_navmesh_prepare_wide(
-        navmesh: *mut tl_navmesh,
-        def: *const tl_nav_wide_def,
-        report_out: *mut tl_nav_wide_report,
-    ) -> tl_result;
-    pub fn tl_nav_query_find_wide_place(
-        query: *mut tl_nav_query,
-        navmesh: *const tl_navmesh,
-        request: *const tl_nav_around_request,
-        agent_radius: f32,
-        place_out: *mut tl_nav_location,
-    ) -> tl_result;
-    pub fn tl_nav_query_path_clearance(
-        query: *mut tl_nav_query,
-        navmesh: *const tl_navmesh,
-        filter: *const tl_nav_filter,
-        corners: *const tl_nav_corner,
-        count: u32,
-        max_distance: f32,
-        clearance_out: *mut f32,
-    ) -> tl_result;
     pub fn tl_pack_write(
         items: *const tl_pack_item,
         count: u32,
@@ -3788,6 +3691,174 @@ extern "C" {
         start: *const tl_nav_location,
         end: *const f64,
         hit_out: *mut tl_nav_ray_hit,
+    ) -> tl_result;
+    pub fn tl_default_nav_routes_def() -> tl_nav_routes_def;
+    pub fn tl_nav_routes_bake(
+        def: *const tl_nav_routes_def,
+        routes_out: *mut *mut tl_nav_routes,
+        report: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_routes_check(
+        bytes: *const c_void,
+        size: u64,
+        report: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_router_create(
+        world: *const tl_nav_world,
+        allocator: *const tl_allocator,
+        router_out: *mut *mut tl_nav_router,
+        report: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_router_destroy(router: *mut tl_nav_router);
+    pub fn tl_nav_world_find_route(
+        world: *const tl_nav_world,
+        router: *mut tl_nav_router,
+        request: *const tl_nav_world_route_request,
+        points_out: *mut tl_nav_world_route_point,
+        capacity: u32,
+        route_out: *mut tl_nav_world_route,
+    ) -> tl_result;
+    pub fn tl_default_nav_pvs_def() -> tl_nav_pvs_def;
+    pub fn tl_nav_pvs_bake(
+        def: *const tl_nav_pvs_def,
+        navmesh: *const tl_navmesh,
+        soup: *const tl_soup,
+        pvs_out: *mut *mut tl_nav_pvs,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_pvs_check(
+        bytes: *const c_void,
+        size: u64,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_pvs_sees(
+        pvs: *const tl_nav_pvs,
+        navmesh: *const tl_navmesh,
+        a: tl_nav_ref,
+        b: tl_nav_ref,
+        seen_out: *mut bool,
+    ) -> tl_result;
+    pub fn tl_nav_pvs_seen_from(
+        pvs: *const tl_nav_pvs,
+        navmesh: *const tl_navmesh,
+        from: tl_nav_ref,
+        polygons_out: *mut tl_nav_ref,
+        capacity: u32,
+        count_out: *mut u32,
+    ) -> tl_result;
+    pub fn tl_default_nav_cover_def() -> tl_nav_cover_def;
+    pub fn tl_nav_query_find_cover(
+        query: *mut tl_nav_query,
+        request: *const tl_nav_cover_request,
+        def: *const tl_nav_cover_def,
+        covers_out: *mut tl_nav_cover,
+        capacity: u32,
+        count_out: *mut u32,
+    ) -> tl_result;
+    pub fn tl_navmesh_polygon_flags(
+        navmesh: *const tl_navmesh,
+        polygon: tl_nav_ref,
+        flags_out: *mut u64,
+    ) -> tl_result;
+    pub fn tl_navmesh_polygon_area(
+        navmesh: *const tl_navmesh,
+        polygon: tl_nav_ref,
+        area_out: *mut u8,
+    ) -> tl_result;
+    pub fn tl_navmesh_set_polygon_flags(
+        navmesh: *mut tl_navmesh,
+        polygon: tl_nav_ref,
+        flags: u64,
+    ) -> tl_result;
+    pub fn tl_navmesh_set_polygon_area(
+        navmesh: *mut tl_navmesh,
+        polygon: tl_nav_ref,
+        area: u8,
+    ) -> tl_result;
+    pub fn tl_navmesh_store_state(
+        navmesh: *const tl_navmesh,
+        tile_x: i32,
+        layer: u32,
+        tile_z: i32,
+        states_out: *mut tl_nav_polygon_state,
+        capacity: u32,
+        count_out: *mut u32,
+    ) -> tl_result;
+    pub fn tl_navmesh_restore_state(
+        navmesh: *mut tl_navmesh,
+        tile_x: i32,
+        layer: u32,
+        tile_z: i32,
+        states: *const tl_nav_polygon_state,
+        count: u32,
+        report: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_navmesh_reset_state(
+        navmesh: *mut tl_navmesh,
+        tile_x: i32,
+        layer: u32,
+        tile_z: i32,
+    ) -> tl_result;
+    pub fn tl_navmesh_is_state_changed(
+        navmesh: *const tl_navmesh,
+        tile_x: i32,
+        layer: u32,
+        tile_z: i32,
+    ) -> bool;
+    pub fn tl_nav_versions_create(
+        allocator: *const tl_allocator,
+        versions_out: *mut *mut tl_nav_versions,
+    ) -> tl_result;
+    pub fn tl_nav_versions_destroy(versions: *mut tl_nav_versions);
+    pub fn tl_nav_versions_acquire(versions: *mut tl_nav_versions) -> *const tl_navmesh;
+    pub fn tl_nav_versions_release(versions: *mut tl_nav_versions, navmesh: *const tl_navmesh);
+    pub fn tl_nav_versions_edit(
+        versions: *mut tl_nav_versions,
+        draft_out: *mut *mut tl_navmesh,
+    ) -> tl_result;
+    pub fn tl_nav_versions_publish(versions: *mut tl_nav_versions) -> tl_result;
+    pub fn tl_nav_versions_reclaim(
+        versions: *mut tl_nav_versions,
+        state_out: *mut tl_nav_versions_state,
+    ) -> tl_result;
+    pub fn tl_nav_wide_status_name(status: tl_nav_wide_status) -> *const c_char;
+    pub fn tl_nav_query_find_wide_path(
+        query: *mut tl_nav_query,
+        navmesh: *const tl_navmesh,
+        request: *const tl_nav_path_request,
+        agent_radius: f32,
+        corners_out: *mut tl_nav_corner,
+        capacity: u32,
+        path_out: *mut tl_nav_wide_path,
+    ) -> tl_result;
+    pub fn tl_nav_query_is_wide_reachable(
+        query: *mut tl_nav_query,
+        navmesh: *const tl_navmesh,
+        request: *const tl_nav_path_request,
+        agent_radius: f32,
+        status_out: *mut tl_nav_wide_status,
+    ) -> tl_result;
+    pub fn tl_default_nav_wide_def() -> tl_nav_wide_def;
+    pub fn tl_navmesh_prepare_wide(
+        navmesh: *mut tl_navmesh,
+        def: *const tl_nav_wide_def,
+        report_out: *mut tl_nav_wide_report,
+    ) -> tl_result;
+    pub fn tl_nav_query_find_wide_place(
+        query: *mut tl_nav_query,
+        navmesh: *const tl_navmesh,
+        request: *const tl_nav_around_request,
+        agent_radius: f32,
+        place_out: *mut tl_nav_location,
+    ) -> tl_result;
+    pub fn tl_nav_query_path_clearance(
+        query: *mut tl_nav_query,
+        navmesh: *const tl_navmesh,
+        filter: *const tl_nav_filter,
+        corners: *const tl_nav_corner,
+        count: u32,
+        max_distance: f32,
+        clearance_out: *mut f32,
     ) -> tl_result;
 }
 
@@ -5164,71 +5235,6 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_prepared, edge_count), 56);
         assert_eq!(core::mem::offset_of!(tl_nav_prepared, bytes), 64);
         assert_eq!(core::mem::offset_of!(tl_nav_prepared, table_bytes), 72);
-        assert_eq!(core::mem::size_of::<tl_nav_pvs_def>(), 48);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs_def, eye_height), 0);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs_def, max_distance), 4);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs_def, filter), 8);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs_def, host), 16);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs_def, cookie), 40);
-        assert_eq!(core::mem::size_of::<tl_nav_pvs>(), 64);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs, blob), 0);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs, slot_count), 16);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs, polygon_count), 20);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs, words), 24);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs, eye_height), 28);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs, first), 32);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs, rows), 40);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs, pair_count), 48);
-        assert_eq!(core::mem::offset_of!(tl_nav_pvs, reserved), 56);
-        assert_eq!(core::mem::size_of::<tl_nav_cover_request>(), 64);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover_request, navmesh), 0);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover_request, soup), 8);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover_request, filter), 16);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover_request, agent), 24);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover_request, threat), 48);
-        assert_eq!(core::mem::size_of::<tl_nav_cover_def>(), 64);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover_def, heights), 0);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover_def, height_count), 32);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover_def, spacing), 36);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover_def, max_length), 40);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover_def, sight_filter), 48);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover_def, cookie), 56);
-        assert_eq!(core::mem::size_of::<tl_nav_cover>(), 32);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover, location), 0);
-        assert_eq!(core::mem::offset_of!(tl_nav_cover, length), 24);
-        assert_eq!(core::mem::size_of::<tl_nav_polygon_state>(), 16);
-        assert_eq!(core::mem::offset_of!(tl_nav_polygon_state, flags), 0);
-        assert_eq!(core::mem::offset_of!(tl_nav_polygon_state, area), 8);
-        assert_eq!(core::mem::size_of::<tl_nav_versions_state>(), 32);
-        assert_eq!(
-            core::mem::offset_of!(tl_nav_versions_state, version_count),
-            0
-        );
-        assert_eq!(core::mem::offset_of!(tl_nav_versions_state, newest), 8);
-        assert_eq!(core::mem::offset_of!(tl_nav_versions_state, oldest), 16);
-        assert_eq!(
-            core::mem::offset_of!(tl_nav_versions_state, waiting_bytes),
-            24
-        );
-        assert_eq!(core::mem::size_of::<tl_nav_wide_path>(), 40);
-        assert_eq!(core::mem::offset_of!(tl_nav_wide_path, status), 0);
-        assert_eq!(core::mem::offset_of!(tl_nav_wide_path, corner_count), 4);
-        assert_eq!(core::mem::offset_of!(tl_nav_wide_path, wall_distance), 8);
-        assert_eq!(core::mem::offset_of!(tl_nav_wide_path, length), 16);
-        assert_eq!(core::mem::offset_of!(tl_nav_wide_path, surface_length), 24);
-        assert_eq!(core::mem::offset_of!(tl_nav_wide_path, node_count), 32);
-        assert_eq!(core::mem::size_of::<tl_nav_wide_def>(), 8);
-        assert_eq!(core::mem::offset_of!(tl_nav_wide_def, max_radius), 0);
-        assert_eq!(core::mem::offset_of!(tl_nav_wide_def, cookie), 4);
-        assert_eq!(core::mem::size_of::<tl_nav_wide_report>(), 72);
-        assert_eq!(core::mem::offset_of!(tl_nav_wide_report, base), 0);
-        assert_eq!(core::mem::offset_of!(tl_nav_wide_report, bytes), 48);
-        assert_eq!(core::mem::offset_of!(tl_nav_wide_report, wall_count), 56);
-        assert_eq!(core::mem::offset_of!(tl_nav_wide_report, tile_count), 64);
-        assert_eq!(
-            core::mem::offset_of!(tl_nav_wide_report, made_tile_count),
-            68
-        );
         assert_eq!(core::mem::size_of::<tl_pack_item>(), 24);
         assert_eq!(core::mem::offset_of!(tl_pack_item, r#type), 0);
         assert_eq!(core::mem::offset_of!(tl_pack_item, id), 4);
@@ -5375,5 +5381,96 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_world_state, peak_bytes), 40);
         assert_eq!(core::mem::offset_of!(tl_nav_world_state, index_bytes), 48);
         assert_eq!(core::mem::offset_of!(tl_nav_world_state, read_bytes), 56);
+        assert_eq!(core::mem::size_of::<tl_nav_routes>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_nav_routes, blob), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_routes, tiles_hash), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_routes, gate_count), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_routes, length_count), 28);
+        assert_eq!(core::mem::offset_of!(tl_nav_routes, block), 32);
+        assert_eq!(core::mem::offset_of!(tl_nav_routes, reserved), 36);
+        assert_eq!(core::mem::size_of::<tl_nav_routes_def>(), 56);
+        assert_eq!(core::mem::offset_of!(tl_nav_routes_def, read), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_routes_def, user), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_routes_def, block), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_routes_def, host), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_routes_def, cookie), 48);
+        assert_eq!(core::mem::size_of::<tl_nav_world_route_request>(), 48);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_route_request, start), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_route_request, goal), 24);
+        assert_eq!(core::mem::size_of::<tl_nav_world_route_point>(), 40);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_route_point, point), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_route_point, length), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_route_point, tile_x), 32);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_route_point, tile_z), 36);
+        assert_eq!(core::mem::size_of::<tl_nav_world_route>(), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_route, status), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_route, point_count), 4);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_route, length), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_world_route, lower_bound), 16);
+        assert_eq!(core::mem::size_of::<tl_nav_pvs_def>(), 48);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs_def, eye_height), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs_def, max_distance), 4);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs_def, filter), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs_def, host), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs_def, cookie), 40);
+        assert_eq!(core::mem::size_of::<tl_nav_pvs>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs, blob), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs, slot_count), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs, polygon_count), 20);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs, words), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs, eye_height), 28);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs, first), 32);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs, rows), 40);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs, pair_count), 48);
+        assert_eq!(core::mem::offset_of!(tl_nav_pvs, reserved), 56);
+        assert_eq!(core::mem::size_of::<tl_nav_cover_request>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover_request, navmesh), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover_request, soup), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover_request, filter), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover_request, agent), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover_request, threat), 48);
+        assert_eq!(core::mem::size_of::<tl_nav_cover_def>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover_def, heights), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover_def, height_count), 32);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover_def, spacing), 36);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover_def, max_length), 40);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover_def, sight_filter), 48);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover_def, cookie), 56);
+        assert_eq!(core::mem::size_of::<tl_nav_cover>(), 32);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover, location), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_cover, length), 24);
+        assert_eq!(core::mem::size_of::<tl_nav_polygon_state>(), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_polygon_state, flags), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_polygon_state, area), 8);
+        assert_eq!(core::mem::size_of::<tl_nav_versions_state>(), 32);
+        assert_eq!(
+            core::mem::offset_of!(tl_nav_versions_state, version_count),
+            0
+        );
+        assert_eq!(core::mem::offset_of!(tl_nav_versions_state, newest), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_versions_state, oldest), 16);
+        assert_eq!(
+            core::mem::offset_of!(tl_nav_versions_state, waiting_bytes),
+            24
+        );
+        assert_eq!(core::mem::size_of::<tl_nav_wide_path>(), 40);
+        assert_eq!(core::mem::offset_of!(tl_nav_wide_path, status), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_wide_path, corner_count), 4);
+        assert_eq!(core::mem::offset_of!(tl_nav_wide_path, wall_distance), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_wide_path, length), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_wide_path, surface_length), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_wide_path, node_count), 32);
+        assert_eq!(core::mem::size_of::<tl_nav_wide_def>(), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_wide_def, max_radius), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_wide_def, cookie), 4);
+        assert_eq!(core::mem::size_of::<tl_nav_wide_report>(), 72);
+        assert_eq!(core::mem::offset_of!(tl_nav_wide_report, base), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_wide_report, bytes), 48);
+        assert_eq!(core::mem::offset_of!(tl_nav_wide_report, wall_count), 56);
+        assert_eq!(core::mem::offset_of!(tl_nav_wide_report, tile_count), 64);
+        assert_eq!(
+            core::mem::offset_of!(tl_nav_wide_report, made_tile_count),
+            68
+        );
     }
 }
