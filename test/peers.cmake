@@ -48,7 +48,7 @@ set(talus_test_ray_decide_needs talus_peer_gmp)
 set(talus_test_soup_bake_libraries pthread)
 set(talus_test_ray_batch_libraries pthread)
 foreach(stem frame options examples manual bake areas around audit prune ray soup_queries path hull polygonize draw detour bad_input
-        links outputs baked_options walkable precision axes streams path_costs view hand_links world ranks crowd)
+        links outputs baked_options walkable precision axes streams path_costs view hand_links world ranks routes crowd)
     set(talus_test_cli_${stem}_needs talus_command_path)
 endforeach()
 # The module for mpirun, with its mpirun.

@@ -7,6 +7,7 @@
 #include "cli/shared/command.h"
 #include "cli/shared/json_out.h"
 #include "cli/world/bake_shard.h"
+#include "cli/world/world_route.h"
 #include "world/job/merge_tiles.h"
 #include "world/job/plan_world.h"
 
@@ -20,7 +21,8 @@ typedef struct world_options {
     const char *output;
     const char *origin;
     const char *shard;
-    uint32_t shards, memory_mib;
+    const char *extents;
+    uint32_t shards, memory_mib, block;
     bool as_planned;
     tl_bake_settings bake;
 } world_options;
@@ -231,6 +233,22 @@ static tl_exit run_world_check(tl_cli *cli, world_options *options)
     return TL_EXIT_OK;
 }
 
+// ---- routes, route -----------------------------------------------------------------------------------------
+
+static tl_exit run_routes(tl_cli *cli, world_options *options)
+{
+    if ((options->block & (options->block - 1)) != 0) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "--block: make it 1, 2, 4, 8 or 16");
+    }
+    return tl_run_world_routes(cli, cli->arguments.words[1], options->output, options->block);
+}
+
+static tl_exit run_route(tl_cli *cli, world_options *options)
+{
+    const char *const ends[2] = { cli->arguments.words[2], cli->arguments.words[3] };
+    return tl_run_world_route(cli, cli->arguments.words[1], ends, options->extents);
+}
+
 // ---- The command -------------------------------------------------------------------------------------------
 
 static const char *const plan_takes[] = { "output", "memory", "up", "scale", "origin", "*", NULL };
@@ -238,11 +256,14 @@ static const char *const bake_takes[] = { "shard", "shards", "as-planned", NULL 
 static const char *const status_takes[] = { "shard", NULL };
 static const char *const merge_takes[] = { "output", "as-planned", NULL };
 static const char *const check_takes[] = { NULL };
+static const char *const routes_takes[] = { "output", "block", NULL };
+static const char *const route_takes[] = { "extents", NULL };
 
 static const world_action actions[] = {
     { "plan", 2, true, run_plan, plan_takes },           { "bake", 2, false, run_world_bake, bake_takes },
     { "status", 2, false, run_status, status_takes },    { "merge", 2, true, run_merge, merge_takes },
-    { "check", 2, false, run_world_check, check_takes },
+    { "check", 2, false, run_world_check, check_takes }, { "routes", 2, false, run_routes, routes_takes },
+    { "route", 4, false, run_route, route_takes },
 };
 
 static bool is_listed(const char *const *list, const char *name)
@@ -297,7 +318,8 @@ static const world_action *find_action(tl_cli *cli, tl_exit *exit_out)
             return &actions[i];
         }
     }
-    *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "'%s' is none of plan, bake, status, merge, check", word);
+    *exit_out =
+        tl_cli_fail(cli, TL_EXIT_USAGE, "'%s' is none of plan, bake, status, merge, check, routes, route", word);
     return NULL;
 }
 
@@ -310,8 +332,8 @@ static tl_exit run_world(tl_cli *cli)
     options.bake.nav_def.tile_size = DEFAULT_TILE_SIZE;
     options.memory_mib = DEFAULT_MEMORY_MIB;
     const tl_option own[] = {
-        { "output", 'o', TL_OPTION_OUTPUT, &options.output, "PATH", "plan: the job's folder; merge: the baked file",
-          NULL, 0, 0, 0, 0 },
+        { "output", 'o', TL_OPTION_OUTPUT, &options.output, "PATH",
+          "plan: the job's folder; merge, routes: the baked file", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     const tl_option plan[] = {
@@ -337,20 +359,31 @@ static tl_exit run_world(tl_cli *cli)
           "bake and merge what was planned, though inputs changed since", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
+    const tl_option routes[] = {
+        { "block", 0, TL_OPTION_COUNT, &options.block, "N",
+          "routes: tiles on a side of a block within which lengths are exact, 1, 2, 4, 8 or 16 (4)", NULL, 0, 0, 1,
+          16 },
+        { "extents", 0, TL_OPTION_TEXT, &options.extents, "X,Y,Z",
+          "route: metres around a point that are looked at for the navmesh (2,4,2)", NULL, 0, 0, 0, 0 },
+        TL_OPTION_TABLE_END,
+    };
     tl_option nav[TL_NAV_OPTIONS];
     list_nav_options(&options, nav);
-    const tl_option_group groups[] = { { "Options:", own },
-                                       { "plan, how the world is read:", plan },
-                                       { "plan, the navmesh:", nav },
-                                       { "bake, merge:", bake },
-                                       { NULL, NULL } };
+    const tl_option_group groups[] = { { "Options:", own },           { "plan, how the world is read:", plan },
+                                       { "plan, the navmesh:", nav }, { "bake, merge:", bake },
+                                       { "routes, route:", routes },  { NULL, NULL } };
     tl_exit code;
-    if (!tl_cli_parse(cli, groups, 2, 2, &code)) {
+    if (!tl_cli_parse(cli, groups, 2, 4, &code)) {
         return code;
     }
     const world_action *action = find_action(cli, &code);
     if (action == NULL || !check_given(cli, action, nav, &code)) {
         return code;
+    }
+    if (cli->arguments.count != action->words) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "%s",
+                           action->words == 2 ? "give the action and one path"
+                                              : "give route, a file and two points x,y,z");
     }
     if (action->needs_output && options.output == NULL) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "say where to write with -o");
@@ -366,7 +399,9 @@ const tl_command tl_world_command = {
     "bake JOB [--shard I/N]\n"
     "status JOB\n"
     "merge JOB -o FILE.talus\n"
-    "check FILE.talus",
+    "check FILE.talus\n"
+    "routes FILE.talus [-o FILE.talus] [--block N]\n"
+    "route FILE.talus X,Y,Z X,Y,Z [--extents X,Y,Z]",
     "Bakes the navmesh of a world that is larger than memory, tile by tile, on one machine or many. INPUT is a\n"
     "mesh file, a folder of them, or a manifest (world.json) that places files. plan reads it once into JOB/store\n"
     "and lists the tiles; bake makes those that are not there, merge joins them to one file, check proves it.\n"
@@ -378,13 +413,19 @@ const tl_command tl_world_command = {
     "\n"
     "The shard is taken from --shard, or from the variables of Slurm arrays, Open MPI, MPICH, Slurm steps,\n"
     "Kubernetes indexed jobs and AWS Batch arrays. Under mpirun, where talus was built with MPI, the processes\n"
-    "share one list of tiles, and each takes the next when it is free. See docs/world.md for recipes.",
+    "share one list of tiles, and each takes the next when it is free. See docs/world.md for recipes.\n"
+    "\n"
+    "routes puts lengths between tiles into a merged file, so that route, and games, ask for a route over all\n"
+    "of the world with the tiles of its ends in memory alone. The answer: its length, a bound that no path is\n"
+    "shorter than, and its points, one a line: length x,y,z tile. No route exits with 1.",
     "talus sample city --triangles 20000 -o city.obj\n"
     "talus world plan city.obj -o job --tile-size 64\n"
     "talus world bake job --shard 1/2\n"
     "talus world status job # exits with 1\n"
     "talus world bake job\n"
     "talus world merge job -o city.talus\n"
-    "talus world check city.talus",
+    "talus world check city.talus\n"
+    "talus world routes city.talus\n"
+    "talus world route city.talus 5,0,5 45,0,150",
     run_world,
 };
