@@ -123,7 +123,7 @@ static void check_pair(const body *a, tl_transform pose_a, const body *b, tl_tra
     }
     tl_contact_manifold m;
     uint32_t count =
-        tl_convex_contacts(&a->shape, pose_a, &b->shape, pose_b, &(tl_contact_limits){ slack, slack }, NULL, &m);
+        tl_convex_contacts(&a->shape, pose_a, &b->shape, pose_b, &(tl_contact_limits){ slack, slack, 0 }, NULL, &m);
     require(count <= TL_MAX_CONTACTS && (count > 0 || !s.overlap));
 }
 

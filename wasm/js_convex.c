@@ -178,7 +178,7 @@ int32_t TL_JS_EXPORT(js_convex_cast_ray)(void)
 void TL_JS_EXPORT(js_convex_contacts)(void)
 {
     const tl_convex a = tl_js_shape(0), b = tl_js_shape(SHAPE_B);
-    const tl_contact_limits limits = { tl_js_f32(EXTRA), tl_js_f32(EXTRA + 1) };
+    const tl_contact_limits limits = { tl_js_f32(EXTRA), tl_js_f32(EXTRA + 1), 0 };
     tl_contact_manifold m;
     tl_convex_contacts(&a, tl_js_pose(POSE_A), &b, tl_js_pose(POSE_B), &limits, NULL, &m);
     uint32_t at = tl_js_put(tl_js_put_vec3(tl_js_put(0, m.count), m.normal), m.status);

@@ -571,6 +571,7 @@ namespace Talus.Interop
     {
         public float margin;
         public float tolerance;
+        public uint max_steps;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -2661,6 +2662,8 @@ namespace Talus.Interop
         public static extern byte tl_convex_overlap(tl_convex* a, tl_transform pose_a, tl_convex* b, tl_transform pose_b, tl_simplex_cache* cache);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern byte tl_convex_penetration(tl_convex* a, tl_transform pose_a, tl_convex* b, tl_transform pose_b, tl_simplex_cache* cache, tl_penetration* penetration_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern byte tl_convex_penetration_within(tl_convex* a, tl_transform pose_a, tl_convex* b, tl_transform pose_b, tl_simplex_cache* cache, uint max_steps, tl_penetration* penetration_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern byte tl_convex_cast(tl_convex* a, tl_transform pose_a, tl_convex* b, tl_transform pose_b, tl_vec3 motion, tl_convex_hit* hit_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

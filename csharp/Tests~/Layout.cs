@@ -190,9 +190,10 @@ static unsafe class Layout
         Test.Equal(24, (byte*)&((tl_convex_hit*)at)->normal - at, "tl_convex_hit.normal");
         Test.Equal(36, (byte*)&((tl_convex_hit*)at)->status - at, "tl_convex_hit.status");
         Test.Equal(40, (byte*)&((tl_convex_hit*)at)->iterations - at, "tl_convex_hit.iterations");
-        Test.Equal(8, sizeof(tl_contact_limits), "tl_contact_limits");
+        Test.Equal(12, sizeof(tl_contact_limits), "tl_contact_limits");
         Test.Equal(0, (byte*)&((tl_contact_limits*)at)->margin - at, "tl_contact_limits.margin");
         Test.Equal(4, (byte*)&((tl_contact_limits*)at)->tolerance - at, "tl_contact_limits.tolerance");
+        Test.Equal(8, (byte*)&((tl_contact_limits*)at)->max_steps - at, "tl_contact_limits.max_steps");
         Test.Equal(40, sizeof(tl_contact), "tl_contact");
         Test.Equal(0, (byte*)&((tl_contact*)at)->point_a - at, "tl_contact.point_a");
         Test.Equal(12, (byte*)&((tl_contact*)at)->point_b - at, "tl_contact.point_b");

@@ -146,6 +146,18 @@ typedef struct tl_penetration {
 TL_API bool tl_convex_penetration(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                                   tl_simplex_cache *cache, tl_penetration *penetration_out);
 
+/// tl_convex_penetration with a budget, for a game's frame: at most `max_steps` steps of EPA and of the search over
+/// directions together, each a support point of both shapes; 0: no budget but TL_MAX_EPA_ITERATIONS and
+/// TL_MAX_DIRECTION_STEPS.
+///
+/// Whether the shapes overlap is always decided: that takes TL_MAX_GJK_ITERATIONS steps at most, which are not counted
+/// here, and so may the search for the deepest points. Where the budget ends it, the status is TL_CONVEX_ITERATIONS and
+/// the bounds hold: moving B by upper_bound along the normal separates the shapes, no motion shorter than lower_bound
+/// does.
+TL_API bool tl_convex_penetration_within(const tl_convex *a, tl_transform pose_a, const tl_convex *b,
+                                         tl_transform pose_b, tl_simplex_cache *cache, uint32_t max_steps,
+                                         tl_penetration *penetration_out);
+
 /// Iterations of a cast, each of which advances to a separating plane; more mean that it grazes within rounding.
 #define TL_MAX_CAST_ITERATIONS 128u
 
@@ -197,6 +209,9 @@ TL_API bool tl_convex_cast_ray(const tl_convex *shape, tl_transform pose, tl_vec
 typedef struct tl_contact_limits {
     float margin;    ///< metres, >= 0: shapes that are farther apart have no contacts
     float tolerance; ///< metres, >= 0: a corner of the common patch may be so much less deep than the deepest point
+    /// Budget of the depth, as in tl_convex_penetration_within; 0: none. Where it ends the search, the status is
+    /// TL_CONVEX_ITERATIONS, and the contacts are those along the best normal found.
+    uint32_t max_steps;
 } tl_contact_limits;
 
 /// The kind of a contact's feature, in its upper two bits. The others are the index: a vertex or face of a hull, or an

@@ -227,7 +227,7 @@ static PyObject *shape_contacts(PyObject *self, PyObject *args)
     PyObject *b;
     Py_buffer poses[2];
     memset(poses, 0, sizeof(poses));
-    tl_contact_limits limits;
+    tl_contact_limits limits = { 0.0f, 0.0f, 0 };
     if (!PyArg_ParseTuple(args, "Oy*Oy*ff", &a, &poses[0], &b, &poses[1], &limits.margin, &limits.tolerance)) {
         return NULL;
     }

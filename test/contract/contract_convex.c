@@ -62,6 +62,15 @@ static tl_result penetration(contract_run *run)
     return TL_OK;
 }
 
+static tl_result penetration_within(contract_run *run)
+{
+    const convex_pair p = make_pair(run, 1.5f);
+    tl_penetration found;
+    TEST_CHECK(tl_convex_penetration_within(&p.a, p.pose_a, &p.b, p.pose_b, NULL, 2, &found));
+    run->answer = contract_hash(&found.depth, sizeof found.depth, found.iterations);
+    return TL_OK;
+}
+
 static tl_result cast(contract_run *run)
 {
     const convex_pair p = make_pair(run, 3.0f);
@@ -95,7 +104,7 @@ static tl_result cast_ray(contract_run *run)
 static tl_result contacts(contract_run *run)
 {
     const convex_pair p = make_pair(run, 1.99f);
-    const tl_contact_limits limits = { 0.0f, 0.0f };
+    const tl_contact_limits limits = { 0.0f, 0.0f, 0 };
     tl_contact_manifold manifold;
     const uint32_t count = tl_convex_contacts(&p.a, p.pose_a, &p.b, p.pose_b,
                                               run->what == CONTRACT_NULL_DEF ? NULL : &limits, NULL, &manifold);
@@ -107,7 +116,7 @@ static tl_result contacts(contract_run *run)
 static tl_result contacts_along(contract_run *run)
 {
     const convex_pair p = make_pair(run, 1.99f);
-    const tl_contact_limits limits = { 0.0f, 0.0f };
+    const tl_contact_limits limits = { 0.0f, 0.0f, 0 };
     tl_contact_manifold manifold;
     const uint32_t count = tl_convex_contacts_along(&p.a, p.pose_a, &p.b, p.pose_b, tl_vec3_make(0.0f, 1.0f, 0.0f),
                                                     run->what == CONTRACT_NULL_DEF ? NULL : &limits, &manifold);
@@ -132,6 +141,7 @@ const contract_entry CONTRACT_TABLE_convex[] = {
     { "tl_convex_distance", POSE_CASES, 0, 0, NULL, distance, NULL },
     { "tl_convex_overlap", POSE_CASES, 0, 0, NULL, overlap, NULL },
     { "tl_convex_penetration", POSE_CASES, 0, 0, NULL, penetration, NULL },
+    { "tl_convex_penetration_within", POSE_CASES, 0, 0, NULL, penetration_within, NULL },
     { "tl_convex_cast", POSE_CASES, 0, 0, NULL, cast, NULL },
     { "tl_convex_cast_turning", POSE_CASES, 0, 0, NULL, cast_turning, NULL },
     { "tl_convex_cast_ray", POSE_CASES, 0, 0, NULL, cast_ray, NULL },

@@ -262,7 +262,7 @@ static tl_result find_contacts(contract_run *run)
     const tl_convex shape = tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(1, 1.001f, 1), 0);
     tl_ray_filter filter;
     const tl_soup_contact_query query = {
-        &shape, pose_of(run, tl_vec3_make(8, 1, 10)), { 0.01f, 0.01f }, filter_of(run, &filter)
+        &shape, pose_of(run, tl_vec3_make(8, 1, 10)), { 0.01f, 0.01f, 0 }, filter_of(run, &filter)
     };
     tl_soup_contact found[32];
     memset(found, 0, sizeof found);

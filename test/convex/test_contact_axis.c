@@ -23,7 +23,7 @@ static void test_what_holds(void **state)
         test_place(&random, &a, &b, i % 2 == 0 ? GAP_SHALLOW : GAP_DEEP, &pose_a, &pose_b);
         tl_contact_cache cache = { 0 };
         tl_contact_manifold m;
-        tl_contact_limits limits = { 0.01f, 0.01f };
+        tl_contact_limits limits = { 0.01f, 0.01f, 0 };
         tl_convex_contacts(&a.shape, pose_a, &b.shape, pose_b, &limits, &cache, &m);
         for (int k = 0; k < 6 && cache.has_axis != 0; k++) {
             tl_transform moved = pose_b;

@@ -74,7 +74,7 @@ static void test_least_separation_is_the_distance(void **state)
             pose_b.position = tl_scale(test_random_direction(&random), test_random_range(&random, 0.2f, 2.0f));
             float size = tl_maxf(a.size, b.size), tolerance = 0.01f * size, bounds[2];
             tl_contact_manifold m;
-            if (tl_convex_contacts(&a.shape, pose_a, &b.shape, pose_b, &(tl_contact_limits){ tolerance, tolerance },
+            if (tl_convex_contacts(&a.shape, pose_a, &b.shape, pose_b, &(tl_contact_limits){ tolerance, tolerance, 0 },
                                    NULL, &m) == 0) {
                 continue;
             }
@@ -135,7 +135,8 @@ static void test_area_under_jitter(void **state)
             moved.position = tl_mul_add(moved.position, test_random_direction(&random), 1e-5f);
             moved.rotation.x += 1e-5f * test_random_range(&random, -1, 1);
             moved.rotation.z += 1e-5f * test_random_range(&random, -1, 1);
-            tl_convex_contacts(&a, tl_transform_identity(), &b, moved, &(tl_contact_limits){ 0.02f, 0.02f }, NULL, &m);
+            tl_convex_contacts(&a, tl_transform_identity(), &b, moved, &(tl_contact_limits){ 0.02f, 0.02f, 0 }, NULL,
+                               &m);
             area[k] = manifold_area(&m);
         }
         faces += area[0] > 0.1;
@@ -166,7 +167,7 @@ static void test_contacts_continue(void **state)
                                 kind % 3 == 1 ? tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(1, 1, 1), 0.0f)
                                               : tl_convex_from_hull(hull, 0.0f) };
         tl_contact_cache cache = { 0 };
-        tl_contact_limits limits = { 0.02f, 0.02f };
+        tl_contact_limits limits = { 0.02f, 0.02f, 0 };
         tl_transform pose = { tl_quat_identity(), { 0.1f, 1.999f, 0.2f } };
         for (int step = 0; step < 200; step++) {
             tl_transform moved = pose;
@@ -210,7 +211,7 @@ static void test_sharp_tips(void **state)
         const tl_transform at = tl_transform_identity();
         tl_contact_manifold m;
         float bounds[2];
-        tl_convex_contacts(&box, at, &needle, at, &(tl_contact_limits){ 0.01f, 0.01f }, NULL, &m);
+        tl_convex_contacts(&box, at, &needle, at, &(tl_contact_limits){ 0.01f, 0.01f, 0 }, NULL, &m);
         signed_distance(&box, at, &needle, at, bounds);
         found += m.count > 0;
         wrong += m.count > 0 && !(least_separation(&m) >= bounds[0] - 4e-6f);

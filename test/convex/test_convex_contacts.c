@@ -31,7 +31,7 @@ static void test_boxes(void **state)
         static const float lifts[] = { 2.0f, 1.99f, 2.01f };
         for (int i = 0; i < 3; i++) {
             TEST_CHECK(tl_convex_contacts(a, at(5, 5, 5), b, at(5, 5 + lifts[i], 5),
-                                          &(tl_contact_limits){ 0.02f, 0.02f }, NULL, &m) == 4);
+                                          &(tl_contact_limits){ 0.02f, 0.02f, 0 }, NULL, &m) == 4);
             TEST_CHECK(fabsf(m.normal.y - 1.0f) < 1e-6f && m.status == TL_CONVEX_CONVERGED);
             for (uint32_t c = 0; c < 4; c++) {
                 TEST_CHECK(fabsf(m.contacts[c].separation - (lifts[i] - 2.0f)) < 1e-5f);
@@ -40,10 +40,10 @@ static void test_boxes(void **state)
                 TEST_CHECK(fabsf(m.contacts[c].point_a.y - 6) < 1e-5f);
             }
         }
-        TEST_CHECK(
-            tl_convex_contacts(a, at(0, 0, 0), b, at(0, 2.1f, 0), &(tl_contact_limits){ 0.02f, 0.02f }, NULL, &m) == 0);
+        TEST_CHECK(tl_convex_contacts(a, at(0, 0, 0), b, at(0, 2.1f, 0), &(tl_contact_limits){ 0.02f, 0.02f, 0 }, NULL,
+                                      &m) == 0);
         // Shifted: the patch is a quarter.
-        TEST_CHECK(tl_convex_contacts(a, at(0, 0, 0), b, at(1, 1.99f, 1), &(tl_contact_limits){ 0.02f, 0.02f }, NULL,
+        TEST_CHECK(tl_convex_contacts(a, at(0, 0, 0), b, at(1, 1.99f, 1), &(tl_contact_limits){ 0.02f, 0.02f, 0 }, NULL,
                                       &m) == 4);
         for (uint32_t c = 0; c < 4; c++) {
             TEST_CHECK(m.contacts[c].point_a.x > -1e-5f && m.contacts[c].point_a.z > -1e-5f);
@@ -52,20 +52,23 @@ static void test_boxes(void **state)
         tl_transform turned = at(0, 1.99f, 0);
         turned.rotation.y = 0.38268343f;
         turned.rotation.w = 0.92387953f;
-        TEST_CHECK(tl_convex_contacts(a, at(0, 0, 0), b, turned, &(tl_contact_limits){ 0.02f, 0.02f }, NULL, &m) == 4);
+        TEST_CHECK(tl_convex_contacts(a, at(0, 0, 0), b, turned, &(tl_contact_limits){ 0.02f, 0.02f, 0 }, NULL, &m) ==
+                   4);
         // Standing on an edge, on a corner, edge across edge.
         tl_transform edge = at(0, 2.41f, 0);
         edge.rotation.x = 0.38268343f;
         edge.rotation.w = 0.92387953f;
-        uint32_t count = tl_convex_contacts(a, at(0, 0, 0), b, edge, &(tl_contact_limits){ 0.02f, 0.02f }, NULL, &m);
+        uint32_t count = tl_convex_contacts(a, at(0, 0, 0), b, edge, &(tl_contact_limits){ 0.02f, 0.02f, 0 }, NULL, &m);
         TEST_CHECK(count == 2 && fabsf(m.normal.y - 1.0f) < 1e-5f);
         TEST_CHECK(fabsf(fabsf(m.contacts[0].point_a.x - m.contacts[1].point_a.x) - 2.0f) < 1e-4f);
         // A tilt of 0.02 over two metres: one edge with a small tolerance, the face with a large one.
         tl_transform tilted = at(0, 2.0f, 0);
         tilted.rotation.x = 0.005f;
         tilted.rotation.w = 0.9999875f;
-        TEST_CHECK(tl_convex_contacts(a, at(0, 0, 0), b, tilted, &(tl_contact_limits){ 0.1f, 0.001f }, NULL, &m) == 2);
-        TEST_CHECK(tl_convex_contacts(a, at(0, 0, 0), b, tilted, &(tl_contact_limits){ 0.1f, 0.05f }, NULL, &m) == 4);
+        TEST_CHECK(tl_convex_contacts(a, at(0, 0, 0), b, tilted, &(tl_contact_limits){ 0.1f, 0.001f, 0 }, NULL, &m) ==
+                   2);
+        TEST_CHECK(tl_convex_contacts(a, at(0, 0, 0), b, tilted, &(tl_contact_limits){ 0.1f, 0.05f, 0 }, NULL, &m) ==
+                   4);
     }
     tl_blob_free(hull);
 }
@@ -77,15 +80,15 @@ static void test_a_triangle_carries_a_box(void **state)
     tl_convex box = tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(1, 1, 1), 0.25f);
     tl_convex ball = tl_convex_sphere(tl_vec3_make(0, 0, 0), 1.0f);
     tl_contact_manifold m;
-    TEST_CHECK(tl_convex_contacts(&ground, at(0, 0, 0), &box, at(0, 1.24f, 0), &(tl_contact_limits){ 0.02f, 0.02f },
+    TEST_CHECK(tl_convex_contacts(&ground, at(0, 0, 0), &box, at(0, 1.24f, 0), &(tl_contact_limits){ 0.02f, 0.02f, 0 },
                                   NULL, &m) == 4);
     for (uint32_t c = 0; c < 4; c++) {
         TEST_CHECK(fabsf(m.contacts[c].separation + 0.01f) < 1e-5f && fabsf(m.contacts[c].point_b.y + 0.01f) < 1e-5f);
     }
-    TEST_CHECK(tl_convex_contacts(&ground, at(0, 0, 0), &box, at(0, -1.24f, 0), &(tl_contact_limits){ 0.02f, 0.02f },
+    TEST_CHECK(tl_convex_contacts(&ground, at(0, 0, 0), &box, at(0, -1.24f, 0), &(tl_contact_limits){ 0.02f, 0.02f, 0 },
                                   NULL, &m) == 4);
     TEST_CHECK(m.normal.y < -0.999f);
-    TEST_CHECK(tl_convex_contacts(&ground, at(0, 0, 0), &ball, at(0, 0.99f, 0), &(tl_contact_limits){ 0.02f, 0.02f },
+    TEST_CHECK(tl_convex_contacts(&ground, at(0, 0, 0), &ball, at(0, 0.99f, 0), &(tl_contact_limits){ 0.02f, 0.02f, 0 },
                                   NULL, &m) == 1);
     TEST_CHECK(fabsf(m.contacts[0].separation + 0.01f) < 1e-5f);
 }
@@ -113,7 +116,7 @@ static uint32_t check_manifold(const test_body *a, tl_transform pose_a, const te
 {
     float size = tl_maxf(a->size, b->size), tolerance = 0.01f * size;
     tl_contact_manifold m;
-    tl_convex_contacts(&a->shape, pose_a, &b->shape, pose_b, &(tl_contact_limits){ tolerance, tolerance }, NULL, &m);
+    tl_convex_contacts(&a->shape, pose_a, &b->shape, pose_b, &(tl_contact_limits){ tolerance, tolerance, 0 }, NULL, &m);
     tl_penetration p;
     tl_separation s;
     bool overlap = tl_convex_penetration(&a->shape, pose_a, &b->shape, pose_b, NULL, &p);
@@ -269,8 +272,8 @@ static void test_turned_boxes(void **state)
         tl_vec3 middle = tl_rotate(back, tl_vec3_make(3, 0, -2));
         pose.position = tl_sub(tl_vec3_make(0, half.y - 0.01f, 0), middle);
         tl_contact_manifold m;
-        TEST_CHECK(
-            tl_convex_contacts(&ground, at(0, 0, 0), &box, pose, &(tl_contact_limits){ 0.02f, 0.02f }, NULL, &m) == 4);
+        TEST_CHECK(tl_convex_contacts(&ground, at(0, 0, 0), &box, pose, &(tl_contact_limits){ 0.02f, 0.02f, 0 }, NULL,
+                                      &m) == 4);
         for (uint32_t c = 0; c < 4; c++) {
             TEST_CHECK(fabsf(fabsf(m.contacts[c].point_b.x) - half.x) < 1e-5f &&
                        fabsf(fabsf(m.contacts[c].point_b.z) - half.z) < 1e-5f);
@@ -299,7 +302,7 @@ static void test_crossing_edges_before_faces(void **state)
     tl_penetration p;
     TEST_CHECK(tl_convex_penetration(&a, at(0, 0, 0), &b, there, NULL, &p) && p.depth > 0.005f);
     tl_contact_manifold m;
-    TEST_CHECK(tl_convex_contacts(&a, at(0, 0, 0), &b, there, &(tl_contact_limits){ 0.01f, 0.01f }, NULL, &m) == 2);
+    TEST_CHECK(tl_convex_contacts(&a, at(0, 0, 0), &b, there, &(tl_contact_limits){ 0.01f, 0.01f, 0 }, NULL, &m) == 2);
     float least = tl_minf(m.contacts[0].separation, m.contacts[1].separation);
     TEST_CHECK(fabsf(least + p.depth) < 1e-6f);
     tl_blob_free(hull_a);
@@ -323,7 +326,8 @@ static void test_an_edge_on_a_face(void **state)
                             *b = k % 2 == 0 ? prism : &ground;
             tl_transform pose_a = at(0, k % 2 == 0 ? 0.0f : -0.005f, 0), pose_b = at(0, k % 2 == 0 ? -0.005f : 0.0f, 0);
             tl_contact_manifold m;
-            TEST_CHECK(tl_convex_contacts(a, pose_a, b, pose_b, &(tl_contact_limits){ 0.01f, 0.01f }, NULL, &m) == 2);
+            TEST_CHECK(tl_convex_contacts(a, pose_a, b, pose_b, &(tl_contact_limits){ 0.01f, 0.01f, 0 }, NULL, &m) ==
+                       2);
             TEST_CHECK(fabsf(m.contacts[0].point_a.z + m.contacts[1].point_a.z) < 1e-6f &&
                        fabsf(fabsf(m.contacts[0].point_a.z) - 1.0f) < 1e-6f);
             TEST_CHECK(fabsf(m.contacts[0].separation + 0.005f) < 1e-6f &&
@@ -334,7 +338,7 @@ static void test_an_edge_on_a_face(void **state)
         tilted.rotation.x = 0.01f;
         tilted.rotation.w = 0.99995f;
         tl_contact_manifold m;
-        TEST_CHECK(tl_convex_contacts(&ground, at(0, 0, 0), &shapes[0], tilted, &(tl_contact_limits){ 0.01f, 0.01f },
+        TEST_CHECK(tl_convex_contacts(&ground, at(0, 0, 0), &shapes[0], tilted, &(tl_contact_limits){ 0.01f, 0.01f, 0 },
                                       NULL, &m) == 1);
         tl_blob_free(hull);
     }

@@ -44,7 +44,7 @@ static void check_pair(const query_input *in)
     TEST_CHECK(all_zero(&p, sizeof p));
     tl_contact_manifold m;
     memset(&m, 0xff, sizeof m);
-    tl_contact_limits limits = { 1.0f, 1.0f };
+    tl_contact_limits limits = { 1.0f, 1.0f, 0 };
     TEST_CHECK(tl_convex_contacts(&in->a, in->pose_a, &in->b, in->pose_b, &limits, NULL, &m) == 0);
     TEST_CHECK(m.status == TL_CONVEX_NOT_FINITE);
     m.status = TL_CONVEX_CONVERGED;
@@ -143,7 +143,7 @@ static void test_not_finite_has_a_name(void **state)
         }
         check_ray(&in, in.motion, in.motion, NAN);
         tl_contact_manifold m;
-        tl_contact_limits limits[2] = { { NAN, 1.0f }, { 1.0f, NAN } };
+        tl_contact_limits limits[2] = { { NAN, 1.0f, 0 }, { 1.0f, NAN, 0 } };
         for (int k = 0; k < 2; k++) {
             TEST_CHECK(tl_convex_contacts(&in.a, in.pose_a, &in.b, in.pose_b, &limits[k], NULL, &m) == 0);
             TEST_CHECK(m.status == TL_CONVEX_NOT_FINITE);

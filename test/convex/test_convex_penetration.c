@@ -231,6 +231,81 @@ static void test_concentric_balls(void **state)
     TEST_CHECK(searched >= 3);
 }
 
+// What a budget leaves open: the bounds hold, moving B by the upper one separates, and the steps are counted.
+static void check_budget(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
+                         const tl_penetration *whole, uint32_t budget, tl_penetration *p)
+{
+    const float gap = 4e-6f * (1.0f + whole->depth);
+    TEST_CHECK(tl_convex_penetration_within(a, pose_a, b, pose_b, NULL, budget, p));
+    TEST_CHECK(p->lower_bound <= p->depth && p->depth <= p->upper_bound);
+    TEST_CHECK(p->lower_bound <= whole->upper_bound + gap && p->upper_bound >= whole->lower_bound - gap);
+    TEST_CHECK(p->iterations <= (uint64_t)TL_MAX_GJK_ITERATIONS + budget + 8);
+    TEST_CHECK(p->status == TL_CONVEX_ITERATIONS || p->upper_bound - p->lower_bound <= 16.0f * gap ||
+               p->status == TL_CONVEX_DEGENERATE);
+    tl_penetration after;
+    pose_b.position = tl_mul_add(pose_b.position, p->normal, p->upper_bound);
+    tl_convex_penetration(a, pose_a, b, pose_b, NULL, &after);
+    TEST_CHECK(after.depth <= 2.0f * gap);
+}
+
+static void test_budgets(void **state)
+{
+    (void)state;
+    static const uint32_t budgets[] = { 1, 2, 8, 32, 124, 200, 1000, 4000 };
+    test_random random = { 14 };
+    tl_vec3 *points = malloc(3000 * sizeof *points);
+    tl_hull *hulls[2];
+    tl_convex shapes[2];
+    for (int k = 0; k < 2; k++) {
+        shape_make(SHAPE_SPHERE, &random, points, 3000);
+        TEST_RESULT(tl_hull_bake(points, 3000, NULL, &hulls[k], NULL), TL_OK);
+        shapes[k] = tl_convex_from_hull(hulls[k], 0.0f);
+    }
+    const tl_transform here = tl_transform_identity();
+    tl_penetration whole, p;
+    TEST_CHECK(tl_convex_penetration(&shapes[0], here, &shapes[1], here, NULL, &whole));
+    float last = INFINITY;
+    for (int i = 0; i < 8; i++) {
+        check_budget(&shapes[0], here, &shapes[1], here, &whole, budgets[i], &p);
+        TEST_CHECK(p.status == TL_CONVEX_ITERATIONS && p.upper_bound <= last);
+        last = p.upper_bound;
+        tl_contact_manifold m;
+        const tl_contact_limits limits = { 0.0f, 0.01f, budgets[i] };
+        TEST_CHECK(tl_convex_contacts(&shapes[0], here, &shapes[1], here, &limits, NULL, &m) > 0);
+        TEST_CHECK(m.status == TL_CONVEX_ITERATIONS && fabsf(m.separation + p.depth) < 1e-6f);
+    }
+    check_budget(&shapes[0], here, &shapes[1], here, &whole, UINT32_MAX, &p);
+    TEST_CHECK(p.status == whole.status && p.depth == whole.depth && p.iterations == whole.iterations);
+    for (int k = 0; k < 2; k++) {
+        tl_blob_free(hulls[k]);
+    }
+    free(points);
+}
+
+static void test_budgets_of_families(void **state)
+{
+    (void)state;
+    test_random random = { 15 };
+    uint32_t ended = 0, done = 0;
+    for (uint32_t i = 0; i < 4000; i++) {
+        test_body a, b;
+        test_body_make(&a, (body_family)(i % BODY_COUNT), (uint64_t)i, 1.0f);
+        test_body_make(&b, (body_family)(i / BODY_COUNT % BODY_COUNT), (uint64_t)i + 1, 1.0f);
+        tl_transform pose_a, pose_b;
+        test_place(&random, &a, &b, i % 2 == 0 ? GAP_SHALLOW : GAP_DEEP, &pose_a, &pose_b);
+        tl_penetration whole, p;
+        if (tl_convex_penetration(&a.shape, pose_a, &b.shape, pose_b, NULL, &whole)) {
+            check_budget(&a.shape, pose_a, &b.shape, pose_b, &whole, 1 + i % 7, &p);
+            ended += p.status == TL_CONVEX_ITERATIONS;
+            done += p.status == TL_CONVEX_CONVERGED;
+        }
+        test_body_free(&a);
+        test_body_free(&b);
+    }
+    print_message("budgets ended %u searches, %u were done before\n", ended, done);
+    TEST_CHECK(ended > 200 && done > 200);
+}
+
 static void compare_far(const test_body *a, const test_body *b, const tl_transform near[2], const tl_transform far[2],
                         void *user)
 {
@@ -260,6 +335,8 @@ int main(void)
         cmocka_unit_test(test_flat_shapes),
         cmocka_unit_test(test_curved_shapes),
         cmocka_unit_test(test_concentric_balls),
+        cmocka_unit_test(test_budgets),
+        cmocka_unit_test(test_budgets_of_families),
         cmocka_unit_test(test_place_in_the_world_does_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -188,7 +188,7 @@ static void test_faces_of_many_corners(void **state)
                                   { 0.05f * (float)k, 1.999f, 0 } };
             tl_contact_manifold m;
             uint32_t count = tl_convex_contacts(&prism, tl_transform_identity(), &prism, pose,
-                                                &(tl_contact_limits){ 0.01f, 0.01f }, NULL, &m);
+                                                &(tl_contact_limits){ 0.01f, 0.01f, 0 }, NULL, &m);
             TEST_CHECK(count >= 4 && fabsf(m.normal.y) > 0.999f);
             float low = INFINITY, high = -INFINITY, across = 0.0f;
             for (uint32_t i = 0; i < count; i++) {

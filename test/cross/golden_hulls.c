@@ -124,7 +124,7 @@ static void answer_pair(pair_digests *d, const tl_convex *a, tl_transform pose_a
         digest_vec3(&d->cast, hit.point);
         digest_vec3(&d->cast, hit.normal);
     }
-    const tl_contact_limits limits = { 0.0625f, 0.015625f };
+    const tl_contact_limits limits = { 0.0625f, 0.015625f, 0 };
     tl_contact_manifold manifold;
     if (digest_found(&d->contacts, tl_convex_contacts(a, pose_a, b, pose_b, &limits, NULL, &manifold) > 0)) {
         digest_vec3(&d->contacts, manifold.normal);

@@ -56,7 +56,7 @@ static bool run_query(const stack_run *run, test_random *random, uint32_t i)
     tl_penetration penetration;
     tl_contact_manifold manifold;
     tl_convex_hit hit;
-    const tl_soup_contact_query contacts_of = { &shape, here, { 0.1f, 0.1f }, NULL };
+    const tl_soup_contact_query contacts_of = { &shape, here, { 0.1f, 0.1f, 0 }, NULL };
     uint32_t count;
     switch (run->query) {
     case 0:

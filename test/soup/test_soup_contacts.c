@@ -91,7 +91,7 @@ static void test_a_floor_is_flat(void **state)
                               { test_random_range(&random, -4, 4), -lowest[k] - depth,
                                 test_random_range(&random, -4, 4) } };
         tl_soup_contact found[MOST_CONTACTS];
-        tl_soup_contact_query query = { &shapes[k], pose, { 0.01f, 0.01f }, NULL };
+        tl_soup_contact_query query = { &shapes[k], pose, { 0.01f, 0.01f, 0 }, NULL };
         uint32_t count;
         TEST_RESULT(tl_soup_find_contacts(soup, &query, found, MOST_CONTACTS, &count), TL_OK);
         float least = INFINITY;
@@ -150,7 +150,7 @@ static void test_edges_that_stand_out(void **state)
         float angle = 0.1f * (float)i; // within 45 degrees: the ridge's normals
         tl_transform pose = { tl_quat_identity(), { 0.49f * sinf(angle), 0.49f * cosf(angle), 0.3f } };
         tl_soup_contact found[8];
-        tl_soup_contact_query query = { &ball, pose, { 0.0f, 0.01f }, NULL };
+        tl_soup_contact_query query = { &ball, pose, { 0.0f, 0.01f, 0 }, NULL };
         uint32_t count;
         TEST_RESULT(tl_soup_find_contacts(soup, &query, found, 8, &count), TL_OK);
         TEST_CHECK(count == 2); // both triangles have the ridge
@@ -220,7 +220,7 @@ static void test_bent_floors(void **state)
             tl_vec3 p = tl_vec3_make(test_random_range(&random, -3, 3), 0, test_random_range(&random, -3, 3));
             p.y = heights[h](p.x, p.z) + 0.56f;
             tl_soup_contact found[MOST_CONTACTS];
-            tl_soup_contact_query query = { &ball, { tl_quat_identity(), p }, { 0.05f, 0.01f }, NULL };
+            tl_soup_contact_query query = { &ball, { tl_quat_identity(), p }, { 0.05f, 0.01f, 0 }, NULL };
             uint32_t count;
             TEST_RESULT(tl_soup_find_contacts(soup, &query, found, MOST_CONTACTS, &count), TL_OK);
             for (uint32_t c = 0; c < count; c++) {

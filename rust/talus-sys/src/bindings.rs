@@ -471,6 +471,7 @@ pub struct tl_convex_hit {
 pub struct tl_contact_limits {
     pub margin: f32,
     pub tolerance: f32,
+    pub max_steps: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -2360,6 +2361,15 @@ extern "C" {
         cache: *mut tl_simplex_cache,
         penetration_out: *mut tl_penetration,
     ) -> bool;
+    pub fn tl_convex_penetration_within(
+        a: *const tl_convex,
+        pose_a: tl_transform,
+        b: *const tl_convex,
+        pose_b: tl_transform,
+        cache: *mut tl_simplex_cache,
+        max_steps: u32,
+        penetration_out: *mut tl_penetration,
+    ) -> bool;
     pub fn tl_convex_cast(
         a: *const tl_convex,
         pose_a: tl_transform,
@@ -4049,9 +4059,10 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_convex_hit, normal), 24);
         assert_eq!(core::mem::offset_of!(tl_convex_hit, status), 36);
         assert_eq!(core::mem::offset_of!(tl_convex_hit, iterations), 40);
-        assert_eq!(core::mem::size_of::<tl_contact_limits>(), 8);
+        assert_eq!(core::mem::size_of::<tl_contact_limits>(), 12);
         assert_eq!(core::mem::offset_of!(tl_contact_limits, margin), 0);
         assert_eq!(core::mem::offset_of!(tl_contact_limits, tolerance), 4);
+        assert_eq!(core::mem::offset_of!(tl_contact_limits, max_steps), 8);
         assert_eq!(core::mem::size_of::<tl_contact>(), 40);
         assert_eq!(core::mem::offset_of!(tl_contact, point_a), 0);
         assert_eq!(core::mem::offset_of!(tl_contact, point_b), 12);

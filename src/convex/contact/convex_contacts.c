@@ -252,6 +252,7 @@ static bool start_search(contact_search *s, const tl_convex *a, const tl_transfo
         return false;
     }
     s->radii = (double)a->radius + (double)b->radius;
+    s->pair.depth_steps = limits != NULL && limits->max_steps > 0 ? limits->max_steps : UINT32_MAX;
     return true;
 }
 

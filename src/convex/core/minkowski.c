@@ -216,6 +216,7 @@ bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, const tl_transfor
                  tl_frame_rotate_back(&pair->a_to_world, tl_vec3d_sub(position_b, position_a)));
     pair->origin_size = tl_vec3d_size(pair->b_to_a.origin);
     pair->scale = 0.0;
+    pair->depth_steps = UINT32_MAX;
     tl_minkowski_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
     return true;
 }

@@ -29,6 +29,7 @@ typedef struct tl_minkowski {
     double scale;            // what rounding is relative to: the largest coordinates that went into a point so far
     uint32_t last_a, last_b; // hints
     uint32_t scan_limit;     // hulls of so many vertices are scanned, whatever the hint
+    uint32_t depth_steps;    // budget of the search for a depth
 } tl_minkowski;
 
 // False, and the pair is not set, when a pose or what a shape holds itself is not finite.

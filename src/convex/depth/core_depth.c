@@ -11,7 +11,7 @@
 void tl_core_depth_find(tl_minkowski *pair, const tl_gjk *gjk, tl_core_depth *depth)
 {
     tl_epa_run(pair, gjk, depth);
-    if (depth->status != TL_CONVEX_CONVERGED) {
+    if (depth->status != TL_CONVEX_CONVERGED && depth->iterations < pair->depth_steps) {
         tl_direction_search(pair, depth);
     }
     depth->upper = depth->upper > 0.0 ? depth->upper : 0.0;

@@ -54,6 +54,7 @@ typedef struct direction_search {
     tl_core_depth *depth;
     cone_corner axes[6]; // both ways along each axis
     double reach;        // largest |w| of the points seen
+    uint32_t max_steps;
     uint32_t steps;
 } direction_search;
 
@@ -166,7 +167,7 @@ static bool prove_octant(direction_search *s, uint32_t octant, double gap)
             count--;
             continue;
         }
-        if (count == MAX_CONES || s->steps >= TL_MAX_DIRECTION_STEPS) {
+        if (count == MAX_CONES || s->steps >= s->max_steps) {
             return false;
         }
         // A facet that is nearer than any known: its own direction is better than any corner's.
@@ -211,6 +212,8 @@ void tl_direction_search(tl_minkowski *pair, tl_core_depth *depth)
     s.depth = depth;
     s.reach = 0.0;
     s.steps = 0;
+    uint32_t left = pair->depth_steps - depth->iterations;
+    s.max_steps = left < TL_MAX_DIRECTION_STEPS ? left : TL_MAX_DIRECTION_STEPS;
     for (int i = 0; i < 6; i++) {
         sample_direction(&s, axes[i], &s.axes[i]);
     }

@@ -179,6 +179,10 @@ static void expand_polytope(epa_search *s, tl_polytope *p)
                                                                                                 : TL_CONVEX_DEGENERATE;
             break;
         }
+        if (depth->iterations >= s->pair->depth_steps) {
+            depth->status = TL_CONVEX_ITERATIONS;
+            break;
+        }
         if (!tl_polytope_add(p, f, &point, noise)) {
             depth->status = p->vertex_count == TL_POLYTOPE_VERTICES ? TL_CONVEX_ITERATIONS : TL_CONVEX_DEGENERATE;
             break;

@@ -36,6 +36,12 @@ static void add_radii(const tl_minkowski *pair, const core_penetration *cores, t
 bool tl_convex_penetration(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                            tl_simplex_cache *cache, tl_penetration *penetration_out)
 {
+    return tl_convex_penetration_within(a, pose_a, b, pose_b, cache, 0, penetration_out);
+}
+
+bool tl_convex_penetration_within(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
+                                  tl_simplex_cache *cache, uint32_t max_steps, tl_penetration *penetration_out)
+{
     TL_ASSERT(a != NULL && b != NULL && penetration_out != NULL);
     tl_minkowski pair;
     memset(penetration_out, 0, sizeof *penetration_out);
@@ -43,6 +49,7 @@ bool tl_convex_penetration(const tl_convex *a, tl_transform pose_a, const tl_con
         penetration_out->status = TL_CONVEX_NOT_FINITE;
         return false;
     }
+    pair.depth_steps = max_steps > 0 ? max_steps : UINT32_MAX;
     double radii = (double)a->radius + (double)b->radius;
     tl_gjk gjk;
     tl_gjk_run(&pair, cache, -1.0, &gjk);
