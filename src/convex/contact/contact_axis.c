@@ -16,6 +16,10 @@
 // A pose kept in floats, and support points: roundings of their size.
 #define KEPT_POSE_ERROR (4.0 * (double)TL_FLOAT_ROUNDING)
 
+// A scan of so many vertices for the largest product alone takes less than a support query, which has to find the
+// lowest of all vertices that have it: along a face's normal these are the corners of the face, compared exactly.
+#define SMALL_HULL 64u
+
 // A ball around the points of a shape. False for shapes whose extent is not known.
 static bool ball_of(const tl_convex *shape, tl_vec3d *middle, double *reach)
 {
@@ -71,35 +75,44 @@ static tl_vec3d unit(tl_vec3 v)
 // Whether the support's value costs less than its point.
 static bool is_small(const tl_convex *shape)
 {
-    return shape->kind == TL_CONVEX_BOX || (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count == 8);
+    return shape->kind == TL_CONVEX_BOX ||
+           (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count >= 4 && shape->hull->vertex_count <= SMALL_HULL);
 }
 
-// How far a small shape reaches along a direction, and the size of its coordinates.
-static double small_reach(const tl_convex *shape, tl_vec3d d, double *size)
+// How far a small shape reaches along two directions; returns the size of its coordinates.
+static double small_reach(const tl_convex *shape, const tl_vec3d d[2], double reach[2])
 {
-    tl_vec3d c = tl_vec3d_from(shape->corners[0]), h = tl_vec3d_from(shape->corners[1]);
     if (shape->kind == TL_CONVEX_HULL) {
         tl_aabb box = shape->hull->bounds;
-        *size = tl_vec3d_size(tl_vec3d_from(tl_max(tl_abs(box.min), tl_abs(box.max))));
-        return tl_reach_of_eight(tl_hull_vertices(shape->hull), &d);
+        tl_reach_of_two(tl_hull_vertices(shape->hull), shape->hull->vertex_count, d, reach);
+        return tl_vec3d_size(tl_vec3d_from(tl_max(tl_abs(box.min), tl_abs(box.max))));
     }
-    *size = tl_vec3d_size(c) + tl_vec3d_size(h);
-    return tl_vec3d_dot(d, c) + (fabs(d.x) * h.x + fabs(d.y) * h.y + fabs(d.z) * h.z);
+    tl_vec3d c = tl_vec3d_from(shape->corners[0]), h = tl_vec3d_from(shape->corners[1]);
+    for (int k = 0; k < 2; k++) {
+        reach[k] = tl_vec3d_dot(d[k], c) + (fabs(d[k].x) * h.x + fabs(d[k].y) * h.y + fabs(d[k].z) * h.z);
+    }
+    return tl_vec3d_size(c) + tl_vec3d_size(h);
 }
 
-// The value of A - B's support function.
-static double depth_along(tl_minkowski *pair, tl_vec3d normal)
+// The value of A - B's support function along two normals.
+static void depths_along(tl_minkowski *pair, const tl_vec3d normals[2], double depths[2])
 {
     if (is_small(pair->a) && is_small(pair->b)) {
-        tl_vec3d back = tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, normal));
-        double size_a, size_b;
-        double reach = small_reach(pair->a, normal, &size_a) + small_reach(pair->b, back, &size_b);
-        pair->scale = fmax(pair->scale, size_a + size_b + pair->origin_size);
-        return reach - tl_vec3d_dot(normal, pair->b_to_a.origin);
+        const tl_vec3d back[2] = { tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, normals[0])),
+                                   tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, normals[1])) };
+        double reach_a[2], reach_b[2];
+        double scale = small_reach(pair->a, normals, reach_a) + small_reach(pair->b, back, reach_b);
+        pair->scale = fmax(pair->scale, scale + pair->origin_size);
+        for (int k = 0; k < 2; k++) {
+            depths[k] = reach_a[k] + reach_b[k] - tl_vec3d_dot(normals[k], pair->b_to_a.origin);
+        }
+        return;
     }
-    tl_minkowski_point point;
-    tl_minkowski_support(pair, normal, &point);
-    return tl_vec3d_dot(normal, point.w) + pair->direction_error;
+    for (int k = 0; k < 2; k++) {
+        tl_minkowski_point point;
+        tl_minkowski_support(pair, normals[k], &point);
+        depths[k] = tl_vec3d_dot(normals[k], point.w) + pair->direction_error;
+    }
 }
 
 bool tl_axis_holds(tl_minkowski *pair, const tl_contact_cache *cache, double slack, tl_deepest *out)
@@ -113,14 +126,16 @@ bool tl_axis_holds(tl_minkowski *pair, const tl_contact_cache *cache, double sla
     if (!(least > 0.0)) {
         return false;
     }
-    tl_vec3d by_a = unit(cache->axis_a), by_b = tl_frame_rotate(&pair->b_to_a, unit(cache->axis_b));
-    double depth_a = depth_along(pair, by_a), depth_b = depth_along(pair, by_b);
-    double depth = depth_a <= depth_b ? depth_a : depth_b;
-    if (!(depth - least <= slack)) {
+    // As A carries it, and as B does.
+    const tl_vec3d normals[2] = { unit(cache->axis_a), tl_frame_rotate(&pair->b_to_a, unit(cache->axis_b)) };
+    double depths[2];
+    depths_along(pair, normals, depths);
+    const int best = depths[0] <= depths[1] ? 0 : 1;
+    if (!(depths[best] - least <= slack)) {
         return false;
     }
-    out->normal = depth_a <= depth_b ? by_a : by_b;
-    out->separation = -depth;
+    out->normal = normals[best];
+    out->separation = -depths[best];
     out->lower_depth = least;
     out->has_points = false;
     out->features[0] = out->features[1] = 0;

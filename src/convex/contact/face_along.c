@@ -17,7 +17,7 @@
 #define MIN_COSINE 0.5
 
 // Measured: a scan of so many faces takes as long as a support query and the look at what is around its vertex.
-#define SCANNED_FACES 48u
+#define SCANNED_FACES 96u
 
 typedef struct candidate {
     const tl_hull *hull;
@@ -39,22 +39,45 @@ static void consider_face(candidate *best, uint32_t face)
     }
 }
 
-// All of them, without branches.
+// Of the planes of a block the largest product with the direction; all of them are kept.
+static double block_products(const tl_hull_plane_block *block, tl_vec3d d, double dots[8])
+{
+#if TL_HAS_F64X2
+    const tl_f64x2 x = tl_f64x2_all(d.x), y = tl_f64x2_all(d.y), z = tl_f64x2_all(d.z);
+    tl_f64x2 most = tl_f64x2_all(-2.0);
+    for (int i = 0; i < 8; i += 2) {
+        tl_f64x2 xy =
+            tl_f64x2_add(tl_f64x2_mul(x, tl_f64x2_load(&block->x[i])), tl_f64x2_mul(y, tl_f64x2_load(&block->y[i])));
+        tl_f64x2 dot = tl_f64x2_add(xy, tl_f64x2_mul(z, tl_f64x2_load(&block->z[i])));
+        tl_f64x2_store(&dots[i], dot);
+        most = tl_f64x2_max(most, dot);
+    }
+    return tl_f64x2_get_x(tl_f64x2_max(most, tl_f64x2_swap(most)));
+#else
+    double most = -2.0;
+    for (int i = 0; i < 8; i++) {
+        dots[i] = d.x * block->x[i] + d.y * block->y[i] + d.z * block->z[i];
+        most = dots[i] > most ? dots[i] : most;
+    }
+    return most;
+#endif
+}
+
+// All of them, a block at a time; lanes beyond the last face are passed over.
 static void consider_faces(candidate *best)
 {
     const tl_hull_plane_block *block = tl_hull_plane_blocks(best->hull);
-    const tl_vec3d d = best->direction;
-    double most = best->dot;
-    uint32_t face = best->face, count = best->hull->face_count;
+    const uint32_t count = best->hull->face_count;
+    double dots[8];
     for (uint32_t from = 0; from < count; from += 8, block++) {
+        if (!(block_products(block, best->direction, dots) > best->dot)) {
+            continue;
+        }
         for (uint32_t lane = 0; lane < 8 && from + lane < count; lane++) {
-            double dot = d.x * block->x[lane] + d.y * block->y[lane] + d.z * block->z[lane];
-            face = dot > most ? from + lane : face;
-            most = dot > most ? dot : most;
+            best->face = dots[lane] > best->dot ? from + lane : best->face;
+            best->dot = dots[lane] > best->dot ? dots[lane] : best->dot;
         }
     }
-    best->face = face;
-    best->dot = most;
 }
 
 static void consider_faces_around(candidate *best, uint32_t vertex)

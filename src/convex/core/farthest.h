@@ -134,17 +134,32 @@ static inline uint32_t tl_farthest(const tl_vec3 *points, uint32_t count, const 
     return tl_farthest_plain(points, count, direction);
 }
 
-// The largest product itself, of 8 points.
-static inline double tl_reach_of_eight(const tl_vec3 *points, const tl_vec3d *direction)
+// The largest product itself, of count >= 4 points, along two directions.
+static inline void tl_reach_of_two(const tl_vec3 *points, uint32_t count, const tl_vec3d direction[2], double reach[2])
 {
 #if TL_HAS_F64X2
-    const tl_f64x2 d[3] = { tl_f64x2_all(direction->x), tl_f64x2_all(direction->y), tl_f64x2_all(direction->z) };
-    double dots[4];
-    tl_f64x2 best = tl_f64x2_max(tl_farthest_four(d, points, dots), tl_farthest_four(d, points + 4, dots));
-    return tl_f64x2_get_x(tl_f64x2_max(best, tl_f64x2_swap(best)));
+    tl_f64x2 d[2][3], best[2] = { tl_f64x2_all(-(double)INFINITY), tl_f64x2_all(-(double)INFINITY) };
+    for (int k = 0; k < 2; k++) {
+        d[k][0] = tl_f64x2_all(direction[k].x);
+        d[k][1] = tl_f64x2_all(direction[k].y);
+        d[k][2] = tl_f64x2_all(direction[k].z);
+    }
+    for (uint32_t i = 0; i < count; i += 4) {
+        tl_f64x2 x[2], y[2], z[2]; // of the last four some are computed again
+        tl_f64x2_load_points(&points[i + 4 <= count ? i : count - 4].x, x, y, z);
+        for (int k = 0; k < 2; k++) {
+            best[k] = tl_f64x2_max(best[k], tl_f64x2_max(tl_farthest_two(d[k], x[0], y[0], z[0]),
+                                                         tl_farthest_two(d[k], x[1], y[1], z[1])));
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        reach[k] = tl_f64x2_get_x(tl_f64x2_max(best[k], tl_f64x2_swap(best[k])));
+    }
 #else
-    uint32_t vertex = tl_farthest_plain(points, 8, direction);
-    return tl_vec3d_dot(*direction, tl_vec3d_from(points[vertex]));
+    for (int k = 0; k < 2; k++) {
+        uint32_t vertex = tl_farthest_plain(points, count, &direction[k]);
+        reach[k] = tl_vec3d_dot(direction[k], tl_vec3d_from(points[vertex]));
+    }
 #endif
 }
 
