@@ -33,7 +33,7 @@ foreach(stem import_process gltf_parser gltf_reader import_formats sibling_file 
 endforeach()
 
 # The world library's tests.
-foreach(stem triangle_record segment_file plan_file merge_tiles shard manifest)
+foreach(stem triangle_record segment_file plan_file merge_tiles tile_times shard manifest)
     set(talus_test_${stem}_needs talus_world)
 endforeach()
 

@@ -10,6 +10,8 @@
 #include "cli/world/world_route.h"
 #include "world/job/merge_tiles.h"
 #include "world/job/plan_world.h"
+#include "world/job/rank_replay.h"
+#include "world/job/tile_times.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +24,7 @@ typedef struct world_options {
     const char *origin;
     const char *shard;
     const char *extents;
-    uint32_t shards, memory_mib, block;
+    uint32_t shards, ranks, memory_mib, block;
     bool as_planned;
     tl_bake_settings bake;
 } world_options;
@@ -127,10 +129,57 @@ static tl_exit run_world_bake(tl_cli *cli, world_options *options)
     return tl_run_world_bake(cli, &request);
 }
 
+// What the noted times say of a run on so many processes. False: reported.
+static bool replay_times(tl_cli *cli, const char *job, uint32_t ranks, tl_world_replay *replay, tl_exit *exit_out)
+{
+    tl_world_plan plan;
+    uint64_t *times = NULL;
+    tl_io_error error;
+    memset(&error, 0, sizeof error);
+    tl_result result = tl_world_plan_of_job(job, &plan, &error);
+    if (result == TL_OK) {
+        result = tl_world_times_read(job, &plan, &times, &error);
+    }
+    if (result == TL_OK) {
+        result = tl_world_replay_ranks(&plan, times, ranks, replay);
+    }
+    if (result != TL_OK) {
+        *exit_out = error.result != TL_OK ? tl_cli_fail_io(cli, &error)
+                                          : tl_cli_fail(cli, TL_EXIT_MEMORY, "%s: out of memory", job);
+    }
+    free(times);
+    tl_world_plan_free(&plan);
+    return result == TL_OK;
+}
+
+static json_t *replay_json(uint32_t ranks, const tl_world_replay *replay)
+{
+    return json_pack("{sI so so so so so}", "ranks", (json_int_t)ranks, "idle_dealt", tl_json_double(replay->dealt),
+                     "idle_shards", tl_json_double(replay->shards), "idle_dealt_in_grid_order",
+                     tl_json_double(replay->dealt_naive), "idle_blocks_of_grid", tl_json_double(replay->shards_naive),
+                     "idle_at_least", tl_json_double(replay->least));
+}
+
+static void print_times(const tl_world_status *status, const world_options *options, const tl_world_replay *replay)
+{
+    if (status->timed > 0) {
+        printf("time     %.1f s of processor for %llu tiles; the longest, tile %u,%u, %.3f s\n",
+               (double)status->nanoseconds / 1e9, (unsigned long long)status->timed, status->longest_x,
+               status->longest_z, (double)status->longest / 1e9);
+    }
+    if (options->ranks > 0) {
+        printf("ranks    %u: idle %.1f%% with mpirun, %.1f%% with --shard; in the grid's order %.1f%%, in equal blocks "
+               "of it %.1f%%\n",
+               options->ranks, 100.0 * replay->dealt, 100.0 * replay->shards, 100.0 * replay->dealt_naive,
+               100.0 * replay->shards_naive);
+    }
+}
+
 static tl_exit run_status(tl_cli *cli, world_options *options)
 {
     tl_world_shard shard = { 0, 1, NULL };
     tl_world_status status;
+    tl_world_replay replay;
     tl_io_error error;
     tl_exit code;
     memset(&error, 0, sizeof error);
@@ -141,15 +190,30 @@ static tl_exit run_status(tl_cli *cli, world_options *options)
     if (tl_world_look(job, &shard, &status, &error) != TL_OK) {
         return tl_cli_fail_io(cli, &error);
     }
+    if (options->ranks > 0 && options->shard != NULL) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "--ranks counts on the whole job; leave --shard out");
+    }
+    if (options->ranks > 0 && status.timed < status.tiles) {
+        return tl_cli_fail(cli, TL_EXIT_NEGATIVE,
+                           "--ranks: of %llu of %llu tiles it is not known how long they take; bake them first",
+                           (unsigned long long)(status.tiles - status.timed), (unsigned long long)status.tiles);
+    }
+    if (options->ranks > 0 && !replay_times(cli, job, options->ranks, &replay, &code)) {
+        return code;
+    }
     const bool complete = status.there == status.tiles;
     if (cli->json) {
         json_t *object =
-            json_pack("{so so sI sI so sI sI so sb}", "job", tl_json_text(job), "shard", tl_world_shard_json(&shard),
-                      "inputs", (json_int_t)status.inputs, "triangles", (json_int_t)status.triangles, "grid",
-                      grid_json(status.tiles_x, status.tiles_z), "tiles", (json_int_t)status.tiles, "there",
-                      (json_int_t)status.there, "cost_there",
-                      tl_json_double(status.cost > 0 ? (double)status.cost_there / (double)status.cost : 1.0),
-                      "complete", (int)complete);
+            json_pack("{so so sI sI so sI sI so sI so sb}", "job", tl_json_text(job), "shard",
+                      tl_world_shard_json(&shard), "inputs", (json_int_t)status.inputs, "triangles",
+                      (json_int_t)status.triangles, "grid", grid_json(status.tiles_x, status.tiles_z), "tiles",
+                      (json_int_t)status.tiles, "there", (json_int_t)status.there, "cost_there",
+                      tl_json_double(status.cost > 0 ? (double)status.cost_there / (double)status.cost : 1.0), "timed",
+                      (json_int_t)status.timed, "seconds", tl_json_double((double)status.nanoseconds / 1e9), "complete",
+                      (int)complete);
+        if (options->ranks > 0) {
+            json_object_set_new(object, "replay", replay_json(options->ranks, &replay));
+        }
         if (!complete) {
             json_object_set_new(object, "first_missing", grid_json(status.missing_x, status.missing_z));
         }
@@ -160,6 +224,7 @@ static tl_exit run_status(tl_cli *cli, world_options *options)
     printf("inputs   %llu, %llu triangles\n", (unsigned long long)status.inputs, (unsigned long long)status.triangles);
     printf("tiles    %llu of %llu are there, about %.1f%% of the work\n", (unsigned long long)status.there,
            (unsigned long long)status.tiles, percent(status.cost_there, status.cost));
+    print_times(&status, options, &replay);
     if (!complete) {
         printf("missing  tile %u,%u and %llu more\n", status.missing_x, status.missing_z,
                (unsigned long long)(status.tiles - status.there - 1));
@@ -253,7 +318,7 @@ static tl_exit run_route(tl_cli *cli, world_options *options)
 
 static const char *const plan_takes[] = { "output", "memory", "up", "scale", "origin", "*", NULL };
 static const char *const bake_takes[] = { "shard", "shards", "as-planned", NULL };
-static const char *const status_takes[] = { "shard", NULL };
+static const char *const status_takes[] = { "shard", "ranks", NULL };
 static const char *const merge_takes[] = { "output", "as-planned", NULL };
 static const char *const check_takes[] = { NULL };
 static const char *const routes_takes[] = { "output", "block", NULL };
@@ -355,6 +420,9 @@ static tl_exit run_world(tl_cli *cli)
           0 },
         { "shards", 0, TL_OPTION_COUNT, &options.shards, "N",
           "how many parts there are, where the scheduler says only which this is", NULL, 0, 0, 0, 1u << 24 },
+        { "ranks", 0, TL_OPTION_COUNT, &options.ranks, "N",
+          "status: how long N processes would wait for one another, by the times that the tiles took", NULL, 0, 0, 1,
+          1u << 20 },
         { "as-planned", 0, TL_OPTION_FLAG, &options.as_planned, NULL,
           "bake and merge what was planned, though inputs changed since", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
@@ -369,9 +437,12 @@ static tl_exit run_world(tl_cli *cli)
     };
     tl_option nav[TL_NAV_OPTIONS];
     list_nav_options(&options, nav);
-    const tl_option_group groups[] = { { "Options:", own },           { "plan, how the world is read:", plan },
-                                       { "plan, the navmesh:", nav }, { "bake, merge:", bake },
-                                       { "routes, route:", routes },  { NULL, NULL } };
+    const tl_option_group groups[] = { { "Options:", own },
+                                       { "plan, how the world is read:", plan },
+                                       { "plan, the navmesh:", nav },
+                                       { "bake, status, merge:", bake },
+                                       { "routes, route:", routes },
+                                       { NULL, NULL } };
     tl_exit code;
     if (!tl_cli_parse(cli, groups, 2, 4, &code)) {
         return code;
@@ -397,7 +468,7 @@ const tl_command tl_world_command = {
     "bake a world larger than memory, in shards that resume",
     "plan INPUT -o JOB [options]\n"
     "bake JOB [--shard I/N]\n"
-    "status JOB\n"
+    "status JOB [--ranks N]\n"
     "merge JOB -o FILE.talus\n"
     "check FILE.talus\n"
     "routes FILE.talus [-o FILE.talus] [--block N]\n"

@@ -383,6 +383,32 @@ static void test_full_disk(void **state)
     cli_check_error(2, "world merge full -o - --json", "--json and -o -", "standard output");
 }
 
+// How long tiles took is noted beside them, by every process, and replayed.
+static void test_times(void **state)
+{
+    (void)state;
+    cli_do(0, "world plan full.obj -o timed --tile-size 64");
+    cli_check_error(1, "world status timed --ranks 4", "not known how long they take", "bake them first");
+    const double half = baked_now("world bake timed --shard 1/2 --json");
+    json_t *first = cli_json(1, "world status timed --json");
+    TEST_CHECK(half > 5 && cli_number(first, "timed") == half && cli_number(first, "seconds") > 0);
+    json_decref(first);
+    cli_do(0, "world bake timed --shard 2/2");
+    json_t *all = cli_json(0, "world status timed --ranks 4 --json");
+    json_t *replay = json_object_get(all, "replay");
+    TEST_CHECK(cli_number(all, "timed") == cli_number(all, "tiles"));
+    assert_non_null(replay);
+    TEST_CHECK(cli_number(replay, "ranks") == 4 && cli_number(replay, "idle_dealt") >= 0 &&
+               cli_number(replay, "idle_dealt") < 0.75 && cli_number(replay, "idle_shards") < 0.75);
+    json_decref(all);
+    cli_result text = cli_expect(0, "world status timed --ranks 1");
+    cli_check_part(text.out, "ranks    1: idle 0.0% with mpirun, 0.0% with --shard");
+    cli_check_part(text.out, "s of processor for");
+    cli_free(&text);
+    cli_check_error(2, "world status timed --ranks 4 --shard 1/2", "--ranks", "--shard");
+    cli_check_error(2, "world bake timed --ranks 4", "--ranks is no option", "talus world bake");
+}
+
 // The schedulers' variables, as the processes of a job see them.
 static void test_environment(void **state)
 {
@@ -425,6 +451,7 @@ int main(void)
         cmocka_unit_test(test_tile_faults),
         cmocka_unit_test(test_input_faults),
         cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_times),
         cmocka_unit_test(test_environment),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);

@@ -8,8 +8,10 @@
 #include "io/files/sibling_file.h"
 #include "io/mesh/mesh_import.h"
 #include "io/mesh/obj_write.h"
+#include "world/bytes/append_file.h"
 #include "world/bytes/folder.h"
 #include "world/bytes/random_read.h"
+#include "world/bytes/thread_clock.h"
 
 #include <talus/pack.h>
 #include <talus/soup.h>
@@ -233,6 +235,27 @@ static void folders(void)
     EXPECT(!tl_file_look(path, NULL));
 }
 
+static void appending(void)
+{
+    const char *path = in_folder("gr\xc3\xbc\xc3\x9f.times");
+    tl_io_error error;
+    EXPECT(tl_file_append(path, "12", 2, NULL) == TL_OK && holds(path, "12"));
+    EXPECT(tl_file_append(path, "345", 3, NULL) == TL_OK && holds(path, "12345"));
+    EXPECT(tl_file_append(in_folder("none/below"), "1", 1, &error) == TL_ERR_IO && error.message[0] != '\0');
+    tl_file_remove(path);
+}
+
+// Counts in steps of up to 15 ms.
+static void thread_time(void)
+{
+    const uint64_t began = tl_thread_nanoseconds();
+    uint64_t steps = 0;
+    while (tl_thread_nanoseconds() == began && steps < UINT64_C(100000000)) {
+        steps++;
+    }
+    EXPECT(tl_thread_nanoseconds() > began);
+}
+
 int main(int count, char **words)
 {
     if (count != 2) {
@@ -243,6 +266,8 @@ int main(int count, char **words)
     whole_files();
     refusals();
     siblings();
+    appending();
+    thread_time();
     meshes();
     baked_files();
     long_names();

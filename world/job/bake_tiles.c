@@ -5,8 +5,10 @@
 
 #include "world/job/bake_tiles.h"
 
+#include "world/bytes/thread_clock.h"
 #include "world/job/tile_file.h"
 #include "world/job/tile_source.h"
+#include "world/job/tile_times.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,6 +24,7 @@ typedef struct bake_item {
     tl_result result;
     bool was_there;
     uint64_t bytes;
+    uint64_t nanoseconds; // of the worker's processor
     tl_io_error error;
 } bake_item;
 
@@ -35,6 +38,8 @@ typedef struct bake_job {
     uint32_t worker_count;
     const uint64_t *batch; // the tiles of a batch, in `tiles`
     bake_item *items;      // one for each
+    tl_world_times times;
+    unsigned char *records; // of a batch's times
 } bake_job;
 
 tl_result tl_world_plan_of_job(const char *job, tl_world_plan *plan_out, tl_io_error *error_out)
@@ -116,11 +121,13 @@ static void bake_item_task(uint32_t index, uint32_t worker, void *user)
     }
     item->was_there = tl_world_tile_is_there(path, tile);
     if (!item->was_there) {
+        const uint64_t began = tl_thread_nanoseconds();
         tl_world_window *window = &job->workers[worker].window;
         item->result = tl_world_window_gather(&job->source, tile_index, window, &item->error);
         if (item->result == TL_OK) {
             item->result = bake_window(job, tile, window, path, item);
         }
+        item->nanoseconds = tl_thread_nanoseconds() - began;
     }
     free(path);
 }
@@ -148,6 +155,22 @@ static void count_items(bake_job *job, uint32_t count, tl_world_bake_report *rep
     }
 }
 
+// Of the tiles of a batch that were baked now.
+static tl_result note_times(bake_job *job, uint32_t count, tl_io_error *error_out)
+{
+    size_t noted = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const bake_item *item = &job->items[i];
+        if (item->result == TL_OK && !item->was_there) {
+            tl_world_time_encode(&job->plan.tiles[job->batch[i]], item->nanoseconds,
+                                 job->records + TL_WORLD_TIME_RECORD * noted++);
+        }
+    }
+    return noted > 0 ? tl_world_times_append(&job->times, job->def->job, job->def->shard.index, job->records, noted,
+                                             error_out)
+                     : TL_OK;
+}
+
 static bool is_tile_there(const char *job, const tl_world_tile *tile)
 {
     char *path = tl_world_tile_path(job, tile->key);
@@ -156,15 +179,20 @@ static bool is_tile_there(const char *job, const tl_world_tile *tile)
     return there;
 }
 
-// The next tiles of the list, or the dealer's; 0: it is at its end. Towards the end a dealer gives fewer at a time, so
-// that no process waits long for the last.
+uint64_t tl_world_deal_size(uint64_t left, uint32_t workers, uint32_t processes)
+{
+    const uint64_t share = left / (2 * (uint64_t)processes), most = (uint64_t)TILES_PER_WORKER * workers;
+    const uint64_t size = share < workers ? workers : share < most ? share : most;
+    return size < left ? size : left;
+}
+
+// The next tiles of the list, or the dealer's; 0: it is at its end.
 static uint32_t next_batch(bake_job *job)
 {
     const tl_world_dealer *dealer = job->def->dealer;
     uint64_t wanted = (uint64_t)TILES_PER_WORKER * job->worker_count;
     if (dealer != NULL) {
-        const uint64_t share = (job->tile_count - job->first) / (2 * (uint64_t)dealer->processes);
-        wanted = share < job->worker_count ? job->worker_count : share < wanted ? share : wanted;
+        wanted = tl_world_deal_size(job->tile_count - job->first, job->worker_count, dealer->processes);
         job->first = dealer->take(wanted, dealer->user);
         job->first = job->first < job->tile_count ? job->first : job->tile_count;
     }
@@ -194,6 +222,10 @@ static tl_result bake_all(bake_job *job, tl_world_bake_report *report, tl_io_err
             }
         }
         count_items(job, count, report, &first, error_out);
+        const tl_result noted = note_times(job, count, error_out);
+        if (noted != TL_OK) {
+            return noted;
+        }
         const uint64_t done = dealer != NULL ? dealer->done(count, dealer->user) : job->first;
         if (host->progress != NULL && !host->progress->update("tiles", done, job->tile_count, host->progress->user)) {
             return tl_io_fail(error_out, TL_ERR_CANCELLED, NULL, 0, "", "cancelled");
@@ -240,7 +272,8 @@ static tl_result bake_shard(bake_job *job, tl_world_bake_report *report, tl_io_e
     job->tiles = tl_world_shard_tiles(&job->plan, &def->shard, &job->tile_count);
     job->workers = calloc(job->worker_count, sizeof *job->workers);
     job->items = calloc((size_t)job->worker_count * TILES_PER_WORKER, sizeof *job->items);
-    if (job->tiles == NULL || job->workers == NULL || job->items == NULL) {
+    job->records = malloc((size_t)job->worker_count * TILES_PER_WORKER * TL_WORLD_TIME_RECORD);
+    if (job->tiles == NULL || job->workers == NULL || job->items == NULL || job->records == NULL) {
         return tl_io_fail(error_out, TL_ERR_MEMORY, def->job, 0, "", "out of memory");
     }
     if (def->dealer == NULL) {
@@ -266,10 +299,47 @@ tl_result tl_world_bake(const tl_world_bake_def *def, tl_world_bake_report *repo
     }
     free(job.workers);
     free(job.items);
+    free(job.records);
+    free(job.times.path);
     free(job.tiles);
     tl_world_source_close(&job.source);
     tl_world_plan_free(&job.plan);
     return result;
+}
+
+static void count_time(const tl_world_tile *tile, uint64_t time, tl_world_status *status)
+{
+    status->timed += time > 0;
+    status->nanoseconds += time;
+    if (time > status->longest) {
+        status->longest = time;
+        status->longest_x = tile->x;
+        status->longest_z = tile->z;
+    }
+}
+
+static void look_at_tiles(const char *job, const tl_world_plan *plan, const uint64_t *tiles, uint64_t count,
+                          const uint64_t *times, tl_world_status *status_out)
+{
+    uint64_t missing = UINT64_MAX;
+    for (uint64_t i = 0; i < count; i++) {
+        const tl_world_tile *tile = &plan->tiles[tiles[i]];
+        const bool there = is_tile_there(job, tile);
+        status_out->cost += tile->cost;
+        status_out->cost_there += there ? tile->cost : 0;
+        status_out->there += there;
+        missing = !there && tiles[i] < missing ? tiles[i] : missing;
+        count_time(tile, times[tiles[i]], status_out);
+    }
+    if (missing != UINT64_MAX) {
+        status_out->missing_x = plan->tiles[missing].x;
+        status_out->missing_z = plan->tiles[missing].z;
+    }
+    status_out->inputs = plan->input_count;
+    status_out->triangles = plan->triangles;
+    status_out->tiles = count;
+    status_out->tiles_x = plan->grid.tiles_x;
+    status_out->tiles_z = plan->grid.tiles_z;
 }
 
 tl_result tl_world_look(const char *job, const tl_world_shard *shard, tl_world_status *status_out,
@@ -277,31 +347,20 @@ tl_result tl_world_look(const char *job, const tl_world_shard *shard, tl_world_s
 {
     memset(status_out, 0, sizeof *status_out);
     tl_world_plan plan;
-    uint64_t count = 0;
+    uint64_t count = 0, *tiles = NULL, *times = NULL;
     tl_result result = tl_world_plan_of_job(job, &plan, error_out);
-    uint64_t *tiles = result == TL_OK ? tl_world_shard_tiles(&plan, shard, &count) : NULL;
-    if (result == TL_OK && tiles == NULL) {
-        result = tl_io_fail(error_out, TL_ERR_MEMORY, job, 0, "", "out of memory");
+    if (result == TL_OK) {
+        result = tl_world_times_read(job, &plan, &times, error_out);
     }
-    uint64_t missing = UINT64_MAX;
-    for (uint64_t i = 0; i < count && tiles != NULL; i++) {
-        const tl_world_tile *tile = &plan.tiles[tiles[i]];
-        const bool there = is_tile_there(job, tile);
-        status_out->cost += tile->cost;
-        status_out->cost_there += there ? tile->cost : 0;
-        status_out->there += there;
-        missing = !there && tiles[i] < missing ? tiles[i] : missing;
+    if (result == TL_OK) {
+        tiles = tl_world_shard_tiles(&plan, shard, &count);
+        result = tiles != NULL ? TL_OK : tl_io_fail(error_out, TL_ERR_MEMORY, job, 0, "", "out of memory");
     }
-    if (missing != UINT64_MAX) {
-        status_out->missing_x = plan.tiles[missing].x;
-        status_out->missing_z = plan.tiles[missing].z;
+    if (result == TL_OK) {
+        look_at_tiles(job, &plan, tiles, count, times, status_out);
     }
-    status_out->inputs = plan.input_count;
-    status_out->triangles = plan.triangles;
-    status_out->tiles = count;
-    status_out->tiles_x = plan.grid.tiles_x;
-    status_out->tiles_z = plan.grid.tiles_z;
     free(tiles);
+    free(times);
     tl_world_plan_free(&plan);
     return result;
 }

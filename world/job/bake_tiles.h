@@ -26,6 +26,10 @@ typedef struct tl_world_dealer {
     void *user;
 } tl_world_dealer;
 
+/// How many of the `left` tiles of a list a process of that many workers takes at a time. Towards the end fewer, so
+/// that none waits long for the last.
+uint64_t tl_world_deal_size(uint64_t left, uint32_t workers, uint32_t processes);
+
 typedef struct tl_world_bake_def {
     const char *job; ///< path
     tl_world_shard shard;
@@ -47,6 +51,10 @@ typedef struct tl_world_status {
     uint64_t cost, cost_there;
     uint32_t tiles_x, tiles_z;
     uint32_t missing_x, missing_z; ///< the first that is missing, by z, then x
+    uint64_t timed;                ///< tiles whose time was noted (tile_times.h)
+    uint64_t nanoseconds;          ///< of processor time, of those
+    uint64_t longest;              ///< nanoseconds
+    uint32_t longest_x, longest_z;
 } tl_world_status;
 
 tl_result tl_world_look(const char *job, const tl_world_shard *shard, tl_world_status *status_out,
