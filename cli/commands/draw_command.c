@@ -8,6 +8,7 @@
 #include "cli/draw/draw_source.h"
 #include "cli/draw/draw_stage.h"
 #include "cli/draw/draw_steps.h"
+#include "cli/draw/draw_world.h"
 #include "cli/options/output_check.h"
 #include "cli/options/parse_value.h"
 #include "cli/shared/json_out.h"
@@ -402,6 +403,29 @@ static tl_exit draw_stages(tl_cli *cli, const char *path, const draw_settings *s
     return code;
 }
 
+// Maps of a job's tiles, which take no other options.
+static tl_exit draw_job(tl_cli *cli, const draw_settings *settings)
+{
+    static const char *const taken[] = { "output", "stage", "size", "json", "threads", "progress", NULL };
+    const char *job = cli->arguments.words[0];
+    for (uint32_t i = 0; i < cli->arguments.given_count; i++) {
+        int at = 0;
+        while (taken[at] != NULL && strcmp(taken[at], cli->arguments.given[i]) != 0) {
+            at++;
+        }
+        if (taken[at] == NULL) {
+            return tl_cli_fail(cli, TL_EXIT_USAGE,
+                               "--%s says nothing of %s, a world's job: its maps take --stage and --size",
+                               cli->arguments.given[i], job);
+        }
+    }
+    if (settings->output == NULL) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "say where to write with -o FILE.png");
+    }
+    const draw_world_options options = { settings->output, settings->stages_text, settings->size };
+    return draw_world(cli, job, &options);
+}
+
 static tl_exit run_draw(tl_cli *cli)
 {
     draw_settings settings;
@@ -437,8 +461,13 @@ static tl_exit run_draw(tl_cli *cli)
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
     tl_exit code = TL_EXIT_OK;
-    if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 1, &code) ||
-        !read_ends(cli, &settings, &code) || !choose_stages(cli, &settings, &code)) {
+    if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 1, &code)) {
+        return code;
+    }
+    if (draw_is_world_job(cli->arguments.words[0])) {
+        return draw_job(cli, &settings);
+    }
+    if (!read_ends(cli, &settings, &code) || !choose_stages(cli, &settings, &code)) {
         return code;
     }
     if (settings.output == NULL) {
@@ -456,7 +485,8 @@ const tl_command tl_draw_command = {
     "('navcontours 1'). The stages, in the order of the pipeline: soup, spans, areas, distance, regions,\n"
     "contours, triangulation, merging, triangles, polygons, detail, navmesh, path; or all. Several stages go\n"
     "to several files: OUT-STAGE.png. What the level hides is drawn faintly. triangulation and merging show\n"
-    "step by step how one contour is divided.",
+    "step by step how one contour is divided. Of the job of 'talus world' its tiles are drawn as maps: walkable,\n"
+    "cost, time, missing; or all.",
     "talus sample courtyard -o courtyard.obj\n"
     "talus bake courtyard.obj -o courtyard.talus\n"
     "talus draw courtyard.obj -o stages.png --stage soup,regions,polygons --size 400\n"

@@ -249,13 +249,55 @@ static void test_refusals(void **state)
     }
 }
 
+static void draw_maps(const char *line, const char *part)
+{
+    cli_result drawn = cli_expect(0, line);
+    cli_check_part(drawn.out, part);
+    cli_free(&drawn);
+}
+
+// A world's job: maps of its tiles, which change as they are baked.
+static void test_world_maps(void **state)
+{
+    (void)state;
+    uint32_t width[2], height[2];
+    cli_do(0, "world plan yard.obj -o yard_job --tile-size 40");
+    draw_maps("draw yard_job -o planned.png --size 300", "49 tiles of a grid 7 x 7, 49 missing, 0 km2 walkable, 0 s");
+    cli_do(0, "world bake yard_job --shard 1/2");
+    draw_maps("draw yard_job -o half.png --size 300", "49 tiles of a grid 7 x 7, 24 missing, ");
+    cli_do(0, "world bake yard_job");
+    draw_maps("draw yard_job -o done.png --size 300 --stage all", "49 tiles of a grid 7 x 7, 0 missing, 0.00");
+    check_png("planned.png", &width[0], &height[0]);
+    check_png("done.png", &width[1], &height[1]);
+    TEST_CHECK(width[0] == width[1] && height[0] == height[1] && width[0] > 600 && height[0] > 600);
+    size_t sizes[3];
+    char *planned = cli_read_file("planned.png", &sizes[0]), *half = cli_read_file("half.png", &sizes[1]);
+    char *done = cli_read_file("done.png", &sizes[2]);
+    TEST_CHECK(sizes[0] != sizes[1] || memcmp(planned, half, sizes[0]) != 0);
+    TEST_CHECK(sizes[1] != sizes[2] || memcmp(half, done, sizes[1]) != 0);
+    free(planned);
+    free(half);
+    free(done);
+    json_t *one = cli_json(0, "draw yard_job -o cost.svg --stage cost --json");
+    TEST_CHECK(json_array_size(json_object_get(one, "pictures")) == 1);
+    json_decref(one);
+    char *svg = cli_read_file("cost.svg", NULL);
+    cli_check_part(svg, "<svg");
+    free(svg);
+    cli_check_error(2, "draw yard_job -o bad.png --stage cost,regions", "'regions' is none of them", "walkable");
+    cli_check_error(2, "draw yard_job -o bad.png --from 1,2,3 --to 4,5,6", "--from says nothing of yard_job",
+                    "--stage");
+    cli_check_error(2, "draw yard_job -o bad.png --tile-size 3", "--tile-size says nothing of yard_job", "--size");
+    TEST_CHECK(!cli_exists("bad.png"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_stage),        cmocka_unit_test(test_overview),
         cmocka_unit_test(test_same_bytes),         cmocka_unit_test(test_navmesh_on_a_hill),
         cmocka_unit_test(test_path_svg_and_views), cmocka_unit_test(test_steps_of_a_contour),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_refusals),           cmocka_unit_test(test_world_maps),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }
