@@ -437,12 +437,9 @@ static tl_exit run_world(tl_cli *cli)
     };
     tl_option nav[TL_NAV_OPTIONS];
     list_nav_options(&options, nav);
-    const tl_option_group groups[] = { { "Options:", own },
-                                       { "plan, how the world is read:", plan },
-                                       { "plan, the navmesh:", nav },
-                                       { "bake, status, merge:", bake },
-                                       { "routes, route:", routes },
-                                       { NULL, NULL } };
+    const tl_option_group groups[] = { { "Options:", own },           { "plan, how the world is read:", plan },
+                                       { "plan, the navmesh:", nav }, { "bake, status, merge:", bake },
+                                       { "routes, route:", routes },  { NULL, NULL } };
     tl_exit code;
     if (!tl_cli_parse(cli, groups, 2, 4, &code)) {
         return code;
