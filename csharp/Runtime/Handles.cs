@@ -145,6 +145,20 @@ namespace Talus
         }
     }
 
+    internal sealed class CrowdHandle : NativeHandle
+    {
+        public unsafe CrowdHandle(tl_nav_crowd* crowd)
+        {
+            SetHandle((IntPtr)crowd);
+        }
+
+        protected override unsafe bool ReleaseHandle()
+        {
+            Api.tl_nav_crowd_destroy((tl_nav_crowd*)handle);
+            return true;
+        }
+    }
+
     internal sealed class MoverHandle : NativeHandle
     {
         public unsafe MoverHandle(tl_character_mover* mover)

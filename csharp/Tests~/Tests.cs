@@ -367,6 +367,67 @@ static class Tests
         }
     }
 
+    private static void CrowdsArriveWithoutLeavingTheFloor()
+    {
+        using (Navmesh navmesh = Navmesh.Bake(vertices, triangles, new NavmeshSettings { AgentRadius = 0.4f, CellSize = 0.2f }))
+        using (var query = new NavQuery(navmesh))
+        using (var crowd = new Crowd(navmesh, new CrowdSettings { MaxAgents = 8 }))
+        {
+            for (int i = 0; i < 6; i++)
+            {
+                ulong agent = crowd.Add(new Vec3(-8, 0, -8 + 2 * i), new AgentSettings { MaxSpeed = 2 + 0.1f * i });
+                Test.That(agent != 0 && crowd.SetGoal(agent, new Vec3(8, 0, 8 - 2 * i)), "a place and a goal");
+            }
+            Test.Equal(0, (long)crowd.Add(new Vec3(500, 0, 0)), "no floor there");
+            Test.Equal(6, crowd.Count, "agents");
+            ulong[] agents = crowd.Agents();
+            Test.That(!crowd.SetGoal(agents[0], new Vec3(500, 0, 0)), "no goal there");
+            byte[] start = crowd.Save();
+            int steps = WalkToTheGoals(crowd, query, agents);
+            ulong end = crowd.Hash();
+            crowd.Restore(start);
+            Test.That(crowd.Hash() != end, "the beginning is not the end");
+            Test.Equal(steps, WalkToTheGoals(crowd, query, agents), "steps again");
+            Test.That(crowd.Hash() == end, "the same calls, the same bytes");
+
+            start[0] ^= 1;
+            Test.That(Test.Throws(() => crowd.Restore(start)).Result == tl_result.TL_ERR_MAGIC, "no state");
+            Test.That(Test.Throws(() => crowd.Restore(new byte[3])).Result == tl_result.TL_ERR_TRUNCATED, "three bytes");
+            Test.That(crowd.Hash() == end, "and the crowd is as it was");
+            crowd.Remove(agents[2]);
+            Test.That(Test.Throws(() => crowd.Stop(agents[2])).Result == tl_result.TL_ERR_STALE, "a removed agent");
+            Test.Equal(5, crowd.Agents().Length, "agents left");
+            Test.That(Test.Throws(() => crowd.Add(new Vec3(0, 0, 8), new AgentSettings { Radius = -1 })).Field == "radius", "a radius");
+            Test.That(Test.Throws(() => crowd.SetMotion(agents[0], new Vec3(0, 0, 0), new Vec3(0, 0, 0))).Result == tl_result.TL_ERR_ARGUMENT,
+                "an agent that is not fixed");
+            Test.That(Test.Throws(() => crowd.Step(0)).Result == tl_result.TL_ERR_ARGUMENT, "a step of no time");
+            Test.That(Test.Throws(() => new Crowd(navmesh, new CrowdSettings { MaxNeighbors = 99 })).Field == "max_neighbors", "neighbours");
+        }
+    }
+
+    private static int WalkToTheGoals(Crowd crowd, NavQuery query, ulong[] agents)
+    {
+        for (int steps = 1; steps < 1000; steps++)
+        {
+            crowd.Step(1f / 20);
+            int arrived = 0;
+            foreach (ulong agent in agents)
+            {
+                AgentState state = crowd[agent];
+                Vec3 at = state.Position, floor = query.NearestPoint(at).Value;
+                Test.That(Math.Abs(at.X - floor.X) < 1e-3f && Math.Abs(at.Z - floor.Z) < 1e-3f, "on the navmesh");
+                // The wall reaches from 0 to 0.5 along x, and to 6 along z; the navmesh keeps 0.4 m from it.
+                Test.That(at.X < -0.1f || at.X > 0.6f || at.Z > 6.1f, "not in the wall");
+                arrived += state.Status == AgentStatus.Arrived ? 1 : 0;
+            }
+            if (arrived == agents.Length)
+            {
+                return steps;
+            }
+        }
+        throw new Exception("they do not arrive");
+    }
+
     private static void NothingIsUsedAfterItsEnd()
     {
         Soup soup = Soup.Bake(vertices, triangles);
@@ -425,7 +486,7 @@ static class Tests
         {
             StructsAreThoseOfC, EveryFunctionIsThere, RaysHitWhatTheyShould, BatchesAreTheirRays, HullsKeepTheirDistance, PathsLeadAroundTheWall,
             ThreadsGiveTheSameBytes, FilesHoldAllOfIt, TheCommandsFilesAreRead, ErrorsNameTheCulprit, BakesTellTheirProgress, CharactersWalk,
-            NothingIsUsedAfterItsEnd,
+            CrowdsArriveWithoutLeavingTheFloor, NothingIsUsedAfterItsEnd,
         };
         int failed = 0;
         foreach (Action test in all)
