@@ -7,6 +7,7 @@
 #   make amalgamation   the library as two files, build/amalgamation/talus.c and talus.h
 #   make package    the Debian packages, in build/package
 #   make rust-test  test the Rust crates (cargo)
+#   make bench-rust  their rates beside parry3d, rerecast and polyanya
 #   make csharp-test  test the C# binding under Mono, and make the Unity package
 #   make godot-test   build the extension for Godot 4, and test it in a stand-in for the engine
 #   make docs       the documentation site, in build/docs/html
@@ -32,7 +33,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench bench-simd bench-python bench-world sanitize tsan msan fuzz cross windows growth python-test docs amalgamation package rust-test csharp-test godot-test format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
+.PHONY: all demo test benchmarks bench bench-simd bench-python bench-rust bench-world sanitize tsan msan fuzz cross windows growth python-test docs amalgamation package rust-test csharp-test godot-test format wasm js-test bench-web viewer viewer-page viewer-test lint install clean
 
 all:
 	tools/setup tools
@@ -113,6 +114,10 @@ cross:
 bench-python:
 	tools/setup tools python
 	tools/python-bench build/python
+
+bench-rust:
+	tools/setup tools rust
+	tools/rust-bench build/rust-bench
 
 growth:
 	tools/setup tools growth

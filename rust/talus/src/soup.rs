@@ -20,6 +20,7 @@ pub enum Cull {
 }
 
 /// A ray: an origin, a direction of any length, and how far it reaches in lengths of its direction.
+#[repr(C)] // as tl_ray
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Metres.
@@ -29,6 +30,15 @@ pub struct Ray {
     /// In lengths of the direction; infinity is allowed.
     pub max_t: f32,
 }
+
+// Rays of a batch are handed to C as they lie, and their hits fit the first cache.
+const RAYS_AT_ONCE: usize = 512;
+const _: () = {
+    use std::mem::{align_of, offset_of, size_of};
+    assert!(size_of::<Ray>() == size_of::<sys::tl_ray>() && align_of::<Ray>() == align_of::<sys::tl_ray>());
+    assert!(offset_of!(Ray, direction) == offset_of!(sys::tl_ray, direction));
+    assert!(offset_of!(Ray, max_t) == offset_of!(sys::tl_ray, tmax));
+};
 
 impl Ray {
     /// A ray without an end.
@@ -134,19 +144,37 @@ impl Soup {
         }
     }
 
-    /// Many rays at once: the same answers, faster in soups larger than the processor's caches.
+    /// Many rays at once: the same answers. Rays that follow one another and run nearly alike, as those of a camera, are
+    /// traced sixteen at once; others faster in soups larger than the processor's caches.
     ///
     /// # Errors
     /// [`ErrorKind::Limit`](crate::ErrorKind) for more than 2^32 - 1 rays.
     pub fn cast_rays(&self, rays: &[Ray]) -> Result<Vec<Option<RayHit>>, Error> {
-        let count = u32::try_from(rays.len()).map_err(|_| Error::too_many("rays"))?;
-        let rays: Vec<sys::tl_ray> = rays.iter().map(Ray::raw).collect();
-        // SAFETY: zero is a valid value of every field; both arrays have `count` entries.
+        let mut answers = Vec::new();
+        self.cast_rays_into(rays, &mut answers)?;
+        Ok(answers)
+    }
+
+    /// The same into a vector that is used again: what it held is dropped, and its memory stays.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Limit`](crate::ErrorKind) for more than 2^32 - 1 rays; then it is unchanged.
+    pub fn cast_rays_into(&self, rays: &[Ray], answers: &mut Vec<Option<RayHit>>) -> Result<(), Error> {
+        u32::try_from(rays.len()).map_err(|_| Error::too_many("rays"))?;
+        answers.clear();
+        answers.reserve(rays.len());
+        // SAFETY: zero is a valid value of every field. Ray has the layout of tl_ray (asserted below), and both arrays
+        // have as many entries as the chunk.
         unsafe {
-            let mut hits: Vec<sys::tl_ray_hit> = vec![std::mem::zeroed(); rays.len()];
-            sys::tl_soup_cast_rays(self.blob.get(), rays.as_ptr(), count, null(), null(), hits.as_mut_ptr());
-            Ok(hits.iter().map(|hit| (hit.triangle != sys::TL_NO_TRIANGLE).then(|| ray_hit(hit))).collect())
+            let mut hits: [sys::tl_ray_hit; RAYS_AT_ONCE] = std::mem::zeroed();
+            for some in rays.chunks(RAYS_AT_ONCE) {
+                let first = some.as_ptr().cast::<sys::tl_ray>();
+                sys::tl_soup_cast_rays(self.blob.get(), first, some.len() as u32, null(), null(), hits.as_mut_ptr());
+                let found = |hit: &sys::tl_ray_hit| (hit.triangle != sys::TL_NO_TRIANGLE).then(|| ray_hit(hit));
+                answers.extend(hits[..some.len()].iter().map(found));
+            }
         }
+        Ok(())
     }
 
     /// Whether the ray hits anything: faster than where.

@@ -88,6 +88,24 @@ fn rays_hit_what_they_should() {
 }
 
 #[test]
+fn batches_are_single_rays() {
+    let soup = Soup::bake(&VERTICES, &TRIANGLES).unwrap();
+    let slant = |i: usize| {
+        let down = if i % 7 == 0 { 1.0 } else { -1.0 }; // or up, where nothing is
+        Ray::new([-9.0 + 0.01 * i as f32, 3.5, -4.0], [0.2, down, 0.004 * (i % 500) as f32 - 1.0])
+    };
+    let mut answers = vec![None; 3];
+    for count in [0, 1, 511, 512, 513, 1800] {
+        let rays: Vec<Ray> = (0..count).map(slant).collect();
+        soup.cast_rays_into(&rays, &mut answers).unwrap();
+        let single: Vec<_> = rays.iter().map(|ray| soup.cast_ray(ray)).collect();
+        assert_eq!(answers, single);
+        assert_eq!(soup.cast_rays(&rays).unwrap(), single);
+        assert!(count < 1800 || (single.iter().any(Option::is_none) && single.iter().any(Option::is_some)));
+    }
+}
+
+#[test]
 fn points_are_inside_or_outside() {
     let cube = Soup::bake(&CUBE, &CUBE_SIDES).unwrap();
     assert_eq!(cube.locate([0.3, 0.2, -0.1]).unwrap(), Side::Inside);
