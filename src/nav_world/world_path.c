@@ -5,7 +5,9 @@
 // A path that uses other tiles leaves through an open edge, one behind which the world goes on, on the island of its
 // start, and comes back through one on the island of its goal. Its length is at least that of the straight lines from
 // start to such an edge to goal: so open edges outside the ellipse around both whose sum of distances is the length
-// found cannot matter. That is exact for a world without obstacles, and asks only edges at the rim of what is loaded.
+// found cannot matter, nor those across which the other place has no floor. That is exact for a world without
+// obstacles, and asks only edges at the rim of what is loaded.
+//
 // Rejected: to let the search itself note open edges that it would have expanded; it misses those that a prepared
 // navmesh never touches, and gives no bound.
 
@@ -36,8 +38,26 @@ static double least_detour(const open_search *search, int axis, double at, doubl
     return sqrt(ahead_start * ahead_start + from * from) + sqrt(ahead_goal * ahead_goal + to * to);
 }
 
+// The plane's box of a place's floor in the frame, with a cell of margin for rounding: x, then z.
+typedef struct floor_box {
+    double low[2], high[2];
+} floor_box;
+
+static floor_box find_floor(const tl_nav_world *world, uint32_t place)
+{
+    const tl_aabb *bounds = &world->places[place].bounds;
+    double origin[2];
+    tl_nav_world_frame_origin(world, origin);
+    const double margin = (double)world->cell_size;
+    const floor_box box = { { (double)bounds->min.x - origin[0] - margin, (double)bounds->min.z - origin[1] - margin },
+                            { (double)bounds->max.x - origin[0] + margin,
+                              (double)bounds->max.z - origin[1] + margin } };
+    return box;
+}
+
+// `beside`: the floor of the place across the side.
 static void look_at_portal(const tl_nav_world *world, const tl_nav_world_tile *at, uint32_t side, uint32_t portal,
-                           open_search *search)
+                           const floor_box *beside, open_search *search)
 {
     const tl_nav_tile *tile = at->blob;
     const tl_nav_portal *edge = &tl_nav_tile_portals(tile)[portal];
@@ -49,8 +69,13 @@ static void look_at_portal(const tl_nav_world *world, const tl_nav_world_tile *a
     const int axis = (side & 1u) != 0;
     const double line = axis == 0 ? (double)a.x : (double)a.z;
     const double end_a = axis == 0 ? (double)a.z : (double)a.x, end_b = axis == 0 ? (double)b.z : (double)b.x;
-    const double length =
-        least_detour(search, axis, line, end_a < end_b ? end_a : end_b, end_a < end_b ? end_b : end_a);
+    double low = end_a < end_b ? end_a : end_b, high = end_a < end_b ? end_b : end_a;
+    low = low > beside->low[1 - axis] ? low : beside->low[1 - axis];
+    high = high < beside->high[1 - axis] ? high : beside->high[1 - axis];
+    if (low > high || line < beside->low[axis] || line > beside->high[axis]) {
+        return; // nothing there to go on to
+    }
+    const double length = least_detour(search, axis, line, low, high);
     if (length >= search->leave && length >= search->enter) {
         return;
     }
@@ -78,11 +103,12 @@ static double least_open_length(const tl_nav_world *world, open_search *search)
             if (beside == TL_NAV_WORLD_NO_PLACE || tl_nav_world_is_present(world, beside)) {
                 continue;
             }
+            const floor_box across = find_floor(world, beside);
             for (uint32_t t = 0; t < place->tile_count; t++) {
                 const tl_nav_world_tile *tile = &world->tiles[place->first_tile + t];
                 const uint32_t end = tl_nav_tile_side_first(tile->blob, side + 1);
                 for (uint32_t p = tl_nav_tile_side_first(tile->blob, side); p < end; p++) {
-                    look_at_portal(world, tile, side, p, search);
+                    look_at_portal(world, tile, side, p, &across, search);
                 }
             }
         }

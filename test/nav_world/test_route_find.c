@@ -181,6 +181,99 @@ static void test_few_tiles(void **state)
     TEST_CHECK(asked > 80 && open > 80);
 }
 
+// A world of which the tiles at both ends of a route are in memory, in the frame of the world that is there whole.
+typedef struct route_part {
+    tl_nav_world *world;
+    tl_nav_router *router;
+    double ends[2][3];
+    tl_nav_location at[2];
+} route_part;
+
+static void load_part(route_part *part, const tl_nav_world_interest *interests, uint32_t count)
+{
+    const tl_vec3 extents = { 0.1f, 0.5f, 0.1f };
+    world_settle(part->world, interests, count);
+    for (int i = 0; i < 2; i++) {
+        TEST_RESULT(tl_nav_world_find_nearest(part->world, NULL, part->ends[i], extents, &part->at[i]), TL_OK);
+    }
+}
+
+static tl_nav_world_interest interest_at(const double point[3], double radius)
+{
+    const tl_nav_world_interest interest = { { point[0], point[1], point[2] }, radius };
+    return interest;
+}
+
+// From the route to the path: with all tiles that the circle around both ends touches whose diameter is the route's
+// length, the path is proven, and is that of the whole world. No path as short as the route leaves that circle.
+static bool refine_route(route_part *part, tl_nav_query *query, const tl_nav_shortest_path *truth)
+{
+    tl_nav_world_route route;
+    tl_nav_shortest_path path;
+    const tl_nav_world_interest few[3] = { interest_at(HERE, 0.0), interest_at(part->ends[0], 2.0),
+                                           interest_at(part->ends[1], 2.0) };
+    load_part(part, few, 3);
+    const tl_nav_world_route_request request = { part->at[0], part->at[1] };
+    TEST_RESULT(tl_nav_world_find_route(part->world, part->router, &request, NULL, 0, &route), TL_OK);
+    TEST_CHECK(route.status == truth->status);
+    if (route.status != TL_NAV_PATH_COMPLETE) {
+        return false;
+    }
+    const double middle[3] = { 0.5 * (part->ends[0][0] + part->ends[1][0]), 0.0,
+                               0.5 * (part->ends[0][2] + part->ends[1][2]) };
+    const tl_nav_world_interest all[2] = { few[0], interest_at(middle, 0.5 * route.length + 1.0) };
+    load_part(part, all, 2);
+    TEST_RESULT(tl_nav_world_covers(part->world, all[1].point, all[1].radius), TL_OK);
+    const tl_nav_path_request again = { NULL, part->at[0], part->at[1] };
+    TEST_RESULT(tl_nav_world_find_path(part->world, query, &again, NULL, &path), TL_OK);
+    TEST_CHECK(path.status == TL_NAV_PATH_COMPLETE && fabs(path.length - truth->length) <= 1e-4);
+    TEST_CHECK(path.lower_bound <= route.length + 1e-4 && route.lower_bound <= path.length + 1e-4);
+    return true;
+}
+
+static void test_refined(void **state)
+{
+    (void)state;
+    test_random random = { 19 };
+    uint32_t asked = 0, in_part = 0;
+    tl_nav_query *query = NULL;
+    TEST_RESULT(tl_nav_query_create(NULL, &query, NULL), TL_OK);
+    for (uint32_t kind = 0; kind < 5; kind++) {
+        fixture_level level = fixture_random(&random, kind, 48);
+        level.tile_cells = 4;
+        world_file file = route_file_make(&level, HERE, 4);
+        tl_nav_world *whole = world_open(&file, (uint64_t)256 << 20, 4096.0);
+        const tl_nav_world_interest everywhere = world_interest(HERE, 0.0, 0.0, 10.0 * edge_of(&level));
+        world_settle(whole, &everywhere, 1);
+        fixture_refs refs = fixture_all_refs(tl_nav_world_navmesh(whole));
+        for (uint32_t pair = 0; pair < 40; pair++) {
+            route_part part;
+            tl_nav_path_request request = { NULL, { 0 }, { 0 } };
+            tl_nav_shortest_path truth;
+            memset(&part, 0, sizeof part);
+            request.start = fixture_random_location(tl_nav_world_navmesh(whole), &refs, &random);
+            request.goal = fixture_random_location(tl_nav_world_navmesh(whole), &refs, &random);
+            tl_nav_world_place_out(whole, request.start.point, part.ends[0]);
+            tl_nav_world_place_out(whole, request.goal.point, part.ends[1]);
+            TEST_RESULT(tl_nav_world_find_path(whole, query, &request, NULL, &truth), TL_OK);
+            part.world = world_open(&file, (uint64_t)256 << 20, 4096.0);
+            TEST_RESULT(tl_nav_router_create(part.world, NULL, &part.router, NULL), TL_OK);
+            if (refine_route(&part, query, &truth)) {
+                in_part += world_state(part.world).loaded < world_state(part.world).places;
+                asked++;
+            }
+            tl_nav_router_destroy(part.router);
+            tl_nav_world_destroy(part.world);
+        }
+        free(refs.refs);
+        tl_nav_world_destroy(whole);
+        world_file_free(&file);
+    }
+    tl_nav_query_destroy(query);
+    print_message("%u routes refined, %u of them with a part of the tiles\n", asked, in_part);
+    TEST_CHECK(asked > 120 && in_part > 40);
+}
+
 static void test_short_buffers(void **state)
 {
     (void)state;
@@ -217,6 +310,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bounds),
         cmocka_unit_test(test_few_tiles),
+        cmocka_unit_test(test_refined),
         cmocka_unit_test(test_short_buffers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
