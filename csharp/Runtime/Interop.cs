@@ -1544,6 +1544,36 @@ namespace Talus.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_goal_entry
+    {
+        public ulong polygon;
+        public ulong link;
+        public uint parent;
+        public float min_cost;
+        public float cost;
+        public tl_vec3 corner;
+        public fixed float left[2];
+        public fixed float right[2];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_goal_tree
+    {
+        public tl_nav_goal_entry* entries;
+        public uint capacity;
+        public uint count;
+        public tl_nav_location goal;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_goal_path_request
+    {
+        public tl_nav_filter* filter;
+        public tl_nav_location start;
+        public uint max_polygons;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_nav_wall_segment
     {
         public tl_vec3 start;
@@ -1954,6 +1984,7 @@ namespace Talus.Interop
         public float agent_horizon;
         public float wall_horizon;
         public tl_host host;
+        public uint max_shared_goals;
         public uint cookie;
     }
 
@@ -1997,6 +2028,7 @@ namespace Talus.Interop
         public uint unreachable;
         public uint on_link;
         public uint off_mesh;
+        public uint shared;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -2914,6 +2946,10 @@ namespace Talus.Interop
         public static extern uint tl_nav_field_find(tl_nav_field_entry* entries, uint count, ulong polygon);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_nav_field_path(tl_nav_field_entry* entries, uint count, uint entry, ulong* polygons_out, uint capacity, uint* count_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_query_find_goal_tree(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_filter* filter, tl_nav_goal_tree* tree);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_goal_tree_path(tl_nav_goal_tree* tree, tl_navmesh* navmesh, tl_nav_goal_path_request* request, ulong* polygons_out, uint capacity, tl_nav_path* path_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_navmesh_polygon_walls(tl_navmesh* navmesh, tl_nav_filter* filter, ulong polygon, tl_nav_wall_segment* segments_out, uint capacity, uint* count_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

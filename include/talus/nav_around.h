@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What lies around a place on a navmesh: random points, walls, the polygons in a zone, and Dijkstra maps (flow fields):
-// what a path costs to each of them.
+// What lies around a place on a navmesh: random points, walls, the polygons in a zone, Dijkstra maps (flow fields):
+// what a path costs to each of them; and goal trees: paths to one goal from everywhere, by one search.
 //
 // Like all queries these allocate nothing; those that search take a tl_nav_query for their nodes. Results are those of
 // all searches (nav_query.h): TL_ERR_STALE, TL_ERR_NODES, TL_INCOMPLETE ...
@@ -90,6 +90,61 @@ TL_API uint32_t tl_nav_field_find(const tl_nav_field_entry *entries, uint32_t co
 /// TL_NOT_FOUND: there is no such entry, or a field that was cut off lacks one on the path.
 TL_API tl_result tl_nav_field_path(const tl_nav_field_entry *entries, uint32_t count, uint32_t entry,
                                    tl_nav_ref *polygons_out, uint32_t capacity, uint32_t *count_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// Goal trees: the paths of many to one goal, by one search.
+//
+//   tl_nav_goal_tree tree = { entries, capacity, 0, goal };
+//   tl_nav_query_find_goal_tree(query, navmesh, NULL, &tree);
+//   for each agent:
+//     tl_nav_goal_path_request request = { NULL, start, 0 };
+//     tl_nav_goal_tree_path(&tree, navmesh, &request, polygons, capacity, &path);
+
+/// A polygon from which a path leads to the goal: a funnel in which its points see the last corner before them.
+typedef struct tl_nav_goal_entry {
+    tl_nav_ref polygon;
+    tl_nav_ref link;         ///< the off-mesh link by which the path leaves it; TL_NAV_NO_REF: over an edge
+    uint32_t parent;         ///< the entry of the polygon that the path enters next; UINT32_MAX: the goal is here
+    float min_cost;          ///< of the polygon's cheapest point: metres times area costs, or what the filter says
+    float cost;              ///< from the corner to the goal
+    tl_vec3 corner;          ///< to which paths from here lead first
+    float left[2], right[2]; ///< x and z, between which the corner is seen; both the corner itself: from everywhere
+} tl_nav_goal_entry;
+
+/// A tree in the caller's memory.
+typedef struct tl_nav_goal_tree {
+    tl_nav_goal_entry *entries; ///< by reference
+    uint32_t capacity;
+    uint32_t count; ///< that were found
+    tl_nav_location goal;
+} tl_nav_goal_tree;
+
+/// Finds the paths to `tree->goal` from all polygons that lead there, the nearest first, off-mesh links in their
+/// direction. NULL filter: the default one. TL_INCOMPLETE: the capacity is too small; TL_ERR_NODES: the query's nodes
+/// are too few. Then the tree holds the polygons found so far, most of them nearer than those it lacks, and is of use.
+/// TL_ERR_STALE: the goal's polygon. TL_ERR_ARGUMENT: an area cost. O(polygons log polygons).
+///
+/// A polygon has one funnel, so that among several ways of about the same length from a wide polygon the tree knows
+/// one. Sources: Dijkstra, A Note on Two Problems in Connexion with Graphs, 1959; the funnel of Lee and Preparata,
+/// Euclidean Shortest Paths in the Presence of Rectilinear Barriers, 1984, carried from each polygon to the next.
+TL_API tl_result tl_nav_query_find_goal_tree(tl_nav_query *query, const tl_navmesh *navmesh,
+                                             const tl_nav_filter *filter, tl_nav_goal_tree *tree);
+
+/// A path by a tree.
+typedef struct tl_nav_goal_path_request {
+    const tl_nav_filter *filter; ///< the tree's
+    tl_nav_location start;
+    uint32_t max_polygons; ///< the path ends after as many, links among them; 0: at the goal
+} tl_nav_goal_path_request;
+
+/// The path from a start to the tree's goal, as tl_nav_query_find_path writes it, without a search: from each polygon
+/// it goes on over the edge from where the goal is nearest, by the funnels of all its neighbours. The straight path
+/// over these polygons is exact, but they need not be those of the shortest one. Where `max_polygons` ended it its
+/// status is TL_NAV_PATH_UNFINISHED, and `path_out->end` the place from where it goes on. TL_NOT_FOUND: the tree does
+/// not have the start's polygon. TL_ERR_STALE: the navmesh was edited since. O(path).
+TL_API tl_result tl_nav_goal_tree_path(const tl_nav_goal_tree *tree, const tl_navmesh *navmesh,
+                                       const tl_nav_goal_path_request *request, tl_nav_ref *polygons_out,
+                                       uint32_t capacity, tl_nav_path *path_out);
 
 // ---------------------------------------------------------------------------------------------------------
 // Walls.

@@ -58,6 +58,9 @@ typedef struct tl_nav_crowd_def {
     /// Copied, but for what the hooks point to, which must outlive the crowd. Progress is not called. NULL tasks: the
     /// calling thread.
     tl_host host;
+    /// Goals whose paths are found by one search for all that walk there, 0 to 8: those that most agents have, eight at
+    /// least. Each takes 56 bytes times max_nodes. Default 4. 0: each agent searches its own path.
+    uint32_t max_shared_goals;
     uint32_t cookie; ///< TL_DEF_COOKIE, set by tl_default_nav_crowd_def
 } tl_nav_crowd_def;
 
@@ -160,13 +163,14 @@ TL_API bool tl_nav_crowd_next(const tl_nav_crowd *crowd, uint32_t *cursor, tl_na
 
 /// What a step did.
 typedef struct tl_nav_crowd_step_report {
-    uint32_t searched; ///< paths
+    uint32_t searched; ///< paths, and trees of paths to shared goals
     uint32_t waiting;  ///< paths that are still to be searched
     uint32_t walking;  ///< agents with each status after the step
     uint32_t arrived;
     uint32_t unreachable;
     uint32_t on_link; ///< queued ones not counted
     uint32_t off_mesh;
+    uint32_t shared; ///< paths that were taken from the search of a shared goal
 } tl_nav_crowd_step_report;
 
 /// Moves all agents by `dt` seconds, above 0 and at most 1; a game's frame, 1/60 to 1/10 as a rule. `report_out` may be

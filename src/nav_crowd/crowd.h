@@ -19,15 +19,21 @@ enum {
     CROWD_MAX_NEIGHBORS = 32, ///< that a def may ask for
     CROWD_BLOCK = 64,         ///< agents of one task
     CROWD_FREE = 15,          ///< status of a place without an agent
+    CROWD_MAX_PATH = 1024,    ///< that a def may ask for
+    CROWD_MAX_SHARED = 8,     ///< goals whose paths are found together
 };
 
 // What numbers of a crowd may be, so that no product of two of them overflows a float.
 #define CROWD_MAX_SIZE   1000.0f ///< metres, or metres a second
 #define CROWD_MAX_NUMBER 1e9f    ///< coordinates, velocities of fixed agents, accelerations
 
-#define CROWD_NO_PLACE   UINT32_MAX
-#define CROWD_MAGIC      0x44574f52u ///< "ROWD"
-#define CROWD_VERSION    2u
+/// A polygon that was removed under an agent, or under its goal, is sought anew within so many radii to each side, and
+/// within the agent's height.
+#define CROWD_RELOCATE_RADII 2.0f
+
+#define CROWD_NO_PLACE       UINT32_MAX
+#define CROWD_MAGIC          0x44574f52u ///< "ROWD"
+#define CROWD_VERSION        3u
 
 // Flags of an agent.
 #define CROWD_HAS_GOAL  1u
@@ -83,6 +89,14 @@ enum {
     FIELD(float, stalled, 1)     /* seconds that it has hardly come forward; arrived: metres to the goal */            \
     FIELD(float, walls, 4 * CROWD_MAX_WALLS) /* start and end in x and z; on a link: crowd_link_run */
 
+/// A goal that many have: their paths come from one tree (crowd_share.c).
+typedef struct crowd_shared_goal {
+    uint64_t polygon; ///< TL_NAV_NO_REF: none
+    float point[3];
+    float side, height; ///< metres: where it is sought when its polygon is gone
+    uint32_t filter;
+} crowd_shared_goal;
+
 typedef struct crowd_head {
     uint32_t magic, version;
     uint64_t size;         ///< bytes in all
@@ -95,6 +109,7 @@ typedef struct crowd_head {
     uint32_t free;  ///< head of the chain of free places
     uint32_t queue_first, queue_count;
     uint32_t filters_changed; ///< 1: agents check their corridors in the next step
+    crowd_shared_goal shared[CROWD_MAX_SHARED];
 } crowd_head;
 
 /// Where the fields stand in the state.
@@ -134,6 +149,15 @@ typedef struct crowd_grid {
     float cell_size;
 } crowd_grid;
 
+/// The tree of a shared goal. It follows from goal, filter and navmesh, and is no part of the state.
+typedef struct crowd_tree {
+    tl_nav_goal_tree tree;
+    crowd_shared_goal of;
+    const tl_navmesh *navmesh; ///< NULL: it is to be made
+    uint64_t edits;            ///< of the navmesh when it was made
+    bool is_asked;             ///< in this step
+} crowd_tree;
+
 struct tl_nav_crowd {
     tl_allocator allocator;
     tl_nav_crowd_def def;
@@ -147,6 +171,7 @@ struct tl_nav_crowd {
     tl_nav_query **queries; ///< one for each worker
     uint32_t worker_count;
     tl_nav_filter filters[TL_NAV_CROWD_FILTER_COUNT];
+    crowd_tree trees[CROWD_MAX_SHARED];
 };
 
 /// A step under way.
@@ -155,6 +180,7 @@ typedef struct crowd_step {
     const tl_navmesh *navmesh;
     float dt;
     uint32_t work_count;
+    uint32_t tree_count, shared_count; ///< trees made, and paths by them
 } crowd_step;
 
 /// Bytes of a state, or 0 when they do not fit a size_t.
@@ -175,6 +201,17 @@ void tl_crowd_keep_corridor(tl_nav_crowd *crowd, uint32_t i, const tl_nav_corrid
 void tl_crowd_reset_corridor(tl_nav_crowd *crowd, uint32_t i, const tl_nav_location *at);
 /// Metres by which an agent is wider than the one that its polygon was baked for.
 float tl_crowd_clearance(const tl_navmesh *navmesh, tl_nav_ref polygon, float radius);
+
+/// Gives paths to those who wait for one to a goal that many have, by the tree of that goal, and takes them out of the
+/// queue. What the tree does not reach stays in it.
+void tl_crowd_share_paths(crowd_step *step);
+/// Forgets trees: all, or those of one filter (UINT32_MAX: of all).
+void tl_crowd_forget_trees(tl_nav_crowd *crowd, uint32_t filter);
+/// An agent walks a path that was found. `status` is that of the search.
+void tl_crowd_begin_path(tl_nav_crowd *crowd, uint32_t i, const tl_nav_corridor *corridor, bool is_partial,
+                         bool gave_up);
+/// Runs a task for blocks of agents, or single items of work.
+void tl_crowd_run_tasks(const crowd_step *step, tl_task_fn *task, uint32_t count);
 
 /// Searches an agent's path.
 void tl_crowd_search_path(const crowd_step *step, uint32_t i, tl_nav_query *query);

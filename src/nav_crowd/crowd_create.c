@@ -22,6 +22,7 @@ tl_nav_crowd_def tl_default_nav_crowd_def(void)
     def.neighbor_distance = 4.0f;
     def.agent_horizon = 2.0f;
     def.wall_horizon = 0.25f;
+    def.max_shared_goals = 4;
     def.cookie = TL_DEF_COOKIE;
     return def;
 }
@@ -37,7 +38,7 @@ static tl_result check_crowd_def(const tl_nav_crowd_def *def, tl_report *report)
     if (def->max_agents < 1 || def->max_agents > TL_NAV_CROWD_MAX_AGENTS) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "max_agents", "make it 1 to TL_NAV_CROWD_MAX_AGENTS");
     }
-    if (def->max_path < 4 || def->max_path > 1024) {
+    if (def->max_path < 4 || def->max_path > CROWD_MAX_PATH) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "max_path", "make it 4 to 1024");
     }
     if (def->max_neighbors < 1 || def->max_neighbors > CROWD_MAX_NEIGHBORS) {
@@ -57,6 +58,9 @@ static tl_result check_crowd_def(const tl_nav_crowd_def *def, tl_report *report)
     }
     if (!is_above_zero(def->wall_horizon)) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "wall_horizon", "make it > 0");
+    }
+    if (def->max_shared_goals > CROWD_MAX_SHARED) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "max_shared_goals", "make it 0 to 8");
     }
     return TL_OK;
 }
@@ -108,6 +112,27 @@ static void release_step(tl_nav_crowd *crowd)
     tl_release_array(allocator, crowd->grid.first, (uint64_t)crowd->grid.cell_count + 1, sizeof(uint32_t));
     tl_release_array(allocator, crowd->grid.cell, count, sizeof(uint32_t));
     tl_release_array(allocator, crowd->work, crowd->work_capacity, sizeof(uint32_t));
+}
+
+static bool allocate_trees(tl_nav_crowd *crowd)
+{
+    bool all = true;
+    for (uint32_t k = 0; k < crowd->def.max_shared_goals; k++) {
+        tl_nav_goal_tree *tree = &crowd->trees[k].tree;
+        tree->capacity = crowd->def.max_nodes;
+        tree->entries =
+            (tl_nav_goal_entry *)tl_allocate_array(&crowd->allocator, tree->capacity, sizeof(tl_nav_goal_entry));
+        all = all && tree->entries != NULL;
+    }
+    return all;
+}
+
+static void release_trees(tl_nav_crowd *crowd)
+{
+    for (uint32_t k = 0; k < crowd->def.max_shared_goals; k++) {
+        const tl_nav_goal_tree *tree = &crowd->trees[k].tree;
+        tl_release_array(&crowd->allocator, tree->entries, tree->capacity, sizeof(tl_nav_goal_entry));
+    }
 }
 
 static bool allocate_agents(tl_nav_crowd *crowd)
@@ -170,7 +195,7 @@ tl_result tl_nav_crowd_create(const tl_nav_crowd_def *def, tl_nav_crowd **crowd_
     for (uint32_t i = 0; i < TL_NAV_CROWD_FILTER_COUNT; i++) {
         crowd->filters[i] = tl_default_nav_filter();
     }
-    tl_result result = allocate_agents(crowd) && allocate_step(crowd) ? TL_OK : TL_ERR_MEMORY;
+    tl_result result = allocate_agents(crowd) && allocate_step(crowd) && allocate_trees(crowd) ? TL_OK : TL_ERR_MEMORY;
     result = result == TL_OK ? allocate_queries(crowd) : result;
     if (result != TL_OK) {
         tl_nav_crowd_destroy(crowd);
@@ -191,6 +216,7 @@ void tl_nav_crowd_destroy(tl_nav_crowd *crowd)
     tl_release_array(&crowd->allocator, crowd->queries, crowd->worker_count, sizeof(tl_nav_query *));
     tl_release_array(&crowd->allocator, crowd->head, crowd->state_bytes, 1);
     release_step(crowd);
+    release_trees(crowd);
     tl_allocator allocator = crowd->allocator;
     tl_release_array(&allocator, crowd, 1, sizeof *crowd);
 }
@@ -207,5 +233,6 @@ tl_result tl_nav_crowd_set_filter(tl_nav_crowd *crowd, uint32_t place, const tl_
     }
     crowd->filters[place] = filter != NULL ? *filter : tl_default_nav_filter();
     crowd->head->filters_changed = 1;
+    tl_crowd_forget_trees(crowd, place);
     return TL_OK;
 }

@@ -41,6 +41,11 @@ void tl_crowd_swap_words(void *state, uint64_t bytes, uint32_t max_agents, uint3
     tl_swap_words(&swap, 0, 2, 4);
     tl_swap_words(&swap, 8, 4, 8);
     tl_swap_words(&swap, 40, 8, 4);
+    for (uint32_t k = 0; k < CROWD_MAX_SHARED; k++) {
+        const uint64_t goal = offsetof(crowd_head, shared) + k * sizeof(crowd_shared_goal);
+        tl_swap_words(&swap, goal, 1, 8);
+        tl_swap_words(&swap, goal + 8, 6, 4);
+    }
     uint64_t at = field_end(0, 1, sizeof(crowd_head));
 #define SWAP(type, name, per)                                                                                          \
     tl_swap_words(&swap, at, (uint64_t)max_agents *(uint64_t)(per), (uint32_t)sizeof(type));                           \

@@ -9,15 +9,11 @@
 
 #include <string.h>
 
-// A polygon that was removed under an agent, or under its goal, is sought anew within so many radii to each side, and
-// within the agent's height.
-#define RELOCATE_RADII 2.0f
-
 enum { MAX_WIDE_CORNERS = 64 };
 
 static tl_vec3 relocate_extents(const tl_nav_crowd *crowd, uint32_t i)
 {
-    float side = RELOCATE_RADII * crowd->a.radius[i];
+    const float side = CROWD_RELOCATE_RADII * crowd->a.radius[i];
     return tl_vec3_make(side, crowd->a.height[i], side);
 }
 
@@ -95,6 +91,18 @@ static bool find_nearest_reachable(const crowd_step *step, uint32_t i, tl_nav_lo
                                              goal) == TL_OK;
 }
 
+void tl_crowd_begin_path(tl_nav_crowd *crowd, uint32_t i, const tl_nav_corridor *corridor, bool is_partial,
+                         bool gave_up)
+{
+    crowd_fields *a = &crowd->a;
+    tl_crowd_keep_corridor(crowd, i, corridor);
+    a->flags[i] &= ~(CROWD_PARTIAL | CROWD_GAVE_UP | CROWD_NEED_PATH);
+    a->flags[i] |= is_partial ? CROWD_PARTIAL : gave_up ? CROWD_GAVE_UP : 0;
+    a->status[i] = TL_NAV_AGENT_WALKING;
+    a->link[i] = TL_NAV_NO_REF;
+    a->stalled[i] = 0.0f;
+}
+
 void tl_crowd_search_path(const crowd_step *step, uint32_t i, tl_nav_query *query)
 {
     tl_nav_crowd *crowd = step->crowd;
@@ -130,15 +138,8 @@ void tl_crowd_search_path(const crowd_step *step, uint32_t i, tl_nav_query *quer
         return;
     }
     corridor.reaches = corridor.reaches && !is_elsewhere;
-    tl_crowd_keep_corridor(crowd, i, &corridor);
-    if (path.status == TL_NAV_PATH_UNREACHABLE || is_elsewhere) {
-        a->flags[i] |= CROWD_PARTIAL;
-    } else if (path.status != TL_NAV_PATH_COMPLETE) {
-        a->flags[i] |= CROWD_GAVE_UP;
-    }
-    a->status[i] = TL_NAV_AGENT_WALKING;
-    a->link[i] = TL_NAV_NO_REF;
-    a->stalled[i] = 0.0f;
+    const bool is_partial = path.status == TL_NAV_PATH_UNREACHABLE || is_elsewhere;
+    tl_crowd_begin_path(crowd, i, &corridor, is_partial, path.status != TL_NAV_PATH_COMPLETE);
 }
 
 void tl_crowd_revalidate(const crowd_step *step, uint32_t i)

@@ -32,7 +32,7 @@
 #define YIELD_AFTER  0.5f
 #define YIELD_FOR    28.0f
 #define SETTLE_AFTER 0.5f
-#define SETTLE_LATE  3.0f // beside those who stand there for another goal
+#define SETTLE_LATE  3.0f // beside those who stand there for another goal, or behind a corner
 
 #define YIELD_SPEED  0.5f   // of the top speed
 #define TURN_MS      24000u // how long one direction has the right of way where neither flow moves
@@ -151,7 +151,12 @@ static bool stands_before_goal(const tl_nav_crowd *crowd, uint32_t k, const crow
         if (is_near && (seen->kind[other] & CROWD_SEEN_STILL) != 0 && crowd->a.stalled[i] > SETTLE_LATE) {
             return true;
         }
-        if ((is_before || is_near) && tl_crowd_has_goal_of(crowd, i, neighbors[n].agent)) {
+        // Around a corner the throng before the goal may be farther from it than who comes to its end.
+        const float ahead =
+            (seen->x[other] - seen->x[k]) * crowd->a.wanted_x[i] + (seen->z[other] - seen->z[k]) * crowd->a.wanted_z[i];
+        const bool is_end =
+            (seen->kind[other] & CROWD_SEEN_STILL) != 0 && ahead > 0.0f && crowd->a.stalled[i] > SETTLE_LATE;
+        if ((is_before || is_near || is_end) && tl_crowd_has_goal_of(crowd, i, neighbors[n].agent)) {
             return true;
         }
     }

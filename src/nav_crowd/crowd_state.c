@@ -123,12 +123,24 @@ static bool are_chains_sound(const tl_nav_crowd *crowd, const crowd_head *head, 
     return true;
 }
 
+static bool are_goals_sound(const crowd_head *head)
+{
+    bool all = true;
+    for (uint32_t k = 0; k < CROWD_MAX_SHARED; k++) {
+        const crowd_shared_goal *goal = &head->shared[k];
+        all = all && are_finite(goal->point, 0, 3) && goal->filter < TL_NAV_CROWD_FILTER_COUNT && goal->side >= 0.0f &&
+              goal->side <= CROWD_RELOCATE_RADII * CROWD_MAX_SIZE && goal->height >= 0.0f &&
+              goal->height <= CROWD_MAX_SIZE;
+    }
+    return all;
+}
+
 static tl_result check_state(const tl_nav_crowd *crowd, const crowd_head *head, const crowd_fields *a,
                              tl_report *report)
 {
     static const char *const advice = "restore only what tl_nav_crowd_save wrote";
     if (head->used > head->max_agents || head->count > head->used || head->queue_first >= head->max_agents ||
-        head->queue_count > head->count || head->filters_changed > 1) {
+        head->queue_count > head->count || head->filters_changed > 1 || !are_goals_sound(head)) {
         return tl_report_fail(report, TL_ERR_CORRUPT, "head", 0, advice);
     }
     uint32_t agents = 0, in_queue = 0;
@@ -212,6 +224,7 @@ tl_result tl_nav_crowd_restore(tl_nav_crowd *crowd, const void *bytes, size_t si
     }
     if (result == TL_OK) {
         memcpy(crowd->head, head, (size_t)crowd->state_bytes);
+        tl_crowd_forget_trees(crowd, UINT32_MAX);
     }
     tl_release_array(&crowd->allocator, copy, crowd->state_bytes, 1);
     return result;

@@ -74,7 +74,7 @@ static void take_work(crowd_step *step)
     }
 }
 
-static void run_blocks(const crowd_step *step, tl_task_fn *task, uint32_t count)
+void tl_crowd_run_tasks(const crowd_step *step, tl_task_fn *task, uint32_t count)
 {
     tl_host host = step->crowd->def.host;
     host.progress = NULL;
@@ -93,7 +93,8 @@ static void finish(const crowd_step *step, tl_nav_crowd_step_report *report)
         counts[crowd->a.status[i]]++;
     }
     if (report != NULL) {
-        report->searched = step->work_count;
+        report->searched = step->work_count + step->tree_count;
+        report->shared = step->shared_count;
         report->waiting = crowd->head->queue_count;
         report->walking = counts[TL_NAV_AGENT_WALKING];
         report->arrived = counts[TL_NAV_AGENT_ARRIVED];
@@ -119,17 +120,18 @@ tl_result tl_nav_crowd_step(tl_nav_crowd *crowd, const tl_navmesh *navmesh, floa
         return TL_ERR_ARGUMENT;
     }
     crowd_head *head = crowd->head;
-    crowd_step step = { crowd, navmesh, dt, 0 };
+    crowd_step step = { crowd, navmesh, dt, 0, 0, 0 };
     const uint64_t edits = tl_navmesh_edit_count(navmesh);
     if (head->edits != edits || head->filters_changed != 0) {
-        run_blocks(&step, revalidate_block, tl_block_count(head->used, CROWD_BLOCK));
+        tl_crowd_run_tasks(&step, revalidate_block, tl_block_count(head->used, CROWD_BLOCK));
         head->edits = edits;
         head->filters_changed = 0;
     }
+    tl_crowd_share_paths(&step);
     take_work(&step);
-    run_blocks(&step, search_one, step.work_count);
+    tl_crowd_run_tasks(&step, search_one, step.work_count);
     tl_crowd_fill_grid(crowd);
-    run_blocks(&step, step_block, tl_block_count(crowd->seen.count, CROWD_BLOCK));
+    tl_crowd_run_tasks(&step, step_block, tl_block_count(crowd->seen.count, CROWD_BLOCK));
     tl_crowd_grant_links(&step);
     finish(&step, report_out);
     head->step++;

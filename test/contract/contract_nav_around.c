@@ -110,6 +110,48 @@ static tl_result field_path(contract_run *run)
     return result;
 }
 
+static tl_result find_goal_tree(contract_run *run)
+{
+    contract_nav nav = contract_nav_begin(run);
+    static tl_nav_goal_entry entries[CONTRACT_CAPACITY];
+    tl_nav_goal_tree tree = { nav.capacity > 0 ? entries : NULL, nav.capacity, 0, nav.here };
+    const tl_result result = tl_nav_query_find_goal_tree(nav.query, nav.navmesh, contract_nav_filter(run, &nav),
+                                                         CONTRACT_INPUT(run, 2, &tree));
+    run->is_clear = tree.count == 0 || result == TL_ERR_NODES;
+    run->answer = tree.count;
+    if (run->what == CONTRACT_GOOD) {
+        tree.capacity = 1;
+        TEST_RESULT(tl_nav_query_find_goal_tree(nav.query, nav.navmesh, NULL, &tree), TL_INCOMPLETE);
+        TEST_CHECK(tree.count == 1 && entries[0].polygon == nav.here.polygon);
+        tree.goal.point.x = NAN;
+        TEST_RESULT(tl_nav_query_find_goal_tree(nav.query, nav.navmesh, NULL, &tree), TL_ERR_NOT_FINITE);
+    }
+    return result;
+}
+
+static tl_result goal_tree_path(contract_run *run)
+{
+    contract_nav nav = contract_nav_begin(run);
+    const contract_level *level = contract_level_get();
+    static tl_nav_goal_entry entries[CONTRACT_CAPACITY];
+    tl_nav_goal_tree tree = { entries, CONTRACT_CAPACITY, 0, nav.there };
+    TEST_RESULT(tl_nav_query_find_goal_tree(level->query, level->navmesh, NULL, &tree), TL_OK);
+    tree.count = run->what == CONTRACT_NOT_FOUND ? 0 : tree.count;
+    const tl_nav_goal_path_request request = { contract_nav_filter(run, &nav), nav.here, 0 };
+    tl_nav_ref polygons[CONTRACT_CAPACITY];
+    tl_nav_path path;
+    memset(&path, 0, sizeof path);
+    tl_result result = TL_OK;
+    do {
+        result =
+            tl_nav_goal_tree_path(CONTRACT_INPUT(run, 1, &tree), nav.navmesh, CONTRACT_INPUT(run, 2, &request),
+                                  nav.capacity > 0 ? polygons : NULL, nav.capacity, CONTRACT_OUTPUT(run, 0, &path));
+    } while (contract_nav_shorten(run, path.polygon_count, &nav));
+    run->is_clear = contract_is_zero(&path, sizeof path);
+    run->answer = contract_hash(polygons, result == TL_OK ? path.polygon_count * sizeof *polygons : 0, 0);
+    return result;
+}
+
 // A polygon that has a wall.
 static tl_nav_ref walled_polygon(void)
 {
@@ -215,6 +257,12 @@ const contract_entry CONTRACT_TABLE_nav_around[] = {
     { "tl_nav_field_path",
       CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NULL_OUTPUT) | CONTRACT_BIT(NOT_FOUND) | BUFFERED, 1,
       1, NULL, field_path, NULL },
+    { "tl_nav_query_find_goal_tree",
+      CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NULL_DEF) | CONTRACT_BIT(ZEROED_DEF) |
+          CONTRACT_BIT(STALE) | CONTRACT_BIT(NO_NODES),
+      3, 0, NULL, find_goal_tree, NULL },
+    { "tl_nav_goal_tree_path", FILTERED | CONTRACT_BIT(STALE) | CONTRACT_BIT(NOT_FOUND) | BUFFERED, 3, 1, NULL,
+      goal_tree_path, NULL },
     { "tl_navmesh_polygon_walls", FILTERED | CONTRACT_BIT(STALE) | BUFFERED, 1, 1, NULL, polygon_walls, NULL },
     { "tl_nav_query_find_walls", AROUND | BUFFERED, 3, 1, NULL, find_walls, NULL },
     { "tl_navmesh_random_point", FILTERED | CONTRACT_BIT(NOT_FOUND), 2, 1, NULL, random_point, NULL },

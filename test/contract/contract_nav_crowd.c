@@ -64,8 +64,11 @@ static tl_result create(contract_run *run)
         case 6:
             def.agent_horizon = NAN;
             break;
-        default:
+        case 7:
             def.wall_horizon = -1.0f;
+            break;
+        default:
+            def.max_shared_goals = 9;
             break;
         }
     }
@@ -280,9 +283,10 @@ static tl_result restore(contract_run *run)
     return result;
 }
 
-static const char *const CROWD_FIELDS[] = { "max_agents",     "max_path",     "max_neighbors",
-                                            "paths_per_step", "max_nodes",    "neighbor_distance",
-                                            "agent_horizon",  "wall_horizon", NULL };
+static const char *const CROWD_FIELDS[] = {
+    "max_agents",        "max_path",      "max_neighbors", "paths_per_step",   "max_nodes",
+    "neighbor_distance", "agent_horizon", "wall_horizon",  "max_shared_goals", NULL
+};
 static const char *const AGENT_FIELDS[] = { "position",         "reach",           "radius",   "height", "max_speed",
                                             "max_acceleration", "arrive_distance", "priority", "filter", NULL };
 

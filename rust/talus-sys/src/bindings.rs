@@ -1333,6 +1333,33 @@ pub struct tl_nav_field_def {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct tl_nav_goal_entry {
+    pub polygon: tl_nav_ref,
+    pub link: tl_nav_ref,
+    pub parent: u32,
+    pub min_cost: f32,
+    pub cost: f32,
+    pub corner: tl_vec3,
+    pub left: [f32; 2],
+    pub right: [f32; 2],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_goal_tree {
+    pub entries: *mut tl_nav_goal_entry,
+    pub capacity: u32,
+    pub count: u32,
+    pub goal: tl_nav_location,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_goal_path_request {
+    pub filter: *const tl_nav_filter,
+    pub start: tl_nav_location,
+    pub max_polygons: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct tl_nav_wall_segment {
     pub start: tl_vec3,
     pub end: tl_vec3,
@@ -1707,6 +1734,7 @@ pub struct tl_nav_crowd_def {
     pub agent_horizon: f32,
     pub wall_horizon: f32,
     pub host: tl_host,
+    pub max_shared_goals: u32,
     pub cookie: u32,
 }
 #[repr(C)]
@@ -1747,6 +1775,7 @@ pub struct tl_nav_crowd_step_report {
     pub unreachable: u32,
     pub on_link: u32,
     pub off_mesh: u32,
+    pub shared: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -2969,6 +2998,20 @@ extern "C" {
         polygons_out: *mut tl_nav_ref,
         capacity: u32,
         count_out: *mut u32,
+    ) -> tl_result;
+    pub fn tl_nav_query_find_goal_tree(
+        query: *mut tl_nav_query,
+        navmesh: *const tl_navmesh,
+        filter: *const tl_nav_filter,
+        tree: *mut tl_nav_goal_tree,
+    ) -> tl_result;
+    pub fn tl_nav_goal_tree_path(
+        tree: *const tl_nav_goal_tree,
+        navmesh: *const tl_navmesh,
+        request: *const tl_nav_goal_path_request,
+        polygons_out: *mut tl_nav_ref,
+        capacity: u32,
+        path_out: *mut tl_nav_path,
     ) -> tl_result;
     pub fn tl_navmesh_polygon_walls(
         navmesh: *const tl_navmesh,
@@ -4736,6 +4779,27 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_field_def, max_cost), 16);
         assert_eq!(core::mem::offset_of!(tl_nav_field_def, by_reference), 20);
         assert_eq!(core::mem::offset_of!(tl_nav_field_def, cookie), 24);
+        assert_eq!(core::mem::size_of::<tl_nav_goal_entry>(), 56);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_entry, polygon), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_entry, link), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_entry, parent), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_entry, min_cost), 20);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_entry, cost), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_entry, corner), 28);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_entry, left), 40);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_entry, right), 48);
+        assert_eq!(core::mem::size_of::<tl_nav_goal_tree>(), 40);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_tree, entries), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_tree, capacity), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_tree, count), 12);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_tree, goal), 16);
+        assert_eq!(core::mem::size_of::<tl_nav_goal_path_request>(), 40);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_path_request, filter), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_goal_path_request, start), 8);
+        assert_eq!(
+            core::mem::offset_of!(tl_nav_goal_path_request, max_polygons),
+            32
+        );
         assert_eq!(core::mem::size_of::<tl_nav_wall_segment>(), 48);
         assert_eq!(core::mem::offset_of!(tl_nav_wall_segment, start), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_wall_segment, end), 12);
@@ -5096,7 +5160,11 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, agent_horizon), 24);
         assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, wall_horizon), 28);
         assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, host), 32);
-        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, cookie), 56);
+        assert_eq!(
+            core::mem::offset_of!(tl_nav_crowd_def, max_shared_goals),
+            56
+        );
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, cookie), 60);
         assert_eq!(core::mem::size_of::<tl_nav_agent_def>(), 52);
         assert_eq!(core::mem::offset_of!(tl_nav_agent_def, position), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_agent_def, reach), 12);
@@ -5122,7 +5190,7 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_agent_state, goal), 56);
         assert_eq!(core::mem::offset_of!(tl_nav_agent_state, radius), 68);
         assert_eq!(core::mem::offset_of!(tl_nav_agent_state, height), 72);
-        assert_eq!(core::mem::size_of::<tl_nav_crowd_step_report>(), 28);
+        assert_eq!(core::mem::size_of::<tl_nav_crowd_step_report>(), 32);
         assert_eq!(core::mem::offset_of!(tl_nav_crowd_step_report, searched), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_crowd_step_report, waiting), 4);
         assert_eq!(core::mem::offset_of!(tl_nav_crowd_step_report, walking), 8);
@@ -5136,6 +5204,7 @@ mod layout {
             core::mem::offset_of!(tl_nav_crowd_step_report, off_mesh),
             24
         );
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_step_report, shared), 28);
         assert_eq!(core::mem::size_of::<tl_detour_report>(), 88);
         assert_eq!(core::mem::offset_of!(tl_detour_report, base), 0);
         assert_eq!(core::mem::offset_of!(tl_detour_report, tile_count), 48);
