@@ -4,7 +4,10 @@
 // Nobody leaves the mesh, is lost or stays for ever; and three crowds, on one, two and eight threads (pthread) and as
 // many instruction sets as there are, stay the same to the bit.
 //
-//   test_crowd_edits [STEPS (1200) [AGENTS (150)]]
+//   test_crowd_edits [STEPS (1200) [AGENTS (150) [EVERY (1)]]]
+//
+// In long runs the second and the third crowd take one of EVERY windows of sixteen steps alone: there they begin with
+// the saved state of the first one, and end with its hash.
 
 #include "base/cpu.h"
 #include "crowd_threads.h"
@@ -19,12 +22,13 @@ enum {
     CROWDS = 3,
     MAX_OBSTACLES = 24,
     DOORS = 4,
-    EDIT_EVERY = 12,    // steps
-    GOALS_EVERY = 20,   // steps
-    SETTLE_STEPS = 8000 // at the end, when nothing changes any more
+    EDIT_EVERY = 12,     // steps
+    GOALS_EVERY = 20,    // steps
+    SETTLE_STEPS = 8000, // at the end, when nothing changes any more
+    WINDOW = 16          // steps
 };
 
-static uint32_t step_count = 1200, agent_count = 150;
+static uint32_t step_count = 1200, agent_count = 150, window_every = 1;
 
 typedef struct edit_world {
     float half; // metres, of the square
@@ -36,6 +40,8 @@ typedef struct edit_world {
     tl_nav_agent *agents[CROWDS];
     tl_nav_obstacle_id ids[MAX_OBSTACLES], doors[DOORS]; // 0: the door is open
     uint32_t obstacle_count;
+    uint32_t crowd_count; // that step now: all, or the first alone
+    void *saved;
     test_random random;
     tl_vec3 *anchor;     // where each agent was when it last came forward by a metre
     uint32_t *anchor_at; // the step
@@ -202,7 +208,7 @@ static void give_goals(edit_world *w, bool to_all)
         }
         const tl_nav_location goal = random_place(w);
         w->goals++;
-        for (uint32_t c = 0; c < CROWDS; c++) {
+        for (uint32_t c = 0; c < w->crowd_count; c++) {
             TEST_RESULT(tl_nav_crowd_set_goal(w->crowds[c], w->agents[c][i], &goal), TL_OK);
         }
     }
@@ -231,14 +237,36 @@ static void check_agent(edit_world *w, uint32_t i, uint32_t step)
     w->longest = step - w->anchor_at[i] > w->longest ? step - w->anchor_at[i] : w->longest;
 }
 
+static bool is_last_of_window(uint32_t step)
+{
+    return step % WINDOW == WINDOW - 1;
+}
+
+// Before a window: which crowds take it. Those that missed the one before begin where the first one is.
+static void begin_window(edit_world *w, uint32_t step)
+{
+    const uint32_t before = w->crowd_count;
+    w->crowd_count = step / WINDOW % window_every == 0 ? CROWDS : 1;
+    if (before == 1 && w->crowd_count > 1) {
+        const size_t size = tl_nav_crowd_state_size(w->crowds[0]);
+        TEST_RESULT(tl_nav_crowd_save(w->crowds[0], w->saved, size), TL_OK);
+        for (uint32_t c = 1; c < CROWDS; c++) {
+            TEST_RESULT(tl_nav_crowd_restore(w->crowds[c], w->saved, size, NULL), TL_OK);
+        }
+    }
+}
+
 // A step of each crowd; their hashes now and then.
 static void step_all(edit_world *w, uint32_t step, tl_nav_crowd_step_report *report)
 {
-    for (uint32_t c = 0; c < CROWDS; c++) {
+    if (step % WINDOW == 0) {
+        begin_window(w, step);
+    }
+    for (uint32_t c = 0; c < w->crowd_count; c++) {
         choose_kernels(c);
         TEST_RESULT(tl_nav_crowd_step(w->crowds[c], w->navmesh, DT, report), TL_OK);
     }
-    for (uint32_t c = 1; step % 64 == 63 && c < CROWDS; c++) {
+    for (uint32_t c = 1; is_last_of_window(step) && c < w->crowd_count; c++) {
         TEST_CHECK(tl_nav_crowd_hash(w->crowds[c]) == tl_nav_crowd_hash(w->crowds[0]));
     }
     for (uint32_t i = 0; i < agent_count; i++) {
@@ -258,6 +286,8 @@ static uint32_t settle(edit_world *w, uint32_t step)
         TEST_RESULT(tl_nav_obstacles_remove(w->obstacles, w->ids[--w->obstacle_count]), TL_OK);
     }
     TEST_RESULT(tl_nav_obstacles_update(w->obstacles, w->navmesh, UINT32_MAX, NULL, NULL), TL_OK);
+    window_every = 1;
+    begin_window(w, step);
     give_goals(w, true);
     tl_nav_crowd_step_report report = { .arrived = 0 };
     uint32_t taken = 0;
@@ -290,6 +320,8 @@ static void test_edits(void **state)
     }
     make_world(&w);
     make_crowds(&w, tasks);
+    w.crowd_count = CROWDS;
+    w.saved = malloc(tl_nav_crowd_state_size(w.crowds[0]));
     for (uint32_t step = 0; step < step_count; step++) {
         if (step % EDIT_EVERY == 0) {
             edit(&w);
@@ -323,6 +355,7 @@ static void test_edits(void **state)
     choose_kernels(CROWDS - 1);
     tl_navmesh_destroy(w.navmesh);
     tl_nav_obstacles_destroy(w.obstacles);
+    free(w.saved);
     free(w.anchor);
     free(w.anchor_at);
 }
@@ -331,6 +364,7 @@ int main(int argc, char **argv)
 {
     step_count = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : step_count;
     agent_count = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : agent_count;
+    window_every = argc > 3 ? (uint32_t)strtoul(argv[3], NULL, 10) : window_every;
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_edits) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

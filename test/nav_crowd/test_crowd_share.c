@@ -2,8 +2,6 @@
 //
 // crowd_share.c: many agents to one goal take their paths from one search; so do they after an edit; and neither
 // threads nor a state that is restored can be told from the bytes.
-//
-//   test_crowd_share [AGENTS (600)]
 
 #include "crowd_threads.h" // pthread
 #include "crowd_world.h"
@@ -11,7 +9,7 @@
 #include <talus/nav_obstacles.h>
 #include <talus/nav_state.h>
 
-static uint32_t agent_count = 600;
+static const uint32_t agent_count = 600;
 
 typedef struct share_world {
     float half;
@@ -237,9 +235,8 @@ static void test_bytes(void **state)
     end_world(&w);
 }
 
-int main(int argc, char **argv)
+int main(void)
 {
-    agent_count = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : agent_count;
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_searches), cmocka_unit_test(test_arrivals),
                                         cmocka_unit_test(test_bytes) };
     return cmocka_run_group_tests(tests, NULL, NULL);
