@@ -64,12 +64,13 @@ bench-simd:
 	tools/bench-simd
 
 # The stages of talus world on sample worlds of 1 and 10 million triangles: triangles a second, and each process's peak.
+# BENCH_WORLD="--millions 100 --bake-millions 100" bakes 100 million, in 20 GB and a quarter of an hour of processor time.
 bench-world:
 	tools/setup tools
 	$(CONFIGURE)
 	cmake --build $(BUILD) --parallel $(JOBS) --target talus_command
 	rm -rf $(BUILD)/bench-world
-	bench/python/bench_world.py --talus $(BUILD)/cli/talus --folder $(BUILD)/bench-world --json $(BUILD)/bench-world.json
+	bench/python/bench_world.py --talus $(BUILD)/cli/talus --folder $(BUILD)/bench-world --json $(BUILD)/bench-world.json $(BENCH_WORLD)
 
 bench-%:
 	tools/setup tools tests bench

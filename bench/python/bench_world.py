@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""Measures talus world stage by stage: triangles a second, bytes a triangle, and the largest memory of each process.
+"""Measures talus world stage by stage: triangles a second, bytes a triangle, and the largest memory of each process; the bake in shards against one
+in memory; and how evenly the tiles' times spread over 64 and 1024 ranks.
 
-  bench_world.py --talus COMMAND --folder FOLDER [--millions 1 10] [--bake-millions 1] [--threads N] [--json FILE]
+  bench_world.py --talus COMMAND --folder FOLDER [--millions 1 10] [--bake-millions 1] [--compare-millions 10] [--threads N] [--json FILE]
 
 Each stage is a process of its own, so that its peak is its own. FOLDER must be empty or new; about 200 bytes a triangle are written there, and
-left. Sizes beyond --bake-millions are planned, and not baked.
+left. Sizes beyond --bake-millions are planned, and not baked; those beyond --compare-millions not baked in memory.
 """
 import argparse
 import json
 import os
+import shutil
+import struct
 import subprocess
 import sys
 import time
@@ -26,6 +29,25 @@ def run(words):
     return json.loads(text), time.monotonic() - began, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
 
+def merge_parts(folder, path):
+    """The world's binary STL files as one, for a bake that takes one file."""
+    count = 0
+    with open(path, "wb") as whole:
+        whole.write(bytes(84))
+        for name in sorted(os.listdir(folder)):
+            with open(os.path.join(folder, name), "rb") as part:
+                head = part.read(84)
+                if name.endswith(".stl") and len(head) == 84:
+                    count += struct.unpack_from("<I", head, 80)[0]
+                    shutil.copyfileobj(part, whole)
+        whole.seek(80)
+        whole.write(struct.pack("<I", count))
+
+
+def size_of(folder):
+    return sum(os.path.getsize(os.path.join(root, name)) for root, _, names in os.walk(folder) for name in names)
+
+
 def measure(options, millions):
     world = os.path.join(options.folder, f"world_{millions}")
     job = os.path.join(options.folder, f"job_{millions}")
@@ -36,20 +58,45 @@ def measure(options, millions):
     if millions <= options.bake_millions:
         stages += [("bake", [options.talus, "world", "bake", job] + threads),
                    ("bake again", [options.talus, "world", "bake", job] + threads),
-                   ("merge", [options.talus, "world", "merge", job, "-o", job + ".talus"])]
-    triangles, rows = 0, []
+                   ("merge", [options.talus, "world", "merge", job, "-o", job + ".talus"]),
+                   ("check", [options.talus, "world", "check", job + ".talus"])]
+    if millions <= min(options.bake_millions, options.compare_millions):
+        stages.append(("in memory", [options.talus, "bake", world + ".stl", "--no-soup", "--tile-size", "128", "-o", world + ".talus"] + threads))
+    triangles, rows, processor_of = 0, [], {}
     for name, words in stages:
+        if name == "in memory":
+            merge_parts(world, world + ".stl")
         answer, wall, processor, peak = run(words)
+        processor_of[name] = processor
         triangles = answer.get("triangles", 0) if name == "sample" else triangles
         row = {"millions": millions, "stage": name, "seconds": wall, "processor_seconds": processor,
                "triangles_per_second": triangles / wall, "peak_mb": peak}
+        remark = ""
         if name == "plan":
             row["bytes_per_triangle"] = answer["store_bytes"] / answer["triangles"]
+            remark = f"{row['bytes_per_triangle']:7.1f} bytes a triangle, in the store"
+        elif name == "bake":
+            row["tiles"] = answer["baked"]
+            row["tiles_per_second"] = answer["baked"] / wall
+            row["bytes_per_triangle"] = size_of(job) / triangles
+            remark = f"{row['tiles_per_second']:7.0f} tiles/s{row['bytes_per_triangle']:7.1f} bytes a triangle, with the tiles"
+        elif name == "in memory":
+            row["times_as_fast"] = processor / sum(processor_of[stage] for stage in ("plan", "bake", "merge"))
+            remark = f"  in shards {row['times_as_fast']:.2f} times as fast, by processor time from files to file"
         rows.append(row)
         print(f"{triangles / 1e6:8.2f} M  {name:<11}{wall:9.2f} s {processor:9.2f} s of processor"
-              f"{triangles / wall / 1e6:9.2f} M triangles/s{peak:8.0f} MB"
-              + (f"{row['bytes_per_triangle']:7.1f} bytes a triangle" if name == "plan" else ""), flush=True)
+              f"{triangles / wall / 1e6:9.2f} M triangles/s{peak:8.0f} MB{remark}", flush=True)
+    if millions <= options.bake_millions:
+        rows += [replay(options, job, millions, ranks) for ranks in (64, 1024)]
     return rows
+
+
+def replay(options, job, millions, ranks):
+    """How well the measured times of the tiles spread over so many ranks."""
+    found = run([options.talus, "world", "status", job, "--ranks", str(ranks)])[0]["replay"]
+    print(f"{'':10}  {ranks} ranks: idle {100 * found['idle_dealt']:.1f}% under mpirun, {100 * found['idle_shards']:.1f}% in shards; in the grid's order "
+          f"{100 * found['idle_dealt_in_grid_order']:.1f}%, in equal blocks of it {100 * found['idle_blocks_of_grid']:.1f}%", flush=True)
+    return {"millions": millions, "stage": "replay", **found}
 
 
 def main():
@@ -58,6 +105,7 @@ def main():
     parser.add_argument("--folder", required=True)
     parser.add_argument("--millions", type=float, nargs="+", default=[1, 10])
     parser.add_argument("--bake-millions", type=float, default=1)
+    parser.add_argument("--compare-millions", type=float, default=10)
     parser.add_argument("--threads", type=int, default=os.cpu_count())
     parser.add_argument("--json")
     options = parser.parse_args()
