@@ -247,7 +247,7 @@ test('says why a point is not walkable, and its button makes it walkable', async
   await viewer.page.waitForSelector('#why-text.bad');
   const words = await viewer.page.locator('#why-text').innerText();
   assert.ok(words.length > 20, words);
-  assert.equal(await viewer.page.locator('.bubble').isVisible(), true);
+  await viewer.page.waitForSelector('.bubble', { state: 'visible' }); // it is put in its place by the next frame
   await viewer.shot('why');
   const buttons = viewer.page.locator('#tool-panel button.apply');
   await buttons.last().click();
