@@ -59,6 +59,12 @@ static void compare_route(const tl_nav_world *world, tl_nav_router *router, tl_n
     const tl_nav_path_request path = { NULL, request->start, request->goal };
     TEST_RESULT(tl_nav_world_find_route(world, router, request, points, MAX_POINTS, &route), TL_OK);
     TEST_RESULT(tl_nav_world_find_path(world, query, &path, NULL, &truth), TL_OK);
+    // An exact search does not cross an edge and come straight back over it to another floor, where routes do: over the
+    // side of a ramp that both floors meet.
+    if (is_ramps && route.status == TL_NAV_PATH_COMPLETE && truth.status != TL_NAV_PATH_COMPLETE) {
+        n->folded++;
+        return;
+    }
     TEST_CHECK(route.status == truth.status);
     if (truth.status != TL_NAV_PATH_COMPLETE) {
         TEST_CHECK(route.status == TL_NAV_PATH_UNREACHABLE && route.point_count == 0 &&
@@ -69,8 +75,6 @@ static void compare_route(const tl_nav_world *world, tl_nav_router *router, tl_n
     n->reached++;
     TEST_CHECK(route.lower_bound <= truth.length * (1.0 + 1e-6) + 1e-5);
     const bool is_longer = truth.lower_bound <= route.length * (1.0 + 1e-6) + 1e-5;
-    // An exact search does not cross an edge and come straight back over it to another floor, where routes do: over the
-    // side of a ramp that both floors meet.
     TEST_CHECK(is_longer || is_ramps);
     n->folded += !is_longer;
     check_points(world, request, points, &route);
@@ -105,9 +109,15 @@ static void test_bounds(void **state)
         const tl_navmesh *navmesh = tl_nav_world_navmesh(world);
         fixture_refs refs = fixture_all_refs(navmesh);
         for (uint32_t pair = 0; pair < 170; pair++) {
-            // Not on walls, where an exact search may miss a way by a rounding of the start.
-            const tl_nav_world_route_request request = { fixture_random_location(navmesh, &refs, &random),
-                                                         fixture_random_location(navmesh, &refs, &random) };
+            tl_nav_world_route_request request = { fixture_random_location(navmesh, &refs, &random),
+                                                   fixture_random_location(navmesh, &refs, &random) };
+            // Half of the ends are nearest points, many of them on walls; not where ways fork, as above.
+            double at[3];
+            if (round % 6 != 5 && pair % 2 == 0 &&
+                (!find_random(&random, &level, world, at, &request.start) ||
+                 !find_random(&random, &level, world, at, &request.goal))) {
+                continue;
+            }
             compare_route(world, router, query, &request, round % 6 == 5, &n);
         }
         free(refs.refs);

@@ -22,6 +22,7 @@ typedef struct fixture_level {
     uint32_t tile_cells; ///< 0: one tile
     int32_t shake;       ///< lattice units, at most FIXTURE_STEP / 4
     int32_t slope;       ///< lattice heights a cell along x
+    int32_t lean;        ///< lattice units along z a cell along x, >= 0; in one tile only
     uint64_t seed;
     bool triangles; ///< split some quads
     bool detail;    ///< with a bump in the middle of each polygon
@@ -125,7 +126,7 @@ static inline void fixture_place_vertices(fixture_builder *b)
                 int32_t *v = b->vertices + 3 * fixture_vertex(b, floor, x, z);
                 v[0] = (int32_t)x * FIXTURE_STEP + (border_x ? 0 : dx);
                 v[1] = (int32_t)floor * FIXTURE_FLOOR_HEIGHT + level->slope * gx;
-                v[2] = (int32_t)z * FIXTURE_STEP + (border_z ? 0 : dz);
+                v[2] = (int32_t)z * FIXTURE_STEP + (border_z ? 0 : dz) + level->lean * (int32_t)x;
             }
         }
     }

@@ -10,16 +10,6 @@
 
 enum { MAX_ROOT_HOLDERS = 64 };
 
-// Whether the root, which lies on the line of an edge, is between its ends.
-static inline bool is_root_within(const wedge_search *s, const seen_edge *edge)
-{
-    double x = edge->left.x - edge->right.x;
-    double z = edge->left.z - edge->right.z;
-    double along = -(x * edge->right.x + z * edge->right.z);
-    double slack = s->rounding * sqrt(x * x + z * z);
-    return along >= -slack && along <= x * x + z * z + slack;
-}
-
 // The wedges that hold a root: `first`, and others that follow one another.
 typedef struct root_holders {
     uint32_t first, others;

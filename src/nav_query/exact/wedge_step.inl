@@ -218,6 +218,70 @@ static inline bool has_walls_on(const wedge_search *s, const step_from *from, ui
     return may_turn(&rings->walls[rings->cells[from->polygon].first + vertex], limit, hand, s->rounding);
 }
 
+// Whether the root, which lies on the line of an edge, is between its ends.
+static inline bool is_root_within(const wedge_search *s, const seen_edge *edge)
+{
+    double x = edge->left.x - edge->right.x;
+    double z = edge->left.z - edge->right.z;
+    double along = -(x * edge->right.x + z * edge->right.z);
+    double slack = s->rounding * sqrt(x * x + z * z);
+    return along >= -slack && along <= x * x + z * z + slack;
+}
+
+// The first of the wedges from an open root to this one, which have the same limit; NULL where the root is a vertex, or
+// the limit is younger.
+static inline const tl_nav_wedge *first_with_limit(const wedge_search *s, const tl_nav_wedge *wedge, int hand)
+{
+    for (;;) {
+        const tl_nav_wedge *parent = &s->query->wedges[wedge->parent];
+        if (parent->edge >= TL_NAV_WEDGE_LANDS) {
+            return wedge;
+        }
+        const tl_nav_direction limit = hand > 0 ? wedge->left : wedge->right;
+        const tl_nav_direction before = hand > 0 ? parent->left : parent->right;
+        if (limit.x != before.x || limit.z != before.z || wedge->root_x != parent->root_x ||
+            wedge->root_z != parent->root_z) {
+            return NULL;
+        }
+        wedge = parent;
+    }
+}
+
+// Whether the root lies on a wall that ends in the vertex which a wedge's limit leads to. It does not lie there
+// exactly: its coordinates were rounded. Behind the wall's line by that, it would see nothing that the wall's
+// continuation runs to, and where walls run on in line no vertex is one to turn at. So paths may bend there, by the
+// rounding.
+static inline bool is_on_wall_to_limit(const wedge_search *s, const tl_nav_wedge *wedge, int hand)
+{
+    const tl_nav_wedge *first = first_with_limit(s, wedge, hand);
+    if (first == NULL) {
+        return false;
+    }
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(s->navmesh, first->slot, first->polygon, &count);
+    const tl_nav_ring_place way = tl_nav_ring_twin(s->navmesh, first->slot, first->polygon, ring, count, first->edge);
+    step_from holder = { first->parent, way.slot, way.polygon, NULL, 0 };
+    holder.ring = tl_nav_ring_at(s->navmesh, way.slot, way.polygon, &holder.count);
+    const uint32_t before = way.edge > 0 ? way.edge - 1 : holder.count - 1;
+    const uint32_t beside = hand > 0 ? vertex_behind(way.edge, holder.count) : before;
+    const seen_edge wall = see_edge(&holder, beside, wedge->root_x, wedge->root_z);
+    return !tl_nav_ring_is_open(&holder.ring[beside]) && view_of(s, &wall).edge_on && is_root_within(s, &wall);
+}
+
+// Where a path may turn that comes along a wedge's limit to a vertex of its edge of entry; 0: nowhere.
+static inline uint64_t turn_at_end(const wedge_search *s, const step_from *from, const tl_nav_wedge *wedge, int hand,
+                                   uint32_t vertex)
+{
+    uint64_t turn = turn_of(s, from, vertex);
+    if (s->in->filter != NULL) {
+        return turn;
+    }
+    if (turn != 0) {
+        return has_walls_on(s, from, vertex, hand > 0 ? wedge->left : wedge->right, hand) ? turn : 0;
+    }
+    return is_on_wall_to_limit(s, wedge, hand) ? corner_number(s, from->slot, from->polygon, vertex) : 0;
+}
+
 // The edges that are reached by turning at a vertex of the edge of entry: `hand` is 1 for the left one, -1 for the
 // right one. They lie beyond the wedge's `limit` on that hand, in the part of the ring from `begin` to `end` (counted
 // from the edge of entry).
@@ -226,11 +290,11 @@ static inline void turn_at_limit(wedge_search *s, const step_from *from, const t
 {
     uint32_t vertex = hand > 0 ? wedge->edge : wedge->edge + 1 < from->count ? wedge->edge + 1 : 0;
     tl_nav_direction limit = hand > 0 ? wedge->left : wedge->right;
-    uint64_t turn = turn_of(s, from, vertex);
-    if (turn == 0 || (s->in->filter == NULL && !has_walls_on(s, from, vertex, limit, hand))) {
+    uint64_t turn = turn_at_end(s, from, wedge, hand, vertex);
+    if (turn == 0) {
         return;
     }
-    if (s->sight != NULL) {
+    if (s->sight != NULL && (turn & CORNER_NUMBER) == 0) {
         note_corner(s, turn);
         return;
     }
@@ -257,7 +321,7 @@ static inline void turn_at_limit(wedge_search *s, const step_from *from, const t
         if (!(is_beyond && v.facing) && !touches) {
             continue;
         }
-        if (is_new) {
+        if (is_new && s->sight == NULL) {
             tl_nav_root_rank rank = rank_root(s, turn, cost);
             if (rank == TL_NAV_ROOT_WORSE || (rank == TL_NAV_ROOT_AS_CHEAP &&
                                               is_repeated(s, from, vertex, hand, cost, wedge->root_x, wedge->root_z))) {

@@ -31,6 +31,14 @@ static bool is_ahead(const tl_nav_line *line, const tl_nav_ring_edge *vertex)
     return line->on_x * ((double)vertex->x - line->x) + line->on_z * ((double)vertex->z - line->z) > 0.0;
 }
 
+// How far from 0 rounding may put what says on which side of a line a vertex lies: both ends of the line are rounded,
+// so a vertex that is farther away than the line is long counts by its distance.
+static double line_slack(const tl_nav_line *line, const tl_nav_ring_edge *vertex)
+{
+    return line->rounding * (fabs(line->on_x) + fabs(line->on_z) + fabs((double)vertex->x - line->x) +
+                             fabs((double)vertex->z - line->z));
+}
+
 bool tl_nav_line_enters(const tl_nav_line *line, const tl_nav_ring_place *place)
 {
     if (line->on_x == 0.0 && line->on_z == 0.0) {
@@ -40,13 +48,15 @@ bool tl_nav_line_enters(const tl_nav_line *line, const tl_nav_ring_place *place)
     const tl_nav_ring_edge *ring = tl_nav_ring_at(line->navmesh, place->slot, place->polygon, &count);
     const tl_nav_ring_edge *right = &ring[place->edge + 1 < count ? place->edge + 1 : 0];
     const tl_nav_ring_edge *left = &ring[place->edge > 0 ? place->edge - 1 : count - 1];
-    double slack = line->rounding * (fabs(line->on_x) + fabs(line->on_z));
+    double right_slack = line_slack(line, right);
+    double left_slack = line_slack(line, left);
     double to_right = tl_nav_right_of_line(line, right);
     double to_left = tl_nav_right_of_line(line, left);
-    if (to_right > slack && to_left < -slack) {
+    if (to_right > right_slack && to_left < -left_slack) {
         return true;
     }
-    return (fabs(to_right) <= slack && is_ahead(line, right)) || (fabs(to_left) <= slack && is_ahead(line, left));
+    return (fabs(to_right) <= right_slack && is_ahead(line, right)) ||
+           (fabs(to_left) <= left_slack && is_ahead(line, left));
 }
 
 typedef struct graph_path {
