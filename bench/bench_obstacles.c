@@ -221,14 +221,8 @@ int main(int argc, char **argv)
                                      { NULL, BENCH_COUNT, NULL, NULL } };
     const char *json = NULL;
     bench_parse(argc, argv, options, NULL, &json);
-    uint32_t count;
-    const tl_sample_level *levels = tl_sample_levels(&count);
     tl_sample_mesh mesh;
-    for (uint32_t i = 0; i < count; i++) {
-        if (strcmp(levels[i].name, "city") == 0) {
-            must(tl_sample_build_level(&levels[i], triangles, 1, &mesh), "city");
-        }
-    }
+    must(tl_sample_build_level(tl_sample_find_level("city"), triangles, 1, &mesh), "city");
     tl_nav_input input;
     memset(&input, 0, sizeof input);
     input.mesh = tl_sample_mesh_as_view(&mesh);

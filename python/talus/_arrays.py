@@ -28,18 +28,6 @@ Cull = Literal["none", "back", "front"]
 _CULL = {"none": 0, "back": 1, "front": 2}
 
 
-def points(array: ArrayLike, name: str) -> Floats:
-    """An (N, 3) float32 array of any (N, 3) array; a single point becomes one row."""
-    result = np.ascontiguousarray(array, dtype=np.float32)
-    if result.ndim == 1 and result.shape[0] == 3:
-        result = result.reshape(1, 3)
-    if result.ndim == 2 and result.shape == (0, 0):
-        result = result.reshape(0, 3)
-    if result.ndim != 2 or result.shape[1] != 3:
-        raise ValueError(f"{name} has the shape {result.shape}; it should be (N, 3)")
-    return result
-
-
 Reals = npt.NDArray[np.float32] | npt.NDArray[np.float64]
 """float32 or float64 array."""
 
@@ -56,6 +44,11 @@ def point_rows(array: ArrayLike, name: str) -> Reals:
     if result.ndim != 2 or result.shape[1] != 3:
         raise ValueError(f"{name} has the shape {result.shape}; it should be (N, 3)")
     return result
+
+
+def points(array: ArrayLike, name: str) -> Floats:
+    """An (N, 3) float32 array of any (N, 3) array; a single point becomes one row."""
+    return np.ascontiguousarray(point_rows(array, name), dtype=np.float32)
 
 
 def row_pairs(a: ArrayLike, b: ArrayLike, names: tuple[str, str]) -> tuple[Reals, Reals]:

@@ -313,6 +313,21 @@ tl_content_hash tl_world_tile_key(tl_content_hash settings, const tl_world_tile 
     return tl_content_hash_of(bytes, sizeof bytes);
 }
 
+uint64_t tl_world_plan_find(const tl_world_plan *plan, uint32_t x, uint32_t z)
+{
+    uint64_t low = 0, high = plan->tile_count;
+    while (low < high) {
+        const uint64_t middle = low + (high - low) / 2;
+        const tl_world_tile *tile = &plan->tiles[middle];
+        if (tile->z < z || (tile->z == z && tile->x < x)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
 char *tl_world_job_path(const char *job, const char *part)
 {
     const size_t size = strlen(job) + strlen(part) + 2;

@@ -50,6 +50,9 @@ tl_result tl_world_plan_decode(const unsigned char *bytes, size_t size, const ch
                                tl_io_error *error_out);
 void tl_world_plan_free(tl_world_plan *plan);
 
+/// The first tile of a plan that does not come before (x, z); tile_count: there is none.
+uint64_t tl_world_plan_find(const tl_world_plan *plan, uint32_t x, uint32_t z);
+
 /// The key of a tile's file: the settings (tl_world_grid_hash), the place, and the sum of its triangles' hashes.
 tl_content_hash tl_world_tile_key(tl_content_hash settings, const tl_world_tile *tile, tl_content_hash sum);
 

@@ -10,22 +10,6 @@
 
 #define CELL_MASK ((UINT64_C(1) << 40) - 1)
 
-// The first tile of the plan that does not come before (x, z).
-static uint64_t find_tile(const tl_world_plan *plan, uint32_t x, uint32_t z)
-{
-    uint64_t low = 0, high = plan->tile_count;
-    while (low < high) {
-        const uint64_t middle = low + (high - low) / 2;
-        const tl_world_tile *tile = &plan->tiles[middle];
-        if (tile->z < z || (tile->z == z && tile->x < x)) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
 // Counts the cells of each tile in first_cell[tile + 1], or with `fill` puts them where first_cell[tile] says.
 static void pass_over_cells(tl_world_source *source, bool fill)
 {
@@ -38,7 +22,7 @@ static void pass_over_cells(tl_world_source *source, bool fill)
                 continue;
             }
             for (uint32_t z = range.z; z < range.z + range.count_z; z++) {
-                for (uint64_t t = find_tile(plan, range.x, z);
+                for (uint64_t t = tl_world_plan_find(plan, range.x, z);
                      t < plan->tile_count && plan->tiles[t].z == z && plan->tiles[t].x < range.x + range.count_x; t++) {
                     if (fill) {
                         source->cells[source->first_cell[t]++] = (uint64_t)s << 40 | c;

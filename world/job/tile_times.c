@@ -72,31 +72,17 @@ typedef struct times_reader {
     tl_io_error *error;
 } times_reader;
 
-// The plan's tile at a place; tile_count: there is none.
-static uint64_t find_timed_tile(const tl_world_plan *plan, uint32_t x, uint32_t z)
-{
-    uint64_t low = 0, high = plan->tile_count;
-    while (low < high) {
-        const uint64_t middle = low + (high - low) / 2;
-        const tl_world_tile *tile = &plan->tiles[middle];
-        if (tile->z < z || (tile->z == z && tile->x < x)) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low < plan->tile_count && plan->tiles[low].x == x && plan->tiles[low].z == z ? low : plan->tile_count;
-}
-
 static void take_record(const times_reader *reader, const unsigned char *record)
 {
     if (memcmp(record, TIME_MAGIC, 4) != 0 || tl_get_u64(record + 40) != tl_content_checksum(record, 40)) {
         return;
     }
-    const uint64_t tile = find_timed_tile(reader->plan, tl_get_u32(record + 4), tl_get_u32(record + 8));
+    const uint32_t x = tl_get_u32(record + 4), z = tl_get_u32(record + 8);
+    const uint64_t tile = tl_world_plan_find(reader->plan, x, z);
     const tl_content_hash key = { tl_get_u64(record + 16), tl_get_u64(record + 24) };
     const uint64_t time = tl_get_u64(record + 32);
-    if (tile < reader->plan->tile_count && tl_content_hash_equal(key, reader->plan->tiles[tile].key) &&
+    const tl_world_tile *at = tile < reader->plan->tile_count ? &reader->plan->tiles[tile] : NULL;
+    if (at != NULL && at->x == x && at->z == z && tl_content_hash_equal(key, at->key) &&
         (reader->times[tile] == 0 || time < reader->times[tile])) {
         reader->times[tile] = time;
     }
