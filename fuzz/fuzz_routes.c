@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+//
+// Untrusted bytes as the routes of a world's file (chunk ROUT): what passes the checks is safe to ask, and says nothing
+// impossible. The input is patches of the true chunk, six bytes each: a word's index, and what is written there. The
+// file's hashes are made right, so that what is behind them is reached.
+
+#include <talus/nav_routes.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIDE = 10, MAX_BYTES = 1 << 18, PATCH = 6, PLACES = 6, POINTS = 32 };
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+typedef struct memory_file {
+    uint8_t bytes[MAX_BYTES];
+    size_t size;
+} memory_file;
+
+static memory_file bare, patched; // without routes, and with the input's
+static tl_nav_tiles tiles;
+static tl_pack_navmesh *settings;
+static tl_nav_routes *routes;
+
+static void require(bool condition)
+{
+    if (!condition) {
+        abort();
+    }
+}
+
+static tl_result write_to(const void *bytes, size_t size, void *user)
+{
+    memory_file *file = user;
+    require(size <= MAX_BYTES - file->size);
+    memcpy(file->bytes + file->size, bytes, size);
+    file->size += size;
+    return TL_OK;
+}
+
+static tl_result read_from(uint64_t offset, void *bytes, size_t size, void *user)
+{
+    const memory_file *file = user;
+    if (offset > file->size || size > file->size - offset) {
+        return TL_ERR_TRUNCATED;
+    }
+    memcpy(bytes, file->bytes + offset, size);
+    return TL_OK;
+}
+
+static void write_file(const tl_nav_routes *extra, memory_file *file)
+{
+    tl_pack_item items[64];
+    uint32_t count = 0;
+    const tl_pack_item head = { TL_PACK_NAVM, 0, settings, settings->blob.size };
+    items[count++] = head;
+    for (uint32_t i = 0; i < tiles.tile_count; i++) {
+        const tl_pack_item tile = { TL_PACK_NAVT, i, tiles.tiles[i], tiles.tiles[i]->blob.size };
+        require(count < 63);
+        items[count++] = tile;
+    }
+    if (extra != NULL) {
+        const tl_pack_item item = { TL_PACK_ROUT, 0, extra, routes->blob.size };
+        items[count++] = item;
+    }
+    file->size = 0;
+    require(tl_pack_write(items, count, NULL, write_to, file, NULL) == TL_OK);
+}
+
+// A floor of 20 x 20 m with holes, in 3 x 3 tiles, and the routes over it.
+static void make_world(void)
+{
+    tl_vec3 vertices[(SIDE + 1) * (SIDE + 1)];
+    uint32_t indices[6 * SIDE * SIDE], count = 0;
+    for (uint32_t i = 0; i < (SIDE + 1) * (SIDE + 1); i++) {
+        const tl_vec3 at = { 2.0f * (float)(i % (SIDE + 1)), 0.0f, 2.0f * (float)(i / (SIDE + 1)) };
+        vertices[i] = at;
+    }
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        const uint32_t x = i % SIDE, z = i / SIDE, a = z * (SIDE + 1) + x;
+        if ((x * 7 + z * 5 + x * z) % 6 != 0) {
+            const uint32_t quad[6] = { a, a + SIDE + 1, a + SIDE + 2, a, a + SIDE + 2, a + 1 };
+            memcpy(indices + count, quad, sizeof quad);
+            count += 6;
+        }
+    }
+    tl_nav_def def = tl_default_nav_def();
+    def.cell_size = 0.5f;
+    def.agent_radius = 0.0f;
+    def.tile_size = 14;
+    def.region_min_size = 0;
+    const tl_aabb bounds = { { 0.0f, -1.0f, 0.0f }, { 2.0f * (float)SIDE, 4.0f, 2.0f * (float)SIDE } };
+    def.bounds = bounds;
+    tl_nav_input input;
+    memset(&input, 0, sizeof input);
+    const tl_mesh_view floor = { vertices, (SIDE + 1) * (SIDE + 1), indices, count / 3, NULL };
+    input.mesh = floor;
+    require(tl_nav_bake(&def, &input, &tiles, NULL) == TL_OK);
+    require(tl_pack_navmesh_encode(&def, tiles.tiles_x, tiles.tiles_z, tiles.tile_count, NULL, &settings, NULL) ==
+            TL_OK);
+    write_file(NULL, &bare);
+    tl_nav_routes_def routes_def = tl_default_nav_routes_def();
+    routes_def.read = read_from;
+    routes_def.user = &bare;
+    routes_def.block = 2;
+    require(tl_nav_routes_bake(&routes_def, &routes, NULL) == TL_OK && routes->gate_count > 4);
+}
+
+static void load_all(tl_nav_world *world)
+{
+    const tl_nav_world_interest everywhere = { { 10, 0, 10 }, 100.0 };
+    tl_nav_world_load load;
+    tl_result result = tl_nav_world_update(world, &everywhere, 1, 64);
+    while (tl_nav_world_begin_load(world, &load) == TL_OK) {
+        require(tl_nav_world_run_load(&load) == TL_OK && tl_nav_world_end_load(&load) == TL_OK);
+        result = tl_nav_world_update(world, &everywhere, 1, 64);
+        require(result == TL_OK || result == TL_NOT_FOUND);
+    }
+}
+
+static void ask(const tl_nav_world *world, tl_nav_router *router)
+{
+    tl_nav_location at[PLACES];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < PLACES; i++) {
+        const double point[3] = { 1.0 + 3.4 * (double)i, 0.0, 1.0 + 3.0 * (double)(i * 5 % 7) };
+        const tl_vec3 extents = { 3, 1, 3 };
+        count += tl_nav_world_find_nearest(world, NULL, point, extents, &at[count]) == TL_OK;
+    }
+    for (uint32_t i = 0; i < count * count; i++) {
+        const tl_nav_world_route_request request = { at[i / count], at[i % count] };
+        tl_nav_world_route_point points[POINTS];
+        tl_nav_world_route route;
+        const tl_result result = tl_nav_world_find_route(world, router, &request, points, POINTS, &route);
+        require(result == TL_OK || result == TL_INCOMPLETE || result == TL_ERR_CORRUPT);
+        if (result == TL_OK && route.status == TL_NAV_PATH_COMPLETE) {
+            require(route.point_count >= 2 && route.point_count <= POINTS && !isnan(route.length));
+        }
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (routes == NULL) {
+        make_world();
+    }
+    tl_nav_routes *copy = aligned_alloc(64, (size_t)(routes->blob.size + 63) / 64 * 64);
+    require(copy != NULL);
+    memcpy(copy, routes, (size_t)routes->blob.size);
+    const size_t words = (size_t)routes->blob.size / 4;
+    for (; size >= PATCH; data += PATCH, size -= PATCH) {
+        const size_t at = 4 + ((size_t)data[0] | (size_t)data[1] << 8) % (words - 4); // behind the blob's head
+        memcpy((uint8_t *)copy + 4 * at, data + 2, 4);
+    }
+    write_file(copy, &patched);
+    tl_nav_world_def def = tl_default_nav_world_def();
+    tl_nav_world *world = NULL;
+    tl_nav_router *router = NULL;
+    def.read = read_from;
+    def.user = &patched;
+    if (tl_nav_world_create(&def, &world, NULL) == TL_OK) {
+        require(tl_nav_router_create(world, NULL, &router, NULL) == TL_OK);
+        load_all(world);
+        ask(world, router);
+        tl_nav_router_destroy(router);
+        tl_nav_world_destroy(world);
+    }
+    free(copy);
+    return 0;
+}
