@@ -280,10 +280,10 @@ static void paint_legend(cairo_t *cairo, const map_sheet *sheet, world_map map, 
     }
     const double from = x + draw_text_width(cairo, scale->low_text) + 6;
     const double room = right - from - draw_text_width(cairo, scale->high_text) - 6;
-    const double width = room < BAR_WIDTH ? room : BAR_WIDTH;
+    const double width = fmin(room, (double)BAR_WIDTH), step = width / (double)BAR_STEPS;
     for (int i = 0; i < BAR_STEPS; i++) {
-        draw_set_colour(cairo, colour_of_share(((float)i + 0.5f) / BAR_STEPS), 1.0);
-        cairo_rectangle(cairo, from + i * width / BAR_STEPS, y, width / BAR_STEPS + 0.5, 12);
+        draw_set_colour(cairo, colour_of_share(((float)i + 0.5f) / (float)BAR_STEPS), 1.0);
+        cairo_rectangle(cairo, from + i * step, y, step + 0.5, 12);
         cairo_fill(cairo);
     }
     draw_set_colour(cairo, DRAW_INK, 1.0);
@@ -333,7 +333,7 @@ static void paint_maps(cairo_t *cairo, const void *user)
     draw_set_colour(cairo, MAP_PAPER, 1.0);
     cairo_paint(cairo);
     draw_set_colour(cairo, DRAW_INK, 1.0);
-    const double room = sheet->width - 2.0 * MAP_MARGIN;
+    const double room = sheet->width - 2.0 * (double)MAP_MARGIN;
     draw_text_within(cairo, MAP_MARGIN, 30, 20, true, draw_file_name(sheet->job), room);
     draw_set_colour(cairo, 0x6a6a72, 1.0);
     draw_text_within(cairo, MAP_MARGIN, 52, 13, false, words, room);
@@ -344,8 +344,7 @@ static void paint_maps(cairo_t *cairo, const void *user)
         }
         const uint32_t column = (sheet->width - MAP_MARGIN) / sheet->columns;
         const double x = MAP_MARGIN + place % sheet->columns * column;
-        const double y =
-            MAP_HEAD + place / sheet->columns * (double)(sheet->map_height + MAP_TITLE + MAP_FOOT) + MAP_TITLE;
+        const double y = MAP_HEAD + place / sheet->columns * (sheet->map_height + MAP_TITLE + MAP_FOOT) + MAP_TITLE;
         draw_set_colour(cairo, DRAW_INK, 1.0);
         draw_text_within(cairo, x, y - 8, 13, true, titles[map], column - MAP_MARGIN);
         cairo_save(cairo);
@@ -357,7 +356,7 @@ static void paint_maps(cairo_t *cairo, const void *user)
         cairo_pattern_set_filter(cairo_get_source(cairo), grows ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
         cairo_paint(cairo);
         cairo_restore(cairo);
-        paint_legend(cairo, sheet, (world_map)map, x, x + column - MAP_MARGIN, y + sheet->map_height + 8);
+        paint_legend(cairo, sheet, (world_map)map, x, x + (double)(column - MAP_MARGIN), y + sheet->map_height + 8);
         paint_scale(cairo, sheet, x + sheet->map_width, y + sheet->map_height + 24);
         place++;
     }
