@@ -29,17 +29,28 @@ def run(words):
     return json.loads(text), time.monotonic() - began, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
 
+TRIANGLE = struct.Struct("<12fH")  # of a binary STL: normal, corners, attributes
+
+
+def moved(triangles, x, y, z):
+    """Those of a binary STL, moved."""
+    out = bytearray()
+    for t in TRIANGLE.iter_unpack(triangles):
+        out += TRIANGLE.pack(*t[:3], t[3] + x, t[4] + y, t[5] + z, t[6] + x, t[7] + y, t[8] + z, t[9] + x, t[10] + y, t[11] + z, t[12])
+    return out
+
+
 def merge_parts(folder, path):
-    """The world's binary STL files as one, for a bake that takes one file."""
+    """The world's binary STL files as one, each in its place, for a bake that takes one file."""
+    with open(os.path.join(folder, "world.json"), encoding="utf-8") as file:
+        inputs = json.load(file)["inputs"]
     count = 0
     with open(path, "wb") as whole:
         whole.write(bytes(84))
-        for name in sorted(os.listdir(folder)):
-            with open(os.path.join(folder, name), "rb") as part:
-                head = part.read(84)
-                if name.endswith(".stl") and len(head) == 84:
-                    count += struct.unpack_from("<I", head, 80)[0]
-                    shutil.copyfileobj(part, whole)
+        for part in inputs:
+            with open(os.path.join(folder, part["file"]), "rb") as file:
+                count += struct.unpack_from("<I", file.read(84), 80)[0]
+                whole.write(moved(file.read(), *part["translate"]))
         whole.seek(80)
         whole.write(struct.pack("<I", count))
 
