@@ -197,7 +197,7 @@ static void make_tree(uint32_t index, uint32_t worker, void *user)
 // ---------------------------------------------------------------------------------------------------------
 // The paths.
 
-// `work` holds who asks, cell[i] the tree, and then whether it has a path.
+// cell[i] holds the tree of one who waits, and then whether it has a path.
 static void take_path(const crowd_step *step, uint32_t i)
 {
     tl_nav_crowd *crowd = step->crowd;

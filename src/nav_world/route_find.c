@@ -80,13 +80,6 @@ typedef struct route_end {
     double slack;      // of lengths from it
 } route_end;
 
-static bool is_of_end(const tl_nav_tile *tile, uint32_t polygon, void *user)
-{
-    const int32_t *place = user;
-    (void)polygon;
-    return tile->tile_x == place[0] && tile->tile_z == place[1];
-}
-
 // The length from an end to a point in its place, rounded up; INFINITY: there is no path within the place.
 static tl_result length_in_place(tl_nav_router *router, const route_end *end, const tl_nav_location *to,
                                  float *length_out)
@@ -94,7 +87,7 @@ static tl_result length_in_place(tl_nav_router *router, const route_end *end, co
     const tl_nav_world *world = router->world;
     int32_t place[2] = { end->x - world->frame_x, end->z - world->frame_z };
     tl_nav_filter filter = tl_default_nav_filter();
-    filter.pass = is_of_end;
+    filter.pass = tl_route_is_of_place;
     filter.user = place;
     const tl_nav_path_request request = { &filter, end->at, *to };
     tl_nav_shortest_path path;

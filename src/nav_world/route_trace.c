@@ -61,7 +61,6 @@ static void go_on_within(const tl_route_tree *tree, uint32_t cell, uint32_t gate
 typedef struct piece_split {
     uint32_t cell, through; // over this gate of the cell's separator; UINT32_MAX: not at all
     float length;
-    bool is_within; // a length of a place or a block, or of a child's rim
 } piece_split;
 
 static uint32_t front_column(const tl_route_tree *tree, const tl_route_cell *cell, uint32_t gate)
@@ -87,7 +86,7 @@ static void split_over_separator(const tl_world_routes *routes, uint32_t number,
     for (uint32_t w = 0; w < cell->gate_count; w++, row += width) {
         const float sum = row[a] + row[b];
         if (w != a && w != b && row[a] < most && row[b] < most && sum < best->length) {
-            const piece_split split = { number, cell->first_gate + w, sum, false };
+            const piece_split split = { number, cell->first_gate + w, sum };
             *best = split;
         }
     }
@@ -97,7 +96,7 @@ static void split_over_separator(const tl_world_routes *routes, uint32_t number,
 static piece_split split_within(const tl_world_routes *routes, uint32_t number, uint32_t from, uint32_t to)
 {
     const tl_route_tree *tree = &routes->tree;
-    piece_split best = { TL_ROUTE_NO_CELL, UINT32_MAX, INFINITY, true };
+    piece_split best = { TL_ROUTE_NO_CELL, UINT32_MAX, INFINITY };
     while (number != TL_ROUTE_NO_CELL) {
         const tl_route_cell *cell = &tree->cells[number];
         const uint32_t i = tl_route_rim_index(tree, cell, from), j = tl_route_rim_index(tree, cell, to);
@@ -107,7 +106,7 @@ static piece_split split_within(const tl_world_routes *routes, uint32_t number, 
         if (cell->is_leaf || cell->is_block) {
             const float length = routes->lengths[cell->base + tl_route_pair(i, j)];
             if (length <= best.length) {
-                const piece_split whole = { number, UINT32_MAX, length, true };
+                const piece_split whole = { number, UINT32_MAX, length };
                 best = whole;
             }
             break;
@@ -123,7 +122,7 @@ static piece_split split_within(const tl_world_routes *routes, uint32_t number, 
 static piece_split split_front(const tl_world_routes *routes, const tl_route_piece *piece)
 {
     const tl_route_cell *cell = &routes->tree.cells[piece->cell];
-    piece_split best = { TL_ROUTE_NO_CELL, UINT32_MAX, INFINITY, true };
+    piece_split best = { TL_ROUTE_NO_CELL, UINT32_MAX, INFINITY };
     for (int k = 0; k < 2; k++) {
         const piece_split split = split_within(routes, cell->child[k], piece->from, piece->to);
         if (split.length < best.length) {
@@ -160,8 +159,8 @@ static void write_piece(const tl_nav_router *router, tl_route_piece first, tl_ro
             tl_route_write_gate(writer, &gates[piece.to], writer->length + (double)split.length);
             continue;
         }
-        const tl_route_piece second_half = { split.cell, split.through, piece.to, true };
-        const tl_route_piece first_half = { split.cell, piece.from, split.through, true };
+        const tl_route_piece second_half = { split.cell, split.through, piece.to };
+        const tl_route_piece first_half = { split.cell, piece.from, split.through };
         pieces[count++] = second_half;
         pieces[count++] = first_half;
     }
@@ -229,11 +228,11 @@ void tl_route_trace(const tl_nav_router *router, const tl_route_meeting *meeting
     const float at_last = tl_route_rim_lengths(tree, to, 0)[tl_route_rim_index(tree, &tree->cells[to->cells[0]], last)];
     tl_route_write_gate(writer, &tree->gates[first], (double)at_first);
     for (uint32_t i = start.count - 1; i > 0; i--) {
-        const tl_route_piece piece = { start.cells[i - 1], start.gates[i], start.gates[i - 1], true };
+        const tl_route_piece piece = { start.cells[i - 1], start.gates[i], start.gates[i - 1] };
         write_piece(router, piece, writer);
     }
     for (uint32_t i = 0; i + 1 < goal.count; i++) {
-        const tl_route_piece piece = { goal.cells[i], goal.gates[i], goal.gates[i + 1], true };
+        const tl_route_piece piece = { goal.cells[i], goal.gates[i], goal.gates[i + 1] };
         write_piece(router, piece, writer);
     }
     go_on_within(tree, to->cells[0], last, writer);

@@ -23,10 +23,9 @@ typedef struct tl_route_meeting {
     float length;       ///< INFINITY: there is none
 } tl_route_meeting;
 
-/// A way to be taken apart: between two gates of a cell, over its separator or, of its rim, within it.
+/// A way to be taken apart: between two gates of a cell, of which one is in its separator.
 typedef struct tl_route_piece {
     uint32_t cell, from, to;
-    bool is_front; ///< one of the gates is in the separator
 } tl_route_piece;
 
 struct tl_nav_router {

@@ -82,6 +82,14 @@ uint32_t tl_route_find_place(const tl_route_tree *tree, int32_t x, int32_t z);
 /// Where gate stands in the rim of a cell, or UINT32_MAX.
 uint32_t tl_route_rim_index(const tl_route_tree *tree, const tl_route_cell *cell, uint32_t gate);
 
+static inline bool tl_route_is_block_side(uint32_t block)
+{
+    return block > 0 && block <= TL_ROUTE_MAX_BLOCK && (block & (block - 1)) == 0;
+}
+
+/// A filter's function: passes the polygons of one place, the tile_x and tile_z that `user` points to.
+bool tl_route_is_of_place(const tl_nav_tile *tile, uint32_t polygon, void *user);
+
 static inline const uint32_t *tl_route_rim(const tl_route_tree *tree, const tl_route_cell *cell)
 {
     return tree->rims + cell->first_rim;

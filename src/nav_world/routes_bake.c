@@ -147,17 +147,6 @@ static tl_result sort_gates(routes_bake *bake)
 // ---------------------------------------------------------------------------------------------------------
 // Lengths.
 
-typedef struct place_filter {
-    int32_t x, z;
-} place_filter;
-
-static bool is_of_place(const tl_nav_tile *tile, uint32_t polygon, void *user)
-{
-    const place_filter *place = user;
-    (void)polygon;
-    return tile->tile_x == place->x && tile->tile_z == place->z;
-}
-
 // The middle of a gate on its polygon in a place, in the frame of another place.
 static bool locate_gate(const routes_bake *bake, const place_set *set, const tl_nav_gate *gate,
                         const tl_route_place *within, const tl_route_place *frame, tl_nav_location *out)
@@ -205,10 +194,10 @@ static tl_result search_lengths(routes_bake *bake, const place_set *set, const t
     const tl_route_place *first = &tree->places[cell->first_place];
     const double side = (double)bake->world->tile_size * (double)bake->world->cell_size;
     const double slack = tl_route_slack(side * (double)tree->block);
-    place_filter place = { first->x - frame->x, first->z - frame->z };
+    int32_t place[2] = { first->x - frame->x, first->z - frame->z };
     tl_nav_filter filter = tl_default_nav_filter();
-    filter.pass = is_of_place;
-    filter.user = &place;
+    filter.pass = tl_route_is_of_place;
+    filter.user = place;
     for (uint32_t j = 1; j < cell->rim_count; j++) {
         for (uint32_t i = 0; i < j; i++) {
             const tl_nav_gate *a = &bake->gates[rim[i]], *b = &bake->gates[rim[j]];
@@ -315,7 +304,7 @@ static tl_result check_routes_def(const tl_nav_routes_def *def, tl_report *repor
     if (def->read == NULL) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "read", "give a function that reads the file");
     }
-    if (def->block == 0 || def->block > TL_ROUTE_MAX_BLOCK || (def->block & (def->block - 1)) != 0) {
+    if (!tl_route_is_block_side(def->block)) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "block", "make it 1, 2, 4, 8 or 16");
     }
     return TL_OK;

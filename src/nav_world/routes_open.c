@@ -28,11 +28,6 @@ static bool is_sound_gate(const tl_nav_gate *gate)
            gate->layer[0] <= TL_NAV_MAX_LAYER && gate->layer[1] <= TL_NAV_MAX_LAYER;
 }
 
-static bool is_block_side(uint32_t block)
-{
-    return block > 0 && block <= TL_ROUTE_MAX_BLOCK && (block & (block - 1)) == 0;
-}
-
 tl_result tl_nav_routes_check(const void *bytes, uint64_t size, tl_report *report)
 {
     const tl_blob expected = { TL_PACK_ROUTES_MAGIC, TL_PACK_ROUTES_VERSION, sizeof(tl_nav_routes) };
@@ -42,7 +37,7 @@ tl_result tl_nav_routes_check(const void *bytes, uint64_t size, tl_report *repor
     for (size_t i = 0; i < TL_COUNT_OF(routes->reserved); i++) {
         any |= routes->reserved[i];
     }
-    if (any != 0 || size != routes->blob.size || !is_block_side(routes->block) ||
+    if (any != 0 || size != routes->blob.size || !tl_route_is_block_side(routes->block) ||
         routes->gate_count > TL_ROUTE_MAX_GATES) {
         return corrupt_routes(report, any != 0 ? "padding" : "settings", TL_NO_ELEMENT);
     }

@@ -316,6 +316,13 @@ uint32_t tl_route_rim_index(const tl_route_tree *tree, const tl_route_cell *cell
     return low < cell->rim_count && rim[low] == gate ? low : UINT32_MAX;
 }
 
+bool tl_route_is_of_place(const tl_nav_tile *tile, uint32_t polygon, void *user)
+{
+    const int32_t *place = (const int32_t *)user;
+    (void)polygon;
+    return tile->tile_x == place[0] && tile->tile_z == place[1];
+}
+
 // ---------------------------------------------------------------------------------------------------------
 // Gates in the plane.
 

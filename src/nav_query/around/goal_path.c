@@ -9,6 +9,7 @@
 #include "nav_query/around/goal_tree.h"
 
 #include "base/assert.h"
+#include "math/tolerance.h"
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
 #include "nav_query/navmesh/ring_step.h"
@@ -19,8 +20,9 @@
 
 enum { MAX_CHOSEN = 4 }; // polygons after the start's
 
-// What a step may make the rest of a path longer by, as a share: sums and roots in floats.
-#define REST_ROUNDING 1e-5f
+// What a step may make the rest of a path longer by, as a share: the sums of 32 legs, each of two differences, two
+// squares and a root, and those of the step itself.
+#define REST_ROUNDING TL_FLOAT_GAMMA(32 * 5 + 8)
 
 // A path under way: it stands at a point of a polygon.
 typedef struct goal_walk {
