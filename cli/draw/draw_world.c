@@ -84,7 +84,7 @@ static tl_result fill_walkable(map_sheet *sheet, tl_io_error *error)
             return tl_io_fail(error, TL_ERR_MEMORY, sheet->job, 0, "", "out of memory");
         }
         sheet->values[i] = -1.0f;
-        if (tl_world_tile_is_there(path, tile) && tl_world_tile_read(path, tile, false, &layers, NULL) == TL_OK) {
+        if (tl_world_tile_read(path, tile, false, &layers, NULL) == TL_OK) {
             double area = 0.0;
             if (tl_world_layers_check(&layers, path, tile, NULL) == TL_OK) {
                 for (uint32_t k = 0; k < layers.count; k++) {

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -86,6 +87,8 @@ class Characters:
     The capsule keeps a gap to every triangle, however fast it moves: nothing is tunnelled through. There is no gravity:
     who is in the air falls by the velocity that it is given. Each character moves alone; they do not see one another.
 
+    Moves take turns where several threads ask for them.
+
     The whole state is `states`, an array that can be read, written, copied and put back.
     """
 
@@ -96,6 +99,7 @@ class Characters:
     ``states[...] = kept`` goes back to it."""
     _movers: Any
     _ignored: int
+    _lock: threading.Lock
 
     def __init__(
         self,
@@ -133,6 +137,7 @@ class Characters:
         self.states = np.zeros(len(given), CHARACTER)
         self.states["position"] = given
         self._ignored = material_bits(ignored_materials)
+        self._lock = threading.Lock()
         self._movers = _talus.movers_create(
             (float(radius), float(height), float(step_height), float(max_slope), float(gap), int(max_triangles)),
             thread_count(threads),
@@ -157,14 +162,15 @@ class Characters:
         leaves = np.asarray(leave_ground, dtype=np.bool_)
         if leaves.shape not in ((), (count,)):
             raise ValueError(f"leave_ground has the shape {leaves.shape}; it should be one value, or ({count},)")
-        moved = self.states.copy()
         rows = np.empty(count, _MOVE)
-        _talus.movers_move(
-            self._movers, self.soup._soup, self._ignored, moved,
-            np.ascontiguousarray(np.broadcast_to(wanted, (count, 3))),
-            np.ascontiguousarray(np.broadcast_to(leaves, (count,))), float(seconds), rows,
-        )  # fmt: skip
-        self.states[...] = moved
+        with self._lock:
+            moved = self.states.copy()
+            _talus.movers_move(
+                self._movers, self.soup._soup, self._ignored, moved,
+                np.ascontiguousarray(np.broadcast_to(wanted, (count, 3))),
+                np.ascontiguousarray(np.broadcast_to(leaves, (count,))), float(seconds), rows,
+            )  # fmt: skip
+            self.states[...] = moved
         flags = {name: rows[name] != 0 for name in ("landed", "left_ground", "blocked", "hit_ceiling", "stuck")}
         numbers = {name: rows[name].copy() for name in ("stepped_up", "pushed", "hit_count", "hits")}
         return Moves(**flags, **numbers)

@@ -125,31 +125,20 @@ static int compare_stretches(const seam_stretch *a, const seam_stretch *b)
     return order;
 }
 
-// By heap: some tens of stretches, and never quadratic.
-static void sift_stretch(seam_stretch *items, uint32_t count, uint32_t at)
-{
-    for (uint32_t child = 2 * at + 1; child < count; child = 2 * at + 1) {
-        child += child + 1 < count && compare_stretches(&items[child + 1], &items[child]) > 0;
-        if (compare_stretches(&items[child], &items[at]) <= 0) {
-            return;
-        }
-        const seam_stretch swapped = items[at];
-        items[at] = items[child];
-        items[child] = swapped;
-        at = child;
-    }
-}
+#define TL_HEAP(name)                 last_stretch_##name
+#define TL_HEAP_ITEM                  seam_stretch
+#define TL_HEAP_BEFORE(context, a, b) (compare_stretches(&(a), &(b)) > 0)
+#include "base/heap.inl"
 
+// Heapsort: some tens of stretches, and never quadratic.
 static void sort_stretches(seam_stretch *items, uint32_t count)
 {
-    for (uint32_t i = count / 2; i > 0; i--) {
-        sift_stretch(items, count, i - 1);
+    for (uint32_t i = count / 2; i-- > 0;) {
+        last_stretch_sift_down(items, count, i, items[i], NULL);
     }
-    for (uint32_t end = count; end > 1; end--) {
-        const seam_stretch last = items[end - 1];
-        items[end - 1] = items[0];
-        items[0] = last;
-        sift_stretch(items, end - 1, 0);
+    for (uint32_t end = count; end > 1;) {
+        const seam_stretch last = last_stretch_pop(items, &end, NULL);
+        items[end] = last;
     }
 }
 

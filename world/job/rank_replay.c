@@ -54,14 +54,13 @@ static uint64_t replay_dealt(const uint64_t *times, const uint64_t *order, uint6
     return largest_of(heap, ranks);
 }
 
-// As tl_world_shard_tiles deals: back and forth over the shards.
+// As tl_world_shard_tiles deals.
 static uint64_t replay_shards(const uint64_t *times, const uint64_t *order, uint64_t count, uint32_t ranks,
                               uint64_t *loads)
 {
     memset(loads, 0, ranks * sizeof *loads);
     for (uint64_t i = 0; i < count; i++) {
-        const uint64_t round = i / ranks, place = i % ranks;
-        loads[round % 2 == 0 ? place : ranks - 1 - place] += times[order[i]];
+        loads[tl_world_shard_turn(i / ranks, i % ranks, ranks)] += times[order[i]];
     }
     return largest_of(loads, ranks);
 }

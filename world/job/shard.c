@@ -151,7 +151,7 @@ uint64_t *tl_world_shard_tiles(const tl_world_plan *plan, const tl_world_shard *
     }
     qsort(sorted, (size_t)total, sizeof *sorted, compare_costs);
     for (uint64_t round = 0; round * count < total; round++) {
-        const uint64_t at = round * count + (round % 2 == 0 ? shard->index : count - 1 - shard->index);
+        const uint64_t at = round * count + tl_world_shard_turn(round, shard->index, count);
         if (at < total) {
             tiles[(*count_out)++] = sorted[at].tile;
         }

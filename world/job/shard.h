@@ -21,9 +21,15 @@ typedef const char *tl_world_lookup_fn(const char *name, void *user);
 tl_result tl_world_shard_find(const char *text, uint32_t count, tl_world_lookup_fn *lookup, void *user,
                               tl_world_shard *shard_out, tl_io_error *error_out);
 
+/// Tiles are dealt out by falling cost in rounds, one a shard, back and forth: which shard has the tile at a place of a
+/// round, and at which place stands a shard's.
+static inline uint64_t tl_world_shard_turn(uint64_t round, uint64_t place, uint64_t count)
+{
+    return round % 2 == 0 ? place : count - 1 - place;
+}
+
 /// The tiles of a shard, as indexes into the plan's, by falling cost; `*count_out` of them, freed with free(). NULL:
-/// out of memory. Tiles are dealt out by falling cost, back and forth over the shards, so that estimated loads differ
-/// by one tile at most; every tile is in one shard.
+/// out of memory. Estimated loads of shards differ by one tile at most; every tile is in one shard.
 uint64_t *tl_world_shard_tiles(const tl_world_plan *plan, const tl_world_shard *shard, uint64_t *count_out);
 
 #endif
