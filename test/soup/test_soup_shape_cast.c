@@ -49,12 +49,15 @@ static double first_time(const moving *m, double least, double depth)
     if (gap_at(m, least) > depth) {
         return 2.0;
     }
+    if (!(gap_at(m, 0.0) > depth)) {
+        return 0.0;
+    }
     double low = 0.0, high = least;
-    for (int i = 0; i < 40 && gap_at(m, 0.0) > depth; i++) {
+    for (int i = 0; i < 40; i++) {
         double middle = 0.5 * (low + high);
         *(gap_at(m, middle) > depth ? &low : &high) = middle;
     }
-    return gap_at(m, 0.0) > depth ? high : 0.0;
+    return high;
 }
 
 static double min_time(const moving *m)
@@ -71,7 +74,11 @@ static double min_time(const moving *m)
     double low = (double)(best > 0 ? best - 1 : 0) / STEPS, high = (double)(best < STEPS ? best + 1 : STEPS) / STEPS;
     for (int i = 0; i < 60; i++) {
         double a = low + (high - low) / 3, b = high - (high - low) / 3;
-        *(gap_at(m, a) <= gap_at(m, b) ? &high : &low) = gap_at(m, a) <= gap_at(m, b) ? b : a;
+        if (gap_at(m, a) <= gap_at(m, b)) {
+            high = b;
+        } else {
+            low = a;
+        }
     }
     return low;
 }

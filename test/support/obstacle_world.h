@@ -131,17 +131,18 @@ static inline double walked_distance(const tl_nav_obstacle *o, double x, double 
         corners[i][0] = (double)o->base.x + lx * c + lz * s - x;
         corners[i][1] = (double)o->base.z - lx * s + lz * c - z;
     }
-    double nearest = (double)INFINITY, turns = 0.0;
+    double nearest_sq = (double)INFINITY, turns = 0.0;
     for (uint32_t i = 0; i < count; i++) {
         const double *a = corners[i], *b = corners[(i + 1) % count];
         for (int k = 0; k <= 400; k++) {
-            double t = k / 400.0;
-            nearest = fmin(nearest, hypot(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])));
+            double t = k / 400.0, px = a[0] + t * (b[0] - a[0]), pz = a[1] + t * (b[1] - a[1]);
+            double distance_sq = px * px + pz * pz;
+            nearest_sq = distance_sq < nearest_sq ? distance_sq : nearest_sq;
         }
         turns += atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
     }
     *inside_turns = turns;
-    return nearest;
+    return sqrt(nearest_sq);
 }
 
 // How far a point of the plane is from an obstacle's outline: below 0 inside.
