@@ -38,7 +38,8 @@ extern "C" {
 typedef struct tl_nav_world tl_nav_world;
 
 /// Reads `size` bytes at `offset` of the file. Called by tl_nav_world_create, and by tl_nav_world_run_load on the
-/// thread that calls it. Any result but TL_OK ends what is under way and is returned by it.
+/// thread that calls it. Any result but TL_OK ends what is under way: an error is returned by it as it is, anything
+/// else, TL_NOT_FOUND for one, as TL_ERR_IO.
 typedef tl_result tl_nav_world_read_fn(uint64_t offset, void *bytes, size_t size, void *user);
 
 /// Begin with tl_default_nav_world_def, and set `read`.

@@ -30,7 +30,7 @@ tl_result tl_nav_router_create(const tl_nav_world *world, const tl_allocator *al
     }
     tl_nav_router *router = tl_allocate_array(allocator, 1, sizeof *router);
     if (router == NULL) {
-        return tl_report_fail(report, TL_ERR_MEMORY, NULL, TL_NO_ELEMENT, "give it more memory");
+        return tl_nav_world_no_memory(report);
     }
     memset(router, 0, sizeof *router);
     router->allocator = tl_allocator_or_default(allocator);
@@ -47,7 +47,7 @@ tl_result tl_nav_router_create(const tl_nav_world *world, const tl_allocator *al
     fits = fits && tl_nav_query_create(&def, &router->query, NULL) == TL_OK;
     if (!fits) {
         tl_nav_router_destroy(router);
-        return tl_report_fail(report, TL_ERR_MEMORY, NULL, TL_NO_ELEMENT, "give it more memory");
+        return tl_nav_world_no_memory(report);
     }
     *router_out = router;
     return TL_OK;

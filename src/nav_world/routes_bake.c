@@ -33,11 +33,6 @@ tl_nav_routes_def tl_default_nav_routes_def(void)
     return def;
 }
 
-static tl_result no_memory(tl_report *report)
-{
-    return tl_report_fail(report, TL_ERR_MEMORY, NULL, TL_NO_ELEMENT, "give it more memory");
-}
-
 // Names what failed, unless that was done nearer to it.
 static tl_result name_failure(const routes_bake *bake, tl_result result, const char *element, uint64_t index)
 {
@@ -72,7 +67,7 @@ static tl_result add_set_place(routes_bake *bake, place_set *set, uint32_t place
         tl_nav_tile *blob = tl_blob_allocate(&bake->allocator, TL_NAV_TILE_MAGIC, TL_NAV_TILE_VERSION,
                                              world->index.entries[tile->entry].size);
         if (blob == NULL) {
-            return no_memory(bake->report);
+            return tl_nav_world_no_memory(bake->report);
         }
         tl_result result = tl_nav_world_read_tile(world, tile, blob, &advice);
         if (result != TL_OK) {
@@ -122,7 +117,7 @@ static tl_result sort_gates(routes_bake *bake)
     bake->gates = tl_allocate_array(&bake->allocator, count, sizeof *bake->gates);
     if (items == NULL || bake->gates == NULL) {
         tl_release_array(&bake->allocator, items, 2 * (uint64_t)count, sizeof *items);
-        return no_memory(bake->report);
+        return tl_nav_world_no_memory(bake->report);
     }
     tl_result result = tl_route_tree_begin(&cells, &bake->allocator, bake->found.gates, count, bake->def->block);
     for (uint32_t i = 0; result == TL_OK && i < count; i++) {
@@ -246,7 +241,7 @@ static tl_result make_routes_blob(routes_bake *bake)
         sizeof(tl_nav_routes) + (uint64_t)tree->gate_count * sizeof(tl_nav_gate) + tree->length_count * sizeof(float);
     bake->blob = tl_blob_allocate(&bake->allocator, TL_PACK_ROUTES_MAGIC, TL_PACK_ROUTES_VERSION, size);
     if (bake->blob == NULL) {
-        return no_memory(bake->report);
+        return tl_nav_world_no_memory(bake->report);
     }
     const uint64_t hash = tl_nav_world_tiles_hash(bake->world);
     bake->blob->tiles_hash[0] = (uint32_t)(hash & UINT32_MAX);

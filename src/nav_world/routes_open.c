@@ -108,7 +108,7 @@ static tl_result take_routes(tl_nav_world *world, tl_world_routes *routes, uint3
         result = tl_route_tree_finish(&routes->tree);
     }
     if (result == TL_ERR_MEMORY) {
-        return tl_report_fail(report, result, NULL, TL_NO_ELEMENT, "give it more memory");
+        return tl_nav_world_no_memory(report);
     }
     if (result != TL_OK || routes->tree.length_count != blob->length_count) {
         return corrupt_routes(report, "chunk", chunk);
@@ -120,7 +120,7 @@ static tl_result read_routes(tl_nav_world *world, const tl_pack_entry *entry, ui
 {
     tl_world_routes *routes = tl_allocate_array(&world->allocator, 1, sizeof *routes);
     if (routes == NULL) {
-        return tl_report_fail(report, TL_ERR_MEMORY, NULL, TL_NO_ELEMENT, "give it more memory");
+        return tl_nav_world_no_memory(report);
     }
     memset(routes, 0, sizeof *routes);
     world->routes = routes;
@@ -129,12 +129,9 @@ static tl_result read_routes(tl_nav_world *world, const tl_pack_entry *entry, ui
     }
     routes->blob = tl_blob_allocate(&world->allocator, TL_PACK_ROUTES_MAGIC, TL_PACK_ROUTES_VERSION, entry->size);
     if (routes->blob == NULL) {
-        return tl_report_fail(report, TL_ERR_MEMORY, NULL, TL_NO_ELEMENT, "give it more memory");
+        return tl_nav_world_no_memory(report);
     }
-    const tl_result result = world->read(entry->offset, routes->blob, (size_t)entry->size, world->read_user);
-    if (result != TL_OK) {
-        return tl_report_fail(report, result, "chunk", chunk, "the file could not be read");
-    }
+    TL_TRY(tl_nav_world_read_bytes(world, entry->offset, routes->blob, (size_t)entry->size, "chunk", chunk, report));
     TL_TRY(tl_pack_entry_open(entry, routes->blob, report));
     TL_TRY(tl_nav_routes_check(routes->blob, entry->size, report));
     return take_routes(world, routes, chunk, report);

@@ -91,6 +91,14 @@ struct tl_nav_world {
 /// tl_nav_world_create; `bare`: what the file has of routes is not looked at.
 tl_result tl_nav_world_open(const tl_nav_world_def *def, bool bare, tl_nav_world **world_out, tl_report *report);
 
+/// Reads bytes of the file; what they are of is named in the report. Of `read` only TL_OK and errors pass: an outcome
+/// such as TL_NOT_FOUND would be taken for one of the world's, so it becomes TL_ERR_IO.
+tl_result tl_nav_world_read_bytes(const tl_nav_world *world, uint64_t offset, void *bytes, size_t size,
+                                  const char *element, uint64_t index, tl_report *report);
+
+/// Reports that an allocator had no memory: TL_ERR_MEMORY.
+tl_result tl_nav_world_no_memory(tl_report *report);
+
 /// Reads a tile of the file into `blob`, of the size that the index says, and checks it: hash, contents, and that it is
 /// the one that its head promised. `*advice` (not NULL) says what to do about a failure.
 tl_result tl_nav_world_read_tile(const tl_nav_world *world, const tl_nav_world_tile *tile, tl_nav_tile *blob,

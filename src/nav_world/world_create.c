@@ -67,11 +67,22 @@ static void purse_release(void *block, size_t size, void *user)
 }
 
 // ---------------------------------------------------------------------------------------------------------
-// The index.
+// The file: its index and settings.
 
-static tl_result out_of_memory(tl_report *report)
+tl_result tl_nav_world_no_memory(tl_report *report)
 {
     return tl_report_fail(report, TL_ERR_MEMORY, NULL, TL_NO_ELEMENT, "give it more memory");
+}
+
+tl_result tl_nav_world_read_bytes(const tl_nav_world *world, uint64_t offset, void *bytes, size_t size,
+                                  const char *element, uint64_t index, tl_report *report)
+{
+    const tl_result result = world->read(offset, bytes, size, world->read_user);
+    if (result == TL_OK) {
+        return result;
+    }
+    return tl_report_fail(report, tl_is_error(result) ? result : TL_ERR_IO, element, index,
+                          "the file could not be read");
 }
 
 static tl_result read_index(tl_nav_world *world, tl_report *report)
@@ -80,19 +91,14 @@ static tl_result read_index(tl_nav_world *world, tl_report *report)
         uint64_t aligned[TL_PACK_HEAD_SIZE / 8];
         unsigned char bytes[TL_PACK_HEAD_SIZE];
     } head;
-    tl_result result = world->read(0, head.bytes, TL_PACK_HEAD_SIZE, world->read_user);
-    if (result != TL_OK) {
-        return tl_report_fail(report, result, "header", TL_NO_ELEMENT, "the file could not be read");
-    }
+    TL_TRY(tl_nav_world_read_bytes(world, 0, head.bytes, TL_PACK_HEAD_SIZE, "header", TL_NO_ELEMENT, report));
     TL_TRY(tl_pack_index_size(head.bytes, &world->index_size, report));
     world->index_bytes = tl_allocate_array(&world->allocator, world->index_size, 1);
     if (world->index_bytes == NULL) {
-        return out_of_memory(report);
+        return tl_nav_world_no_memory(report);
     }
-    result = world->read(0, world->index_bytes, (size_t)world->index_size, world->read_user);
-    if (result != TL_OK) {
-        return tl_report_fail(report, result, "table", TL_NO_ELEMENT, "the file could not be read");
-    }
+    TL_TRY(tl_nav_world_read_bytes(world, 0, world->index_bytes, (size_t)world->index_size, "table", TL_NO_ELEMENT,
+                                   report));
     return tl_pack_index_open(world->index_bytes, world->index_size, &world->index, report);
 }
 
@@ -110,10 +116,7 @@ static tl_result read_chunk(const tl_nav_world *world, uint32_t type, void *byte
         if (entry->size != size) {
             return tl_report_fail(report, TL_ERR_CORRUPT, "chunk", i, "bake the file again");
         }
-        const tl_result result = world->read(entry->offset, bytes, size, world->read_user);
-        if (result != TL_OK) {
-            return tl_report_fail(report, result, "chunk", i, "the file could not be read");
-        }
+        TL_TRY(tl_nav_world_read_bytes(world, entry->offset, bytes, size, "chunk", i, report));
         return tl_pack_entry_open(entry, bytes, report);
     }
     return TL_NOT_FOUND;
@@ -207,10 +210,7 @@ static tl_result read_tiles(tl_nav_world *world, tl_report *report)
         if (entry->size < HEAD_BYTES || entry->size > SIZE_MAX / 2) {
             return tl_report_fail(report, TL_ERR_CORRUPT, "chunk", i, "bake the file again");
         }
-        const tl_result result = world->read(entry->offset, head, HEAD_BYTES, world->read_user);
-        if (result != TL_OK) {
-            return tl_report_fail(report, result, "chunk", i, "the file could not be read");
-        }
+        TL_TRY(tl_nav_world_read_bytes(world, entry->offset, head, HEAD_BYTES, "chunk", i, report));
         tl_nav_world_tile *tile = &world->tiles[world->tile_count];
         memset(tile, 0, sizeof *tile);
         tile->entry = i;
@@ -279,14 +279,14 @@ static tl_result open_world(tl_nav_world *world, bool bare, tl_report *report)
     world->tile_capacity = count;
     if (world->tiles == NULL || world->places == NULL || world->wanted == NULL || world->present == NULL ||
         world->open == NULL || world->sorted == NULL) {
-        return out_of_memory(report);
+        return tl_nav_world_no_memory(report);
     }
     TL_TRY(read_tiles(world, report));
     gather_places(world);
     if (!bare) {
         TL_TRY(tl_nav_world_open_routes(world, report));
     }
-    return tl_navmesh_create(&world->budgeted, &world->navmesh) == TL_OK ? TL_OK : out_of_memory(report);
+    return tl_navmesh_create(&world->budgeted, &world->navmesh) == TL_OK ? TL_OK : tl_nav_world_no_memory(report);
 }
 
 tl_result tl_nav_world_create(const tl_nav_world_def *def, tl_nav_world **world_out, tl_report *report)
@@ -303,7 +303,7 @@ tl_result tl_nav_world_open(const tl_nav_world_def *def, bool bare, tl_nav_world
     TL_TRY(check_world_def(def, report));
     tl_nav_world *world = tl_allocate_array(def->allocator, 1, sizeof *world);
     if (world == NULL) {
-        return out_of_memory(report);
+        return tl_nav_world_no_memory(report);
     }
     memset(world, 0, sizeof *world);
     world->allocator = tl_allocator_or_default(def->allocator);

@@ -108,12 +108,11 @@ tl_result tl_nav_world_read_tile(const tl_nav_world *world, const tl_nav_world_t
     const tl_pack_entry *entry = &world->index.entries[tile->entry];
     tl_report report;
     memset(&report, 0, sizeof report);
-    tl_result result = world->read(entry->offset, blob, (size_t)entry->size, world->read_user);
-    if (result != TL_OK) {
-        *advice = "the file could not be read";
-        return tl_is_error(result) ? result : TL_ERR_IO;
+    tl_result result =
+        tl_nav_world_read_bytes(world, entry->offset, blob, (size_t)entry->size, "chunk", tile->entry, &report);
+    if (result == TL_OK) {
+        result = tl_pack_entry_open(entry, blob, &report);
     }
-    result = tl_pack_entry_open(entry, blob, &report);
     if (result == TL_OK) {
         result = tl_nav_tile_check(blob, entry->size, &report);
     }

@@ -158,6 +158,28 @@ static void test_damaged_tiles(void **state)
     world_file_free(&file);
 }
 
+// Whatever each of the reads says: an error is passed on, an outcome is no answer of the world's.
+static void test_reads_that_say_no(void **state)
+{
+    (void)state;
+    static const tl_result said[4] = { TL_NOT_FOUND, TL_NOT_LOADED, TL_INCOMPLETE, TL_ERR_CANCELLED };
+    const fixture_level level = small_level();
+    world_file file = world_file_make(&level, HERE, TL_PACK_AXES_Z_UP);
+    tl_report report;
+    TEST_RESULT(try_open(&file, &report), TL_OK);
+    const uint64_t reads = file.reads;
+    TEST_CHECK(reads > 8);
+    for (file.fail_at = 1; file.fail_at <= reads; file.fail_at++) {
+        for (int i = 0; i < 4; i++) {
+            file.reads = 0;
+            file.failure = said[i];
+            TEST_RESULT(try_open(&file, &report), tl_is_error(said[i]) ? said[i] : TL_ERR_IO);
+            TEST_CHECK(report.element != NULL && strcmp(report.advice, "the file could not be read") == 0);
+        }
+    }
+    world_file_free(&file);
+}
+
 static void test_memory_fails(void **state)
 {
     (void)state;
@@ -196,9 +218,8 @@ static void test_memory_fails(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refused_by_name),
-        cmocka_unit_test(test_damaged_index),
-        cmocka_unit_test(test_damaged_tiles),
+        cmocka_unit_test(test_refused_by_name), cmocka_unit_test(test_damaged_index),
+        cmocka_unit_test(test_damaged_tiles),   cmocka_unit_test(test_reads_that_say_no),
         cmocka_unit_test(test_memory_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

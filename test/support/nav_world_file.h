@@ -14,6 +14,8 @@ typedef struct world_file {
     size_t size, capacity;
     uint64_t reads;
     uint64_t fail_from; ///< reads of chunks behind this offset fail; 0: none
+    uint64_t fail_at;   ///< this read, counted from 1, says `failure`; 0: none
+    tl_result failure;
 } world_file;
 
 static inline tl_result world_file_write(const void *bytes, size_t size, void *user)
@@ -32,7 +34,9 @@ static inline tl_result world_file_write(const void *bytes, size_t size, void *u
 static inline tl_result world_file_read(uint64_t offset, void *bytes, size_t size, void *user)
 {
     world_file *file = (world_file *)user;
-    file->reads++;
+    if (++file->reads == file->fail_at) {
+        return file->failure;
+    }
     if (offset > file->size || size > file->size - offset) {
         return TL_ERR_TRUNCATED;
     }
