@@ -264,6 +264,7 @@ int main(void)
     golden_pairs();
     golden_polygons();
     golden_navmeshes(&view, soup);
+    golden_world(&view);
 
     tl_blob_free(soup);
     level_free(&made);

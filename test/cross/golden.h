@@ -70,6 +70,7 @@ void golden_hulls(void);
 void golden_pairs(void);
 void golden_polygons(void);
 void golden_navmeshes(const tl_mesh_view *view, const tl_soup *soup);
+void golden_world(const tl_mesh_view *view);
 void golden_nav_answers(const tl_navmesh *navmesh, const char *kind);
 void golden_nav_prepared(tl_navmesh *navmesh);
 void golden_nav_sight(const tl_navmesh *navmesh, const tl_soup *soup);
