@@ -47,20 +47,50 @@ static inline tl_result world_file_read(uint64_t offset, void *bytes, size_t siz
     return TL_OK;
 }
 
-/// A file of a level's tiles, with `origin` as the level's own coordinates of 0 and such axes.
-static inline world_file world_file_make(const fixture_level *level, const double origin[3], tl_pack_axes axes)
+/// A file of such tiles, row by row, with `origin` as the level's own coordinates of 0 and such axes.
+static inline world_file world_file_pack(const tl_nav_def *def, const tl_nav_tiles *tiles, const double origin[3],
+                                         tl_pack_axes axes)
 {
     enum { MAX_ITEMS = 1024 };
     static tl_pack_item items[MAX_ITEMS];
-    uint32_t count = 2, tiles = 0;
-    const uint32_t wide = fixture_tiles(level->width, level->tile_cells);
-    const uint32_t high = fixture_tiles(level->height, level->tile_cells);
-    for (uint32_t i = 0; i < wide * high; i++) {
-        tl_nav_tile *tile = fixture_build_tile(level, (int32_t)(i % wide), (int32_t)(i / wide), NULL);
+    const uint32_t count = 2 + tiles->tile_count;
+    tl_pack_navmesh *navmesh = NULL;
+    tl_pack_frame *frame = NULL;
+    TEST_CHECK(count <= MAX_ITEMS);
+    TEST_RESULT(tl_pack_navmesh_encode(def, tiles->tiles_x, tiles->tiles_z, tiles->tile_count, NULL, &navmesh, NULL),
+                TL_OK);
+    TEST_RESULT(tl_pack_frame_encode(axes, origin, NULL, &frame, NULL), TL_OK);
+    const tl_pack_item settings = { TL_PACK_NAVM, 0, navmesh, navmesh->blob.size };
+    const tl_pack_item place = { TL_PACK_FRAM, 0, frame, frame->blob.size };
+    items[0] = settings;
+    items[1] = place;
+    for (uint32_t i = 0; i < tiles->tile_count; i++) {
+        const tl_pack_item item = { TL_PACK_NAVT, i, tiles->tiles[i], tiles->tiles[i]->blob.size };
+        items[2 + i] = item;
+    }
+    world_file file;
+    memset(&file, 0, sizeof file);
+    TEST_RESULT(tl_pack_write(items, count, NULL, world_file_write, &file, NULL), TL_OK);
+    tl_blob_free(navmesh);
+    tl_blob_free(frame);
+    return file;
+}
+
+/// The same of a grid of cells.
+static inline world_file world_file_make(const fixture_level *level, const double origin[3], tl_pack_axes axes)
+{
+    enum { MAX_TILES = 1024 };
+    tl_nav_tile *list[MAX_TILES];
+    tl_nav_tiles tiles;
+    memset(&tiles, 0, sizeof tiles);
+    tiles.tiles = list;
+    tiles.tiles_x = fixture_tiles(level->width, level->tile_cells);
+    tiles.tiles_z = fixture_tiles(level->height, level->tile_cells);
+    for (uint32_t i = 0; i < tiles.tiles_x * tiles.tiles_z; i++) {
+        tl_nav_tile *tile = fixture_build_tile(level, (int32_t)(i % tiles.tiles_x), (int32_t)(i / tiles.tiles_x), NULL);
         if (tile != NULL) {
-            TEST_CHECK(count < MAX_ITEMS);
-            const tl_pack_item item = { TL_PACK_NAVT, tiles++, tile, tile->blob.size };
-            items[count++] = item;
+            TEST_CHECK(tiles.tile_count < MAX_TILES);
+            list[tiles.tile_count++] = tile;
         }
     }
     tl_nav_def def = tl_default_nav_def();
@@ -69,22 +99,10 @@ static inline world_file world_file_make(const fixture_level *level, const doubl
     def.tile_size = level->tile_cells * FIXTURE_STEP;
     def.bounds.min = level->origin;
     def.bounds.max = tl_add(level->origin, tl_vec3_make(300, 50, 300));
-    tl_pack_navmesh *navmesh = NULL;
-    tl_pack_frame *frame = NULL;
-    TEST_RESULT(tl_pack_navmesh_encode(&def, wide, high, tiles, NULL, &navmesh, NULL), TL_OK);
-    TEST_RESULT(tl_pack_frame_encode(axes, origin, NULL, &frame, NULL), TL_OK);
-    const tl_pack_item settings = { TL_PACK_NAVM, 0, navmesh, navmesh->blob.size };
-    const tl_pack_item place = { TL_PACK_FRAM, 0, frame, frame->blob.size };
-    items[0] = settings;
-    items[1] = place;
-    world_file file;
-    memset(&file, 0, sizeof file);
-    TEST_RESULT(tl_pack_write(items, count, NULL, world_file_write, &file, NULL), TL_OK);
-    for (uint32_t i = 2; i < count; i++) {
-        tl_blob_free((void *)(uintptr_t)items[i].bytes);
+    const world_file file = world_file_pack(&def, &tiles, origin, axes);
+    for (uint32_t i = 0; i < tiles.tile_count; i++) {
+        tl_blob_free(list[i]);
     }
-    tl_blob_free(navmesh);
-    tl_blob_free(frame);
     return file;
 }
 
