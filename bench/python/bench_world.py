@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Measures talus world stage by stage: triangles a second, bytes a triangle, and the largest memory of each process; the bake in shards against one
-in memory; and how evenly the tiles' times spread over 64 and 1024 ranks.
+in memory; how evenly the tiles' times spread over 64 and 1024 ranks; and a walk over each baked world while its tiles come and go under a budget of
+64 MiB, less where all of it would fit.
 
-  bench_world.py --talus COMMAND --folder FOLDER [--millions 1 10] [--bake-millions 1] [--compare-millions 10] [--threads N] [--json FILE]
+  bench_world.py --talus COMMAND --folder FOLDER [--walk bench_world_walk] [--walk-metres 20000] [--millions 1 10] [--bake-millions 1]
+                 [--compare-millions 10] [--threads N] [--json FILE]
 
 Each stage is a process of its own, so that its peak is its own. FOLDER must be empty or new; about 200 bytes a triangle are written there, and
 left. Sizes beyond --bake-millions are planned, and not baked; those beyond --compare-millions not baked in memory.
@@ -99,7 +101,19 @@ def measure(options, millions):
               f"{triangles / wall / 1e6:9.2f} M triangles/s{peak:8.0f} MB{remark}", flush=True)
     if millions <= options.bake_millions:
         rows += [replay(options, job, millions, ranks) for ranks in (64, 1024)]
+        if options.walk:
+            rows.append(walk(options, job, millions))
     return rows
+
+
+def walk(options, job, millions):
+    """What frames take that stream a world, and whether all paths of the walk are those of the world in memory whole."""
+    found = run([options.walk, job + ".talus", "--metres", str(options.walk_metres), "--budget", str(min(64, 10 * millions))])[0]
+    print(f"{'':10}  walked {found['metres'] / 1000:.0f} km, {found['frames']} frames: {found['frame_us_median']:.1f} us of each (99.99%: "
+          f"{found['frame_us_9999']:.0f} us; {found['frames_over_1ms']} over 1 ms), {found['reads_by_frames']} reads by frames; {found['paths']} paths, "
+          f"{found['proven']} proven, {found['open']} answers open, {found['wrong']} wrong; {found['peak_bytes'] / 1e6:.0f} of "
+          f"{found['whole_bytes'] / 1e6:.0f} MB", flush=True)
+    return {"millions": millions, "stage": "walk", **found}
 
 
 def replay(options, job, millions, ranks):
@@ -114,6 +128,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--talus", required=True)
     parser.add_argument("--folder", required=True)
+    parser.add_argument("--walk")
+    parser.add_argument("--walk-metres", type=float, default=20000)
     parser.add_argument("--millions", type=float, nargs="+", default=[1, 10])
     parser.add_argument("--bake-millions", type=float, default=1)
     parser.add_argument("--compare-millions", type=float, default=10)
