@@ -2,6 +2,8 @@
 //
 // Routes against the shortest paths over the same world in memory whole: they bound it from both sides, and say the
 // same of what cannot be reached, however few tiles are in memory.
+//
+//   test_route_find [routes that are refined while tiles come in (150)]
 
 #include "nav_route_file.h"
 
@@ -214,12 +216,32 @@ static tl_nav_world_interest interest_at(const double point[3], double radius)
     return interest;
 }
 
-// From the route to the path: with all tiles that the circle around both ends touches whose diameter is the route's
-// length, the path is proven, and is that of the whole world. No path as short as the route leaves that circle.
-static bool refine_route(route_part *part, tl_nav_query *query, const tl_nav_shortest_path *truth)
+typedef struct refine_counts {
+    uint32_t refined, in_part, open, early; // open: stages without a proof; early: proofs before all tiles were there
+} refine_counts;
+
+// What a part of the tiles says: the path of the whole world, or that it may not be, with a bound that holds.
+static bool is_proven_path(const route_part *part, tl_nav_query *query, const tl_nav_shortest_path *truth)
 {
-    tl_nav_world_route route;
+    const tl_nav_path_request request = { NULL, part->at[0], part->at[1] };
     tl_nav_shortest_path path;
+    const tl_result result = tl_nav_world_find_path(part->world, query, &request, NULL, &path);
+    TEST_CHECK(result == TL_OK || result == TL_NOT_LOADED);
+    if (result == TL_NOT_LOADED) {
+        TEST_CHECK(path.lower_bound <= truth->length + 1e-4);
+        TEST_CHECK(path.status != TL_NAV_PATH_COMPLETE || path.length >= truth->length - 1e-4);
+        return false;
+    }
+    TEST_CHECK(path.status == TL_NAV_PATH_COMPLETE && fabs(path.length - truth->length) <= 1e-4);
+    return true;
+}
+
+// From the route to the path, while tiles come in: with all that the circle around both ends touches whose diameter is
+// the route's length, the path is proven, and is that of the whole world. No path as short as the route leaves it.
+static void refine_route(route_part *part, tl_nav_query *query, const tl_nav_shortest_path *truth, refine_counts *n)
+{
+    enum { STAGES = 4 };
+    tl_nav_world_route route;
     const tl_nav_world_interest few[3] = { interest_at(HERE, 0.0), interest_at(part->ends[0], 2.0),
                                            interest_at(part->ends[1], 2.0) };
     load_part(part, few, 3);
@@ -227,25 +249,35 @@ static bool refine_route(route_part *part, tl_nav_query *query, const tl_nav_sho
     TEST_RESULT(tl_nav_world_find_route(part->world, part->router, &request, NULL, 0, &route), TL_OK);
     TEST_CHECK(route.status == truth->status);
     if (route.status != TL_NAV_PATH_COMPLETE) {
-        return false;
+        return;
     }
+    TEST_CHECK(truth->lower_bound <= route.length + 1e-4 && route.lower_bound <= truth->length + 1e-4);
     const double middle[3] = { 0.5 * (part->ends[0][0] + part->ends[1][0]), 0.0,
                                0.5 * (part->ends[0][2] + part->ends[1][2]) };
-    const tl_nav_world_interest all[2] = { few[0], interest_at(middle, 0.5 * route.length + 1.0) };
-    load_part(part, all, 2);
-    TEST_RESULT(tl_nav_world_covers(part->world, all[1].point, all[1].radius), TL_OK);
-    const tl_nav_path_request again = { NULL, part->at[0], part->at[1] };
-    TEST_RESULT(tl_nav_world_find_path(part->world, query, &again, NULL, &path), TL_OK);
-    TEST_CHECK(path.status == TL_NAV_PATH_COMPLETE && fabs(path.length - truth->length) <= 1e-4);
-    TEST_CHECK(path.lower_bound <= route.length + 1e-4 && route.lower_bound <= path.length + 1e-4);
-    return true;
+    bool is_proven = is_proven_path(part, query, truth);
+    for (int stage = 1; stage <= STAGES; stage++) {
+        const double radius = (0.5 * route.length + 1.0) * (double)stage / (double)STAGES;
+        const tl_nav_world_interest all[4] = { few[0], few[1], few[2], interest_at(middle, radius) };
+        n->open += !is_proven;
+        n->early += is_proven;
+        load_part(part, all, 4);
+        TEST_RESULT(tl_nav_world_covers(part->world, middle, radius), TL_OK);
+        const bool was_proven = is_proven;
+        is_proven = is_proven_path(part, query, truth);
+        TEST_CHECK(is_proven || !was_proven); // more tiles take no proof away
+    }
+    TEST_CHECK(is_proven);
+    n->refined++;
+    n->in_part += world_state(part->world).loaded < world_state(part->world).places;
 }
+
+static uint32_t refined_pairs = 150;
 
 static void test_refined(void **state)
 {
     (void)state;
     test_random random = { 19 };
-    uint32_t asked = 0, in_part = 0;
+    refine_counts n = { 0, 0, 0, 0 };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(NULL, &query, NULL), TL_OK);
     for (uint32_t kind = 0; kind < 5; kind++) {
@@ -256,7 +288,7 @@ static void test_refined(void **state)
         const tl_nav_world_interest everywhere = world_interest(HERE, 0.0, 0.0, 10.0 * edge_of(&level));
         world_settle(whole, &everywhere, 1);
         fixture_refs refs = fixture_all_refs(tl_nav_world_navmesh(whole));
-        for (uint32_t pair = 0; pair < 40; pair++) {
+        for (uint32_t pair = 0; pair < refined_pairs / 5; pair++) {
             route_part part;
             tl_nav_path_request request = { NULL, { 0 }, { 0 } };
             tl_nav_shortest_path truth;
@@ -268,10 +300,7 @@ static void test_refined(void **state)
             TEST_RESULT(tl_nav_world_find_path(whole, query, &request, NULL, &truth), TL_OK);
             part.world = world_open(&file, (uint64_t)256 << 20, 4096.0);
             TEST_RESULT(tl_nav_router_create(part.world, NULL, &part.router, NULL), TL_OK);
-            if (refine_route(&part, query, &truth)) {
-                in_part += world_state(part.world).loaded < world_state(part.world).places;
-                asked++;
-            }
+            refine_route(&part, query, &truth, &n);
             tl_nav_router_destroy(part.router);
             tl_nav_world_destroy(part.world);
         }
@@ -280,8 +309,10 @@ static void test_refined(void **state)
         world_file_free(&file);
     }
     tl_nav_query_destroy(query);
-    print_message("%u routes refined, %u of them with a part of the tiles\n", asked, in_part);
-    TEST_CHECK(asked > 120 && in_part > 40);
+    print_message(
+        "%u routes refined, %u of them with a part of the tiles; proven before the last tiles %u times of %u\n",
+        n.refined, n.in_part, n.early, n.early + n.open);
+    TEST_CHECK(n.refined > refined_pairs / 2 && n.in_part > refined_pairs / 5 && n.open > refined_pairs / 2);
 }
 
 static void test_short_buffers(void **state)
@@ -315,7 +346,7 @@ static void test_short_buffers(void **state)
     world_file_free(&file);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bounds),
@@ -323,5 +354,8 @@ int main(void)
         cmocka_unit_test(test_refined),
         cmocka_unit_test(test_short_buffers),
     };
+    if (argc > 1) {
+        refined_pairs = (uint32_t)strtoul(argv[1], NULL, 10);
+    }
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
