@@ -9,8 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// --- the def as a dict
-// ------------------------------------------------------------------------------------------------
+// --- the def as a dict ----------------------------------------------------------------------------------------------
 
 typedef enum def_kind { DEF_FLOAT, DEF_COUNT, DEF_BOOL, DEF_PARTITION, DEF_METHOD } def_kind;
 
@@ -168,8 +167,7 @@ static PyObject *nav_default_settings(PyObject *self, PyObject *none)
     return binding_nav_def_dict(&def);
 }
 
-// --- the level
-// --------------------------------------------------------------------------------------------------------
+// --- the level ------------------------------------------------------------------------------------------------------
 
 void binding_level_free(binding_level *level)
 {
@@ -280,8 +278,7 @@ bool binding_level_take(PyObject *tuple, binding_level *level)
     return take_areas(b[2].buf, level) && take_volumes(volumes, level);
 }
 
-// --- the bake
-// ---------------------------------------------------------------------------------------------------------
+// --- the bake -------------------------------------------------------------------------------------------------------
 
 // What is left out of a finished navmesh: seeds as bytes, or None; whether islands in solids are; smallest area.
 typedef struct prune_choice {

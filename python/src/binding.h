@@ -35,8 +35,7 @@ bool binding_has(const Py_buffer *buffer, size_t size, Py_ssize_t count, bool op
 /// Releases what PyArg_ParseTuple filled; buffers that it did not reach are zero.
 void binding_release(Py_buffer *buffers, size_t count);
 
-// --- the host of a bake or batch
-// ----------------------------------------------------------------------------------------
+// --- the host of a bake or batch ------------------------------------------------------------------------------------
 
 /// Runs a bake or a batch without the GIL, on `threads` threads, and asks Python now and then for signals and progress.
 typedef struct binding_host {
@@ -147,8 +146,7 @@ PyObject *binding_nav_def_dict(const tl_nav_def *def);
 /// exception is set.
 bool binding_filter(PyObject *object, tl_nav_filter *filter);
 
-// --- the functions of the module, by source
-// ---------------------------------------------------------------------------
+// --- the functions of the module, by source -------------------------------------------------------------------------
 
 extern PyMethodDef binding_soup_methods[];
 extern PyMethodDef binding_ray_methods[];

@@ -163,51 +163,86 @@ static PyObject *crowd_add(PyObject *self, PyObject *args)
     return good ? Py_NewRef(Py_None) : NULL;
 }
 
+// --- agents by their names ------------------------------------------------------------------------------------------
+
+// What a function does with each agent of an array.
+typedef struct agent_call {
+    const char *format; // of the crowd, the names, and the columns
+    struct {
+        size_t size; // bytes an agent; 0: there is no such column
+        bool optional;
+        const char *name;
+    } columns[2];
+    tl_result (*visit)(tl_nav_crowd *crowd, tl_nav_agent agent, void *const columns[2], Py_ssize_t row);
+} agent_call;
+
+// Visits agent after agent. The first that fails ends it, and is named.
+static PyObject *visit_agents(PyObject *args, const agent_call *call)
+{
+    PyObject *capsule;
+    Py_buffer b[3];
+    memset(b, 0, sizeof(b));
+    if (!PyArg_ParseTuple(args, call->format, &capsule, &b[0], &b[1], &b[2])) {
+        return NULL;
+    }
+    binding_crowd *held = crowd_of(capsule);
+    Py_ssize_t count = held != NULL ? binding_count(&b[0], sizeof(tl_nav_agent), "agents") : -1;
+    bool good = count >= 0;
+    for (int i = 0; good && i < 2 && call->columns[i].size > 0; i++) {
+        good = binding_has(&b[i + 1], call->columns[i].size, count, call->columns[i].optional, call->columns[i].name);
+    }
+    void *const columns[2] = { b[1].buf, b[2].buf };
+    tl_result result = TL_OK;
+    Py_ssize_t done = 0;
+    while (good && done < count && result == TL_OK) {
+        result = call->visit(held->crowd, ((const tl_nav_agent *)b[0].buf)[done], columns, done);
+        done++;
+    }
+    binding_release(b, 3);
+    if (good && result != TL_OK) {
+        return raise_for(result, NULL, done - 1);
+    }
+    return good ? Py_NewRef(Py_None) : NULL;
+}
+
+static tl_result check_agent(tl_nav_crowd *crowd, tl_nav_agent agent, void *const columns[2], Py_ssize_t row)
+{
+    (void)columns;
+    (void)row;
+    tl_nav_agent_state state;
+    return tl_nav_crowd_agent(crowd, agent, &state);
+}
+
 // crowd_check(crowd, agents u64): an error names the first that is not in the crowd
 static PyObject *crowd_check(PyObject *self, PyObject *args)
 {
     (void)self;
-    PyObject *capsule;
-    Py_buffer b = { 0 };
-    if (!PyArg_ParseTuple(args, "Oy*", &capsule, &b)) {
-        return NULL;
-    }
-    binding_crowd *held = crowd_of(capsule);
-    Py_ssize_t count = held != NULL ? binding_count(&b, sizeof(tl_nav_agent), "agents") : -1;
-    tl_result result = TL_OK;
-    Py_ssize_t done = 0;
-    tl_nav_agent_state state;
-    while (done < count && result == TL_OK) {
-        result = tl_nav_crowd_agent(held->crowd, ((const tl_nav_agent *)b.buf)[done++], &state);
-    }
-    binding_release(&b, 1);
-    if (count >= 0 && result != TL_OK) {
-        return raise_for(result, NULL, done - 1);
-    }
-    return count >= 0 ? Py_NewRef(Py_None) : NULL;
+    static const agent_call call = { "Oy*", { { 0, false, NULL } }, check_agent };
+    return visit_agents(args, &call);
+}
+
+static tl_result remove_agent(tl_nav_crowd *crowd, tl_nav_agent agent, void *const columns[2], Py_ssize_t row)
+{
+    (void)columns;
+    (void)row;
+    return tl_nav_crowd_remove(crowd, agent);
 }
 
 // crowd_remove(crowd, agents u64)
 static PyObject *crowd_remove(PyObject *self, PyObject *args)
 {
     (void)self;
-    PyObject *capsule;
-    Py_buffer b = { 0 };
-    if (!PyArg_ParseTuple(args, "Oy*", &capsule, &b)) {
-        return NULL;
+    static const agent_call call = { "Oy*", { { 0, false, NULL } }, remove_agent };
+    return visit_agents(args, &call);
+}
+
+static tl_result set_goal(tl_nav_crowd *crowd, tl_nav_agent agent, void *const columns[2], Py_ssize_t row)
+{
+    if (columns[0] == NULL || columns[1] == NULL) {
+        return tl_nav_crowd_set_goal(crowd, agent, NULL);
     }
-    binding_crowd *held = crowd_of(capsule);
-    Py_ssize_t count = held != NULL ? binding_count(&b, sizeof(tl_nav_agent), "agents") : -1;
-    tl_result result = TL_OK;
-    Py_ssize_t done = 0;
-    while (done < count && result == TL_OK) {
-        result = tl_nav_crowd_remove(held->crowd, ((const tl_nav_agent *)b.buf)[done++]);
-    }
-    binding_release(&b, 1);
-    if (count >= 0 && result != TL_OK) {
-        return raise_for(result, NULL, done - 1);
-    }
-    return count >= 0 ? Py_NewRef(Py_None) : NULL;
+    tl_nav_location goal = { ((const tl_nav_ref *)columns[0])[row], ((const tl_vec3 *)columns[1])[row] };
+    return goal.polygon != TL_NAV_NO_REF ? tl_nav_crowd_set_goal(crowd, agent, &goal) : TL_OK;
 }
 
 // crowd_set_goals(crowd, agents u64, polygons u64 or None, points f32[n][3] or None): polygon 0 leaves the goal as it
@@ -215,62 +250,48 @@ static PyObject *crowd_remove(PyObject *self, PyObject *args)
 static PyObject *crowd_set_goals(PyObject *self, PyObject *args)
 {
     (void)self;
-    PyObject *capsule;
-    Py_buffer b[3];
-    memset(b, 0, sizeof(b));
-    if (!PyArg_ParseTuple(args, "Oy*z*z*", &capsule, &b[0], &b[1], &b[2])) {
-        return NULL;
-    }
-    binding_crowd *held = crowd_of(capsule);
-    Py_ssize_t count = held != NULL ? binding_count(&b[0], sizeof(tl_nav_agent), "agents") : -1;
-    bool stop = b[1].buf == NULL;
-    bool good = count >= 0 && binding_has(&b[1], sizeof(tl_nav_ref), count, stop, "polygons") &&
-                binding_has(&b[2], sizeof(tl_vec3), count, stop, "points");
-    tl_result result = TL_OK;
-    Py_ssize_t done = 0;
-    for (; good && done < count && result == TL_OK; done++) {
-        tl_nav_agent agent = ((const tl_nav_agent *)b[0].buf)[done];
-        tl_nav_location goal = { TL_NAV_NO_REF, { 0, 0, 0 } };
-        if (!stop) {
-            goal = (tl_nav_location){ ((const tl_nav_ref *)b[1].buf)[done], ((const tl_vec3 *)b[2].buf)[done] };
-        }
-        if (stop || goal.polygon != TL_NAV_NO_REF) {
-            result = tl_nav_crowd_set_goal(held->crowd, agent, stop ? NULL : &goal);
-        }
-    }
-    binding_release(b, 3);
-    if (good && result != TL_OK) {
-        return raise_for(result, NULL, done - 1);
-    }
-    return good ? Py_NewRef(Py_None) : NULL;
+    static const agent_call call = { "Oy*z*z*",
+                                     { { sizeof(tl_nav_ref), true, "polygons" }, { sizeof(tl_vec3), true, "points" } },
+                                     set_goal };
+    return visit_agents(args, &call);
+}
+
+static tl_result set_motion(tl_nav_crowd *crowd, tl_nav_agent agent, void *const columns[2], Py_ssize_t row)
+{
+    return tl_nav_crowd_set_motion(crowd, agent, ((const tl_vec3 *)columns[0])[row],
+                                   ((const tl_vec3 *)columns[1])[row]);
 }
 
 // crowd_set_motion(crowd, agents u64, positions f32[n][3], velocities f32[n][3])
 static PyObject *crowd_set_motion(PyObject *self, PyObject *args)
 {
     (void)self;
-    PyObject *capsule;
-    Py_buffer b[3];
-    memset(b, 0, sizeof(b));
-    if (!PyArg_ParseTuple(args, "Oy*y*y*", &capsule, &b[0], &b[1], &b[2])) {
-        return NULL;
-    }
-    binding_crowd *held = crowd_of(capsule);
-    Py_ssize_t count = held != NULL ? binding_count(&b[0], sizeof(tl_nav_agent), "agents") : -1;
-    bool good = count >= 0 && binding_has(&b[1], sizeof(tl_vec3), count, false, "positions") &&
-                binding_has(&b[2], sizeof(tl_vec3), count, false, "velocities");
-    tl_result result = TL_OK;
-    Py_ssize_t done = 0;
-    for (; good && done < count && result == TL_OK; done++) {
-        result = tl_nav_crowd_set_motion(held->crowd, ((const tl_nav_agent *)b[0].buf)[done],
-                                         ((const tl_vec3 *)b[1].buf)[done], ((const tl_vec3 *)b[2].buf)[done]);
-    }
-    binding_release(b, 3);
-    if (good && result != TL_OK) {
-        return raise_for(result, NULL, done - 1);
-    }
-    return good ? Py_NewRef(Py_None) : NULL;
+    static const agent_call call = {
+        "Oy*y*y*", { { sizeof(tl_vec3), false, "positions" }, { sizeof(tl_vec3), false, "velocities" } }, set_motion
+    };
+    return visit_agents(args, &call);
 }
+
+static tl_result write_state(tl_nav_crowd *crowd, tl_nav_agent agent, void *const columns[2], Py_ssize_t row)
+{
+    tl_nav_agent_state s;
+    tl_result result = tl_nav_crowd_agent(crowd, agent, &s);
+    if (result == TL_OK) {
+        ((state_row *)columns[0])[row] = (state_row){ s.polygon, s.link,   s.position, s.velocity,         s.wanted,
+                                                      s.goal,    s.radius, s.height,   (uint32_t)s.status, 0 };
+    }
+    return result;
+}
+
+// crowd_states(crowd, agents u64, rows)
+static PyObject *crowd_states(PyObject *self, PyObject *args)
+{
+    (void)self;
+    static const agent_call call = { "Oy*w*", { { sizeof(state_row), false, "rows" } }, write_state };
+    return visit_agents(args, &call);
+}
+
+// --- steps ----------------------------------------------------------------------------------------------------------
 
 // crowd_step(crowd, navmesh, dt, count) -> (searched, waiting, walking, arrived, unreachable, on_link, off_mesh) of the
 // last of `count` steps; searched of all of them
@@ -330,36 +351,6 @@ static PyObject *crowd_agents(PyObject *self, PyObject *capsule)
         memcpy(at, &agent, sizeof(agent));
     }
     return bytes;
-}
-
-// crowd_states(crowd, agents u64, rows)
-static PyObject *crowd_states(PyObject *self, PyObject *args)
-{
-    (void)self;
-    PyObject *capsule;
-    Py_buffer b[2];
-    memset(b, 0, sizeof(b));
-    if (!PyArg_ParseTuple(args, "Oy*w*", &capsule, &b[0], &b[1])) {
-        return NULL;
-    }
-    const binding_crowd *held = crowd_of(capsule);
-    Py_ssize_t count = held != NULL ? binding_count(&b[0], sizeof(tl_nav_agent), "agents") : -1;
-    bool good = count >= 0 && binding_has(&b[1], sizeof(state_row), count, false, "rows");
-    tl_result result = TL_OK;
-    Py_ssize_t done = 0;
-    for (; good && done < count && result == TL_OK; done++) {
-        tl_nav_agent_state s;
-        result = tl_nav_crowd_agent(held->crowd, ((const tl_nav_agent *)b[0].buf)[done], &s);
-        if (result == TL_OK) {
-            ((state_row *)b[1].buf)[done] = (state_row){ s.polygon, s.link,   s.position, s.velocity,         s.wanted,
-                                                         s.goal,    s.radius, s.height,   (uint32_t)s.status, 0 };
-        }
-    }
-    binding_release(b, 2);
-    if (good && result != TL_OK) {
-        return raise_for(result, NULL, done - 1);
-    }
-    return good ? Py_NewRef(Py_None) : NULL;
 }
 
 // crowd_corners(crowd, navmesh, agent) -> bytes: f32[k][3]

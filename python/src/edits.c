@@ -7,8 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-// --- off-mesh links
-// -------------------------------------------------------------------------------------------------------
+// --- off-mesh links -------------------------------------------------------------------------------------------------
 
 // navmesh_add_link(navmesh, (start), (end), both ways, radius, cost factor, fixed cost, flags, area) -> ref
 static PyObject *navmesh_add_link(PyObject *self, PyObject *args)
@@ -121,8 +120,7 @@ static PyObject *navmesh_find_links(PyObject *self, PyObject *args)
     return bytes;
 }
 
-// --- obstacles
-// ------------------------------------------------------------------------------------------------------------
+// --- obstacles ------------------------------------------------------------------------------------------------------
 
 static binding_navmesh *with_obstacles(PyObject *capsule)
 {
@@ -211,8 +209,7 @@ static PyObject *obstacles_update(PyObject *self, PyObject *args)
                                                 : binding_raise(result, &report.base);
 }
 
-// --- preparing
-// --------------------------------------------------------------------------------------------------------------
+// --- preparing ------------------------------------------------------------------------------------------------------
 
 // navmesh_prepare(navmesh, table bytes, label bytes) -> (kind, corner vertices, bytes)
 static PyObject *navmesh_prepare(PyObject *self, PyObject *args)

@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// --- the object
-// ---------------------------------------------------------------------------------------------------------
+// --- the object -----------------------------------------------------------------------------------------------------
 
 void binding_navmesh_free_parts(binding_navmesh *navmesh)
 {
@@ -104,8 +103,7 @@ bool binding_filter(PyObject *object, tl_nav_filter *filter)
     return good;
 }
 
-// --- what it is made of
-// ---------------------------------------------------------------------------------------------------
+// --- what it is made of ---------------------------------------------------------------------------------------------
 
 // navmesh_counts(navmesh) -> (tiles, polygons, corners, detail vertices, detail triangles, area, off-mesh links, bytes)
 static PyObject *navmesh_counts(PyObject *self, PyObject *capsule)
@@ -217,8 +215,7 @@ static PyObject *navmesh_surface(PyObject *self, PyObject *args)
     return Py_BuildValue("nn", vertex, triangle);
 }
 
-// --- points
-// -------------------------------------------------------------------------------------------------------------
+// --- points ---------------------------------------------------------------------------------------------------------
 
 // navmesh_nearest(navmesh, filter, points, (ex, ey, ez), refs u64, nearest f32[n][3]): ref 0 where nothing is near
 static PyObject *navmesh_nearest(PyObject *self, PyObject *args)

@@ -156,8 +156,7 @@ static PyObject *soup_check_closed(PyObject *self, PyObject *capsule)
     return result == TL_OK ? Py_NewRef(Py_None) : binding_raise(result, &report);
 }
 
-// --- nearest points and locations
-// ---------------------------------------------------------------------------------------
+// --- nearest points and locations -----------------------------------------------------------------------------------
 
 typedef struct point_batch {
     const tl_soup *soup;
@@ -300,8 +299,7 @@ static PyObject *soup_locate(PyObject *self, PyObject *args)
     return good ? Py_NewRef(Py_None) : NULL;
 }
 
-// --- shapes against the soup
-// --------------------------------------------------------------------------------------------
+// --- shapes against the soup ----------------------------------------------------------------------------------------
 
 typedef struct shape_batch {
     const tl_soup *soup;
