@@ -16,6 +16,8 @@ pub const TL_NO_ELEMENT: u64 = u64::MAX;
 pub const TL_NO_TRIANGLE: u32 = u32::MAX;
 /// Blobs and baked files begin at multiples of this, bytes.
 pub const TL_BLOB_ALIGNMENT: usize = 64;
+/// The first so many hits of a character's move are kept.
+pub const TL_MAX_CHARACTER_HITS: usize = 8;
 
 /// A chunk's type out of its four letters.
 pub const fn pack_type(letters: &[u8; 4]) -> u32 {

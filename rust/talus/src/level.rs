@@ -111,16 +111,9 @@ impl Level {
             // SAFETY: the def is that of the bake; outputs are valid.
             unsafe {
                 let mut report = std::mem::zeroed();
-                let [x, z] = navmesh.grid;
-                let result = sys::tl_pack_navmesh_encode(
-                    &navmesh.def,
-                    x,
-                    z,
-                    tiles.len() as u32,
-                    null(),
-                    &mut encoded,
-                    &mut report,
-                );
+                let (def, [x, z]) = navmesh.head();
+                let result =
+                    sys::tl_pack_navmesh_encode(def, x, z, tiles.len() as u32, null(), &mut encoded, &mut report);
                 Error::check(result, Some(&report))?;
             }
             items.push(item(NAVM, 0, encoded));

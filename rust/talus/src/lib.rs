@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: MIT
 #![doc = include_str!("../README.md")]
 
+mod character;
+mod crowd;
 mod error;
 mod level;
 mod memory;
 mod navmesh;
 mod shapes;
 mod soup;
+mod tasks;
 
+pub use character::{
+    Character, CharacterHit, CharacterMover, CharacterReport, CharacterSettings, CharacterStep, Surface,
+};
+pub use crowd::{Agent, AgentSettings, AgentState, AgentStatus, Crowd, CrowdReport, CrowdSettings};
 pub use error::{Error, ErrorKind};
 pub use level::Level;
 pub use navmesh::{Navmesh, NavmeshSettings, Path, Query};

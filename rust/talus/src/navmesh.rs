@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 use std::ffi::{c_char, c_void, CStr};
-use std::marker::PhantomData;
 use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::ptr::{null, null_mut};
 use std::sync::Arc;
@@ -63,18 +62,26 @@ impl NavmeshSettings {
 }
 
 /// Where an agent can walk. Immutable here: threads may share it, each with a [`Query`] of its own.
+///
+/// It is a handle: a clone is the same navmesh, and costs what a clone of an [`Arc`] does. Queries and crowds hold one,
+/// so they may be kept beside it, in one struct.
+#[derive(Clone)]
 pub struct Navmesh {
+    held: Arc<Held>,
+}
+
+struct Held {
     at: *mut sys::tl_navmesh,
-    pub(crate) def: sys::tl_nav_def,
-    pub(crate) grid: [u32; 2],
+    def: sys::tl_nav_def,
+    grid: [u32; 2],
     _file: Option<Arc<FileBytes>>, // borrowed tiles lie in it
 }
 
 // SAFETY: nothing here changes a navmesh after it was made, and its const functions may run on any number of threads.
-unsafe impl Send for Navmesh {}
-unsafe impl Sync for Navmesh {}
+unsafe impl Send for Held {}
+unsafe impl Sync for Held {}
 
-impl Drop for Navmesh {
+impl Drop for Held {
     fn drop(&mut self) {
         // SAFETY: made by tl_navmesh_create or tl_pack_load_navmesh, destroyed once.
         unsafe { sys::tl_navmesh_destroy(self.at) }
@@ -149,7 +156,7 @@ impl Navmesh {
         // SAFETY: outputs are valid, and the navmesh is destroyed with `navmesh` whatever happens.
         unsafe {
             Error::check(sys::tl_navmesh_create(null(), &mut at), None)?;
-            let navmesh = Navmesh { at, def, grid: [tiles.tiles_x, tiles.tiles_z], _file: None };
+            let navmesh = Navmesh::new(at, def, [tiles.tiles_x, tiles.tiles_z], None);
             let mut report = std::mem::zeroed();
             let result =
                 sys::tl_navmesh_add_tiles(at, tiles.tiles, tiles.tile_count, sys::TL_NAV_TILE_OWNED, &mut report);
@@ -168,15 +175,41 @@ impl Navmesh {
         grid: [u32; 2],
         file: &Arc<FileBytes>,
     ) -> Navmesh {
-        Navmesh { at, def, grid, _file: Some(Arc::clone(file)) }
+        Navmesh::new(at, def, grid, Some(Arc::clone(file)))
+    }
+
+    fn new(at: *mut sys::tl_navmesh, def: sys::tl_nav_def, grid: [u32; 2], file: Option<Arc<FileBytes>>) -> Navmesh {
+        Navmesh { held: Arc::new(Held { at, def, grid, _file: file }) }
+    }
+
+    /// For const functions: it is whole, and does not change.
+    pub(crate) fn raw(&self) -> *const sys::tl_navmesh {
+        self.held.at
+    }
+
+    /// What it was baked with, and how many tiles lie along x and z.
+    pub(crate) fn head(&self) -> (&sys::tl_nav_def, [u32; 2]) {
+        (&self.held.def, self.held.grid)
+    }
+
+    /// The floor's point nearest to `point` in the box of these half extents.
+    pub(crate) fn locate(&self, point: Point, extents: Point) -> Result<Option<sys::tl_nav_location>, Error> {
+        // SAFETY: the navmesh is whole; a NULL filter passes all; the output is valid.
+        unsafe {
+            let mut location = std::mem::zeroed();
+            match sys::tl_navmesh_find_nearest(self.raw(), null(), vec3(point), vec3(extents), &mut location) {
+                sys::TL_NOT_FOUND => Ok(None),
+                result => Error::check(result, None).map(|()| Some(location)),
+            }
+        }
     }
 
     /// The tiles, in the order of their places.
     pub(crate) fn tiles(&self) -> Vec<*const sys::tl_nav_tile> {
         // SAFETY: the navmesh is whole; slots below the count may be asked for.
         unsafe {
-            let mut tiles: Vec<_> = (0..sys::tl_navmesh_slot_count(self.at))
-                .map(|slot| sys::tl_navmesh_slot_tile(self.at, slot))
+            let mut tiles: Vec<_> = (0..sys::tl_navmesh_slot_count(self.raw()))
+                .map(|slot| sys::tl_navmesh_slot_tile(self.raw(), slot))
                 .filter(|tile| !tile.is_null())
                 .collect();
             tiles.sort_by_key(|&tile| ((*tile).tile_z, (*tile).tile_x, (*tile).layer));
@@ -194,14 +227,14 @@ impl Navmesh {
     ///
     /// # Errors
     /// [`ErrorKind::Memory`](crate::ErrorKind).
-    pub fn query(&self) -> Result<Query<'_>, Error> {
+    pub fn query(&self) -> Result<Query, Error> {
         let mut at = null_mut();
         // SAFETY: a NULL def means the defaults; the outputs are valid.
         unsafe {
             let mut report = std::mem::zeroed();
             Error::check(sys::tl_nav_query_create(null(), &mut at, &mut report), Some(&report))?;
         }
-        Ok(Query { at, navmesh: self, search_extents: [1.0, 2.0, 1.0], lone: PhantomData })
+        Ok(Query { at, navmesh: self.clone(), search_extents: [1.0, 2.0, 1.0] })
     }
 }
 
@@ -217,35 +250,31 @@ pub struct Path {
 }
 
 /// The state of searches over a navmesh.
-pub struct Query<'a> {
+pub struct Query {
     at: *mut sys::tl_nav_query,
-    navmesh: &'a Navmesh,
+    navmesh: Navmesh,
     /// Half extents of the box in which start and goal look for a polygon, metres.
     pub search_extents: Point,
-    lone: PhantomData<*mut ()>,
 }
 
 // SAFETY: its memory is its own; it may move to another thread, and is not shared (`&mut self`).
-unsafe impl Send for Query<'_> {}
+unsafe impl Send for Query {}
 
-impl Drop for Query<'_> {
+impl Drop for Query {
     fn drop(&mut self) {
         // SAFETY: made by tl_nav_query_create, destroyed once.
         unsafe { sys::tl_nav_query_destroy(self.at) }
     }
 }
 
-impl Query<'_> {
+impl Query {
+    /// The navmesh that is searched.
+    pub fn navmesh(&self) -> &Navmesh {
+        &self.navmesh
+    }
+
     fn locate(&self, point: Point) -> Result<Option<sys::tl_nav_location>, Error> {
-        // SAFETY: the navmesh is whole; a NULL filter passes all; the output is valid.
-        unsafe {
-            let mut location = std::mem::zeroed();
-            let extents = vec3(self.search_extents);
-            match sys::tl_navmesh_find_nearest(self.navmesh.at, null(), vec3(point), extents, &mut location) {
-                sys::TL_NOT_FOUND => Ok(None),
-                result => Error::check(result, None).map(|()| Some(location)),
-            }
-        }
+        self.navmesh.locate(point, self.search_extents)
     }
 
     /// The nearest point of the floor; `None`: there is none within `search_extents`.
@@ -277,7 +306,7 @@ impl Query<'_> {
                 };
                 let mut path: sys::tl_nav_shortest_path = std::mem::zeroed();
                 let result =
-                    sys::tl_nav_query_find_shortest_path(self.at, self.navmesh.at, &request, &buffers, &mut path);
+                    sys::tl_nav_query_find_shortest_path(self.at, self.navmesh.raw(), &request, &buffers, &mut path);
                 if result == sys::TL_OK {
                     corners.set_len(path.corner_count as usize);
                 }
