@@ -101,8 +101,7 @@ const tl_convex *binding_shape_of(PyObject *capsule);
 /// A navmesh with what it was baked with.
 typedef struct binding_navmesh {
     tl_navmesh *navmesh;
-    tl_nav_query *query; ///< grows with the navmesh; single queries use it, under the Python object's lock
-    uint64_t query_nodes;
+    tl_nav_query *query; ///< NULL until it is needed; single queries use it, under the Python object's lock
     tl_nav_def def;
     uint32_t tiles_x, tiles_z;
     tl_nav_obstacles *obstacles;
@@ -119,10 +118,10 @@ void binding_navmesh_free_parts(binding_navmesh *navmesh);
 /// A capsule around a navmesh, whose parts are freed with it, and on failure.
 PyObject *binding_navmesh_capsule(binding_navmesh *navmesh);
 binding_navmesh *binding_navmesh_of(PyObject *capsule);
-/// A query with room for any path over the navmesh as it is now: the navmesh's own. NULL: MemoryError.
+/// A query that no search is too large for.
+tl_result binding_query_create(tl_nav_query **query_out);
+/// The navmesh's own. NULL: MemoryError.
 tl_nav_query *binding_query_of(binding_navmesh *navmesh);
-/// A query of the caller's, of the same size.
-tl_result binding_query_create(const binding_navmesh *navmesh, tl_nav_query **query_out);
 
 /// A level that a navmesh is baked from, or checked against.
 typedef struct binding_level {

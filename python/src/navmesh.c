@@ -46,35 +46,19 @@ binding_navmesh *binding_navmesh_of(PyObject *capsule)
     return PyCapsule_GetPointer(capsule, BINDING_NAVMESH);
 }
 
-static uint64_t needed_nodes(const tl_navmesh *navmesh)
-{
-    uint64_t nodes = tl_navmesh_link_count(navmesh) + 2;
-    uint64_t power = 1024;
-    while (power < nodes && power < (uint64_t)1 << 30) {
-        power *= 2;
-    }
-    return power;
-}
-
-tl_result binding_query_create(const binding_navmesh *navmesh, tl_nav_query **query_out)
+tl_result binding_query_create(tl_nav_query **query_out)
 {
     tl_nav_query_def def = tl_default_nav_query_def();
-    def.max_nodes = (uint32_t)needed_nodes(navmesh->navmesh);
+    // Memory grows with need. The number of links bounds a search for any path; for the shortest one it is too small.
+    def.max_nodes = 1u << 30;
     return tl_nav_query_create(&def, query_out, NULL);
 }
 
 tl_nav_query *binding_query_of(binding_navmesh *navmesh)
 {
-    uint64_t nodes = needed_nodes(navmesh->navmesh);
-    if (navmesh->query == NULL || navmesh->query_nodes < nodes) {
-        tl_nav_query *query;
-        if (binding_query_create(navmesh, &query) != TL_OK) {
-            PyErr_NoMemory();
-            return NULL;
-        }
-        tl_nav_query_destroy(navmesh->query);
-        navmesh->query = query;
-        navmesh->query_nodes = nodes;
+    if (navmesh->query == NULL && binding_query_create(&navmesh->query) != TL_OK) {
+        PyErr_NoMemory();
+        return NULL;
     }
     return navmesh->query;
 }

@@ -216,7 +216,7 @@ static void find_some(uint32_t task, uint32_t worker, void *user)
     memset(&scratch, 0, sizeof(scratch));
     tl_result result = TL_OK;
     if (batch->queries[worker] == NULL) {
-        result = binding_query_create(batch->held, &batch->queries[worker]);
+        result = binding_query_create(&batch->queries[worker]);
     }
     if (result == TL_OK) {
         result = need_corners(&scratch, FIRST_CORNERS);

@@ -28,6 +28,15 @@ def join(*meshes: Mesh) -> Mesh:
     return np.concatenate(vertices), np.concatenate(faces)
 
 
+def comb(size: float) -> Mesh:
+    """A floor with walls across it, each with a gap at one end."""
+    walls = [
+        box_mesh((x, 0, 0 if i % 2 else 6), (x + 1, 3, size - 6 if i % 2 else size))
+        for i, x in enumerate(np.arange(15.0, size - 5, 15.0))
+    ]
+    return join(box_mesh((0, -1, 0), (size, 0, size)), *walls)
+
+
 @pytest.fixture(scope="session")
 def hall() -> Mesh:
     """A floor of 40 by 40 metres with a wall across it that has a gap, two crates, and a platform out of reach."""

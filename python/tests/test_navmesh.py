@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import talus
 
-from conftest import Mesh, box_mesh, join
+from conftest import Mesh, box_mesh, comb, join
 
 
 @pytest.fixture(scope="module")
@@ -258,3 +258,13 @@ def test_threads_share_a_navmesh(navmesh: talus.Navmesh) -> None:
     for thread in threads:
         thread.join()
     assert not wrong
+
+
+def test_long_ways_round_do_not_run_out_of_nodes() -> None:
+    navmesh = talus.Navmesh.bake(*comb(120), agent_radius=0.5, cell_size=0.3, tile_size=32)
+    rng = np.random.default_rng(5)
+    ends = rng.uniform(1, 119, (2, 60, 3)) * [1, 0, 1]
+    paths = navmesh.shortest_paths(*ends, half_extents=(1, 2, 1))
+    # A search for the shortest path may take more nodes than there are links.
+    assert set(paths.status.tolist()) <= {"complete", "no navmesh at start", "no navmesh at goal"}
+    assert paths.complete.sum() > 30

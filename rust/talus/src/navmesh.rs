@@ -229,10 +229,12 @@ impl Navmesh {
     /// [`ErrorKind::Memory`](crate::ErrorKind).
     pub fn query(&self) -> Result<Query, Error> {
         let mut at = null_mut();
-        // SAFETY: a NULL def means the defaults; the outputs are valid.
+        // SAFETY: the def is a plain struct; the outputs are valid.
         unsafe {
+            let mut def = sys::tl_default_nav_query_def();
+            def.max_nodes = 1 << 30; // memory grows with need: no search is too large
             let mut report = std::mem::zeroed();
-            Error::check(sys::tl_nav_query_create(null(), &mut at, &mut report), Some(&report))?;
+            Error::check(sys::tl_nav_query_create(&def, &mut at, &mut report), Some(&report))?;
         }
         Ok(Query { at, navmesh: self.clone(), search_extents: [1.0, 2.0, 1.0] })
     }
@@ -288,7 +290,7 @@ impl Query {
     /// The shortest path from start to goal; `None`: there is none, which is proven, or no floor near one of them.
     ///
     /// # Errors
-    /// [`ErrorKind::GaveUp`](crate::ErrorKind) where the search ran out of nodes; `NotFinite`, `Argument`.
+    /// [`ErrorKind::GaveUp`](crate::ErrorKind) where the search ran out of memory; `NotFinite`, `Argument`.
     pub fn shortest_path(&mut self, start: Point, goal: Point) -> Result<Option<Path>, Error> {
         let (Some(start), Some(goal)) = (self.locate(start)?, self.locate(goal)?) else {
             return Ok(None);
