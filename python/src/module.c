@@ -2,7 +2,7 @@
 //
 // The extension module talus._talus: the functions of all sources in one table.
 
-#include "binding.h"
+#include "world.h"
 
 static PyMethodDef common_methods[] = {
     { "set_error_class", binding_set_error_class, METH_O, NULL },
@@ -25,6 +25,8 @@ static int fill_module(PyObject *module)
         binding_pack_methods,
         binding_crowd_methods,
         binding_character_methods,
+        binding_world_methods,
+        binding_world_query_methods,
     };
     for (size_t i = 0; i < sizeof(tables) / sizeof(tables[0]); i++) {
         if (PyModule_AddFunctions(module, tables[i]) != 0) {

@@ -62,6 +62,7 @@ from .shapes import (
     triangle,
 )
 from .soup import AllHits, Locations, NearestPoints, RayHits, Soup, SoupStats, SweepHits
+from .world import Route, World, WorldLoad, WorldPath, WorldPlaces, WorldRay, WorldState
 
 __version__: str = _talus.version
 
@@ -100,6 +101,7 @@ __all__ = [
     "Prism",
     "RayHits",
     "Reason",
+    "Route",
     "Separations",
     "Settings",
     "Shape",
@@ -110,6 +112,12 @@ __all__ = [
     "Volume",
     "Walls",
     "Why",
+    "World",
+    "WorldLoad",
+    "WorldPath",
+    "WorldPlaces",
+    "WorldRay",
+    "WorldState",
     "__version__",
     "box",
     "capsule",

@@ -27,6 +27,8 @@ Cull = Literal["none", "back", "front"]
 
 _CULL = {"none": 0, "back": 1, "front": 2}
 
+Doubles = npt.NDArray[np.float64]
+"""float64 array; its shape is said where it is used."""
 
 Reals = npt.NDArray[np.float32] | npt.NDArray[np.float64]
 """float32 or float64 array."""
@@ -49,6 +51,16 @@ def point_rows(array: ArrayLike, name: str) -> Reals:
 def points(array: ArrayLike, name: str) -> Floats:
     """An (N, 3) float32 array of any (N, 3) array; a single point becomes one row."""
     return np.ascontiguousarray(point_rows(array, name), dtype=np.float32)
+
+
+def double_points(array: ArrayLike, name: str) -> Doubles:
+    """An (N, 3) float64 array of any (N, 3) array; a single point becomes one row."""
+    result = np.ascontiguousarray(array, dtype=np.float64)
+    if result.shape == (3,):
+        result = result.reshape(1, 3)
+    if result.ndim != 2 or result.shape[1] != 3:
+        raise ValueError(f"{name} has the shape {result.shape}; it should be (N, 3)")
+    return result
 
 
 def row_pairs(a: ArrayLike, b: ArrayLike, names: tuple[str, str]) -> tuple[Reals, Reals]:
