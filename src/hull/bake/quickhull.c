@@ -150,11 +150,14 @@ static tl_result make_local(tl_quickhull *hull)
     tl_vec3 origin =
         tl_vec3_make(tl_side_origin(low.x, high.x), tl_side_origin(low.y, high.y), tl_side_origin(low.z, high.z));
     tl_vec3 reach = tl_max(tl_abs(tl_sub(low, origin)), tl_abs(tl_sub(high, origin)));
-    hull->reach[0] = (double)reach.x;
-    hull->reach[1] = (double)reach.y;
-    hull->reach[2] = (double)reach.z;
     for (uint32_t i = 0; i < hull->point_count; i++) {
         hull->local[i].position = tl_sub(hull->points[i], origin);
+    }
+    hull->exact = tl_quickhull_on_lattice(hull->local, hull->point_count, reach);
+    if (!hull->exact) {
+        hull->reach[0] = (double)reach.x;
+        hull->reach[1] = (double)reach.y;
+        hull->reach[2] = (double)reach.z;
     }
     return TL_OK;
 }

@@ -55,7 +55,8 @@ typedef struct tl_quickhull {
     uint32_t waiting; // points that are filed under a face
     tl_aabb box;
     tl_quickhull_point *local; // [point_count] the points near the origin, exactly moved
-    double reach[3];           // the largest absolute local coordinates
+    double reach[3];           // the largest absolute local coordinates; 0 where heights are exact
+    bool exact;                // heights are: see tl_quickhull_on_lattice
 
     tl_quickhull_face *faces;
     tl_quickhull_conflicts *conflicts; // [face_capacity]
@@ -125,7 +126,7 @@ static inline int tl_quickhull_side(const tl_quickhull *hull, const tl_quickhull
 {
     *height_out = tl_side_plane_height(&face->plane, p);
     int sign = tl_side_plane_sign(&face->plane, *height_out);
-    if (sign != 0) {
+    if (sign != 0 || hull->exact) {
         return sign;
     }
     const tl_quickhull_point *local = hull->local;
@@ -139,6 +140,9 @@ uint32_t tl_quickhull_new_face(tl_quickhull *hull, uint32_t a, uint32_t b, uint3
 void tl_quickhull_free_face(tl_quickhull *hull, uint32_t face);
 // Reserves capacity for `more` new faces, here and in the scratch.
 tl_result tl_quickhull_reserve(tl_quickhull *hull, uint32_t more);
+
+// point_lattice.c: whether side tests in double are exact for the local points.
+bool tl_quickhull_on_lattice(const tl_quickhull_point *points, uint32_t count, tl_vec3 reach);
 
 // seed.c: the first tetrahedron, and the named result of input without volume.
 tl_result tl_quickhull_seed(tl_quickhull *hull, double flatness, uint32_t seed_out[4], uint32_t *rank_out);

@@ -9,6 +9,7 @@
 #include "hull/bake/quickhull.h"
 
 #include "base/assert.h"
+#include "base/lowest_bit.h"
 #include "base/min_max.h"
 #include "math/predicates.h"
 #include "math/tolerance.h"
@@ -19,25 +20,27 @@ static tl_vec3d point_difference(tl_vec3 a, tl_vec3 b)
     return tl_vec3d_sub(tl_vec3d_from(a), tl_vec3d_from(b));
 }
 
-static float point_coordinate(tl_vec3 p, int axis)
+// The first point at each end of each axis: low x, high x, low y, ...
+static void find_extremes(const tl_quickhull *hull, uint32_t extreme[6])
 {
-    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+    tl_vec3 low = hull->box.min, high = hull->box.max;
+    uint32_t missing = 0x3f;
+    for (uint32_t i = 0; missing != 0; i++) {
+        TL_ASSERT(i < hull->point_count); // each end of the box is some point's
+        tl_vec3 p = hull->points[i];
+        uint32_t at = (uint32_t)(p.x == low.x) | (uint32_t)(p.x == high.x) << 1 | (uint32_t)(p.y == low.y) << 2 |
+                      (uint32_t)(p.y == high.y) << 3 | (uint32_t)(p.z == low.z) << 4 | (uint32_t)(p.z == high.z) << 5;
+        for (at &= missing; at != 0; at &= at - 1) {
+            extreme[tl_lowest_bit(at)] = i;
+            missing &= ~(1u << tl_lowest_bit(at));
+        }
+    }
 }
 
 static void farthest_extremes(const tl_quickhull *hull, uint32_t *a_out, uint32_t *b_out)
 {
-    uint32_t extreme[6] = { 0 };
-    for (uint32_t i = 1; i < hull->point_count; i++) {
-        for (int axis = 0; axis < 3; axis++) {
-            float value = point_coordinate(hull->points[i], axis);
-            if (value < point_coordinate(hull->points[extreme[2 * axis]], axis)) {
-                extreme[2 * axis] = i;
-            }
-            if (value > point_coordinate(hull->points[extreme[2 * axis + 1]], axis)) {
-                extreme[2 * axis + 1] = i;
-            }
-        }
-    }
+    uint32_t extreme[6];
+    find_extremes(hull, extreme);
     double best = -1.0;
     for (int i = 0; i < 6; i++) {
         for (int j = i + 1; j < 6; j++) {
