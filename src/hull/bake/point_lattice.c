@@ -14,7 +14,7 @@
 // unit is at least 2^-149 and at most 2^85, so its cube is neither too small nor too large for a double.
 enum { LATTICE_BITS = 15 };
 
-static bool is_whole(double units)
+static bool is_whole_number(double units)
 {
     return units == (double)(int32_t)units;
 }
@@ -26,7 +26,8 @@ bool tl_quickhull_on_lattice(const tl_quickhull_point *points, uint32_t count, t
     const double units = ldexp(1.0, LATTICE_BITS - exponent);                    // in a metre
     for (uint32_t i = 0; i < count; i++) {
         tl_vec3 p = points[i].position;
-        if (!is_whole((double)p.x * units) || !is_whole((double)p.y * units) || !is_whole((double)p.z * units)) {
+        if (!is_whole_number((double)p.x * units) || !is_whole_number((double)p.y * units) ||
+            !is_whole_number((double)p.z * units)) {
             return false; // nearly always the first point
         }
     }
