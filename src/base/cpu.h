@@ -44,10 +44,15 @@
 extern uint32_t tl_cpu_found;
 uint32_t tl_cpu_look(void);
 
-static inline bool tl_cpu_has(uint32_t bit)
+static inline uint32_t tl_cpu_features(void)
 {
     const uint32_t found = __atomic_load_n(&tl_cpu_found, __ATOMIC_RELAXED);
-    return ((found != 0 ? found : tl_cpu_look()) & bit) != 0;
+    return found != 0 ? found : tl_cpu_look();
+}
+
+static inline bool tl_cpu_has(uint32_t bit)
+{
+    return (tl_cpu_features() & bit) != 0;
 }
 
 static inline bool tl_cpu_has_vec128(void)

@@ -184,7 +184,7 @@ static void test_far_rays_enter_few_boxes(void **state)
             job.t = INFINITY;
             TEST_CHECK(tl_ray_prepare(&job, from, direction));
             TEST_CHECK(job.outside == 0 || tl_ray_meets_bounds(&job));
-            moved += job.start > 0;
+            moved += job.box_t.start > 0;
             uint32_t count = count_boxes(&job, 0);
             most = count > most ? count : most;
         }

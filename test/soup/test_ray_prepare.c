@@ -48,15 +48,15 @@ static void check_planes(const tl_ray_job *job, tl_aabb bounds, test_random *ran
         // The pad grows with coordinates, not only with distances.
         long double farthest = fabsl(from) + fabsl((long double)low) + fabsl((long double)high);
         if (fabsl(direction[i]) > largest * 0x1p-49L) {
-            long double t = distance / direction[i] * (long double)job->box_scale;
+            long double t = distance / direction[i] * (long double)job->box_t.scale;
             TEST_CHECK((long double)enter <= t && t <= (long double)leave);
-            long double slack = 40 * 6e-8L * (farthest + reach) / fabsl(direction[i]) * (long double)job->box_scale;
+            long double slack = 40 * 6e-8L * (farthest + reach) / fabsl(direction[i]) * (long double)job->box_t.scale;
             TEST_CHECK((long double)leave - (long double)enter <= slack);
             seen->inclined++;
         } else {
             // The ray stays on one side: planes clearly ahead are never entered within reach, nor those behind left.
             bool ahead = distance > 1e-4L * (farthest + reach), behind = -distance > 1e-4L * (farthest + reach);
-            long double end = 4 * reach / largest * (long double)job->box_scale;
+            long double end = 4 * reach / largest * (long double)job->box_t.scale;
             TEST_CHECK(!ahead || fabsl((long double)enter) > end);
             TEST_CHECK(!behind || fabsl((long double)leave) > end);
             seen->flat++;
@@ -155,7 +155,7 @@ static void test_intervals_at_all_lengths(void **state)
         TEST_CHECK(prepare(&job, soup, tl_vec3_make(1, 2, 3), direction, false) && job.has_intervals);
         // box t is t times a power of two, which keeps every bit.
         int exponent;
-        TEST_CHECK(frexpf(job.box_scale, &exponent) == 0.5f);
+        TEST_CHECK(frexpf(job.box_t.scale, &exponent) == 0.5f);
         TEST_CHECK(fabsf(job.per_depth) >= 0x1p-21f && fabsf(job.per_depth) <= 0x1p21f);
     }
     tl_ray_job job;

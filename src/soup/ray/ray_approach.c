@@ -162,7 +162,7 @@ static void prepare_filters_at(tl_ray_job *job, const approached_line *line, con
         direction[i] = (float)(line->direction[i] * scale);
     }
     tl_f32x4 scaled = tl_f32x4_load(direction), size = tl_f32x4_abs(scaled);
-    job->box_scale = (float)(1.0 / scale);
+    job->box_t.scale = (float)(1.0 / scale);
     tl_ray_prepare_filters(job, tl_f32x4_load(origin), scaled, size, tl_f32x4_max_of_three(size));
     for (int i = 0; i < 3; i++) {
         // A rounding of the origin, and one of the sums.
@@ -190,7 +190,7 @@ bool tl_ray_approach(tl_ray_job *job)
     }
     if (before) {
         prepare_filters_at(job, &line, &place);
-        job->start = place.t;
+        job->box_t.start = place.t;
         job->has_intervals = false;
         job->box_limit = tl_ray_box_limit(job, job->t);
     }

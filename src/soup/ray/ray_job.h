@@ -22,6 +22,13 @@ typedef union tl_ray_point {
     float lane[4];
 } tl_ray_point;
 
+/// How a box t follows from a t: (t - start) * scale.
+typedef struct tl_ray_box_t {
+    double start; ///< t of where the filters' origin lies, and box t begins: not 0 for rays from far away
+    float scale;  ///< power of two
+    float margin; ///< box t that the rounding of a denormal t, and underflow, may take from a box
+} tl_ray_box_t;
+
 typedef struct tl_ray_job {
     const tl_soup *soup;
     const tl_ray_filter *filter; ///< NULL: ignores nothing
@@ -33,17 +40,15 @@ typedef struct tl_ray_job {
     bool has_intervals; ///< t can be told apart in float: nothing overflows, t cannot saturate, nor a denormal t lose
                         ///< more than ray_walk.inl allows for
 
-    // Boxes. Plane p of axis i is met at t = (p * plane_scale[i] + near_base[i]) / box_scale, rounded down, or with
+    // Boxes. Plane p of axis i is met at t = (p * plane_scale[i] + near_base[i]) / box_t.scale, rounded down, or with
     // far_base up. Lane 3 is not used. Vectors are aligned, so that a store is forwarded to the load of a lane.
     _Alignas(16) float plane_scale[4];
     float near_base[4];
     float far_base[4];
     uint32_t backward; ///< bit i: the ray runs down along axis i, so it enters a box by its max plane
     uint32_t outside;  ///< bit i: along axis i the ray begins outside the soup's box
-    float box_scale;   ///< power of two: box t = t * box_scale
-    double start;      ///< t of where the filters' origin lies, and box t begins: not 0 for rays from far away
-    float box_limit;   ///< boxes that begin beyond it are skipped
-    float box_margin;  ///< box t that the rounding of a denormal t, and underflow, may take from a box
+    tl_ray_box_t box_t;
+    float box_limit; ///< boxes that begin beyond it are skipped
 
     // Leaves: origin moved to zero, then sheared so that the ray runs along the last of the axes.
     float per_depth;                   ///< box t a metre along that axis
@@ -77,12 +82,12 @@ static inline float tl_ray_box_limit(const tl_ray_job *job, float t)
     if (!(t < FLT_MAX)) {
         return INFINITY;
     }
-    if (job->start != 0.0) {
+    if (job->box_t.start != 0.0) {
         // Roundings of the reported t and of the start.
-        double from_start = (double)t * (1.0 + 0x1p-22) - job->start;
-        return (float)(from_start * (double)job->box_scale * (1.0 + 0x1p-23)) + job->box_margin;
+        double from_start = (double)t * (1.0 + 0x1p-22) - job->box_t.start;
+        return (float)(from_start * (double)job->box_t.scale * (1.0 + 0x1p-23)) + job->box_t.margin;
     }
-    return t * job->box_scale + job->box_margin;
+    return t * job->box_t.scale + job->box_t.margin;
 }
 
 /// Fills what the filters need; the caller has set soup, filter, is_segment and t. False: nothing can be hit.
@@ -197,7 +202,7 @@ tl_ray_packets_fn *tl_ray_packets_for(tl_ray_isa isa);
 /// The instruction set that the public queries use on this machine.
 tl_ray_isa tl_ray_best_isa(void);
 
-/// What they run: walks of that instruction set; packets of the widest, for packets fill all lanes.
+/// What they run: walks of that instruction set; several rays at once, and packets, of the widest.
 tl_ray_walk_fn *tl_ray_best_walk(void);
 tl_ray_walk_many_fn *tl_ray_best_walk_many(void);
 tl_ray_packets_fn *tl_ray_best_packets(void);

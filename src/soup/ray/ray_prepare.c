@@ -60,16 +60,19 @@ bool tl_ray_prepare_unusual(tl_ray_job *job)
         return false;
     }
     double scale = tl_ray_power_scale(largest);
-    job->box_scale = (float)(1.0 / scale);
+    job->is_exact = false;
+    job->triangle = UINT32_MAX;
+    job->box_t.start = 0.0;
+    job->box_t.scale = (float)(1.0 / scale);
     // Half the spacing of denormals is 2^-150. In two factors, so that no operand is one of them.
-    job->box_margin = job->box_scale * 0x1p-75f * 0x1p-74f + FLT_MIN;
+    job->box_t.margin = job->box_t.scale * 0x1p-75f * 0x1p-74f + FLT_MIN;
     job->box_limit = tl_ray_box_limit(job, job->t);
     tl_f32x4 scaled = tl_f32x4_make((float)(direction[0] * scale), (float)(direction[1] * scale),
                                     (float)(direction[2] * scale), 0.0f);
     tl_f32x4 size = tl_f32x4_abs(scaled);
     tl_ray_prepare_filters(job, tl_f32x4_load(job->origin.lane), scaled, size, tl_f32x4_max_of_three(size));
-    job->has_intervals = job->reach < TL_RAY_INTERVALS_MAX && job->box_scale < BOX_SCALE_MAX &&
-                         job->reach < TL_RAY_T_MAX * job->box_scale;
+    job->has_intervals = job->reach < TL_RAY_INTERVALS_MAX && job->box_t.scale < BOX_SCALE_MAX &&
+                         job->reach < TL_RAY_T_MAX * job->box_t.scale;
     if (!(job->reach < TL_RAY_FILTER_MAX)) {
         pass_everything(job);
     }

@@ -63,8 +63,8 @@ static inline const uint32_t *tl_ray_axes(uint32_t largest_mask)
 
 // Slabs, shear and error of a direction whose largest component is within the bounds above; `size` are its absolute
 // values and `largest` their largest in all lanes. The division comes first, since the ray waits for it.
-static TL_ALWAYS_INLINE void tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 origin, tl_f32x4 direction, tl_f32x4 size,
-                                                    tl_f32x4 largest)
+static TL_ALWAYS_INLINE tl_f32x4 tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 origin, tl_f32x4 direction,
+                                                        tl_f32x4 size, tl_f32x4 largest)
 {
     tl_f32x4 smallest = tl_f32x4_all(TL_RAY_SMALLEST_INCLINE);
     tl_f32x4 inclined = tl_f32x4_if_less(size, smallest, smallest, direction);
@@ -74,8 +74,8 @@ static TL_ALWAYS_INLINE void tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 or
     tl_f32x4 below_max = tl_f32x4_sub(tl_f32x4_load(&job->soup->bounds_max.x), origin);
     job->outside = tl_f32x4_signs(tl_f32x4_or(above_min, below_max)) & 7u;
     tl_f32x4 reach = tl_f32x4_max_of_three(tl_f32x4_max(tl_f32x4_abs(above_min), tl_f32x4_abs(below_max)));
-    tl_f32x4 plane_error = tl_f32x4_mul_add(tl_f32x4_add(tl_f32x4_abs(origin), reach), tl_f32x4_all(TL_RAY_PLANE_ERROR),
-                                            tl_f32x4_all(FLT_MIN));
+    tl_f32x4 range = tl_f32x4_add(tl_f32x4_abs(origin), reach);
+    tl_f32x4 plane_error = tl_f32x4_mul_add(range, tl_f32x4_all(TL_RAY_PLANE_ERROR), tl_f32x4_all(FLT_MIN));
     tl_f32x4 pad = tl_f32x4_mul(plane_error, tl_f32x4_abs(inverse));
     tl_f32x4_store(job->plane_scale, inverse);
     tl_f32x4_store(job->near_base, tl_f32x4_mul_sub_from(origin, inverse, tl_f32x4_neg(pad)));
@@ -90,6 +90,7 @@ static TL_ALWAYS_INLINE void tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 or
     tl_f32x4_store(job->shear, tl_f32x4_mul(tl_f32x4_permute(direction, axes), tl_f32x4_all(job->per_depth)));
     job->reach = tl_f32x4_get_x(reach);
     job->corner_error = job->reach * TL_RAY_CORNER_ERROR + FLT_MIN;
+    return range;
 }
 
 /// The power of two that brings `largest` to [1, 2), or to [512, 1024) when it is large: its inverse is then a float.
@@ -119,23 +120,21 @@ static TL_ALWAYS_INLINE bool tl_ray_prepare_inline(tl_ray_job *job, const tl_vec
     tl_f32x4 direction = job->is_segment ? tl_f32x4_sub(target, origin) : target;
     tl_f32x4_store(job->origin.lane, origin);
     tl_f32x4_store(job->target.lane, target);
-    job->is_exact = false;
-    job->triangle = UINT32_MAX;
-    job->start = 0.0;
     tl_f32x4 size = tl_f32x4_abs(direction);
     tl_f32x4 largest = tl_f32x4_max_of_three(size);
+    tl_f32x4 range = tl_ray_prepare_filters(job, origin, direction, size, largest);
     // A NaN or infinity anywhere fails.
-    tl_f32x4 magnitude = tl_f32x4_add(tl_f32x4_abs(origin), size);
     bool usual = (tl_f32x4_ascending(tl_f32x4_all(TL_RAY_DIRECTION_MIN), largest, tl_f32x4_all(TL_RAY_DIRECTION_MAX)) &
-                  tl_f32x4_less_equal(magnitude, tl_f32x4_all(TL_RAY_FILTER_MAX))) == 15u;
+                  tl_f32x4_less_equal(tl_f32x4_add(range, size), tl_f32x4_all(TL_RAY_INTERVALS_MAX))) == 15u;
     if (!usual) {
         return tl_ray_prepare_unusual(job);
     }
-    job->box_scale = 1.0f;
-    job->box_margin = FLT_MIN;
+    static const tl_ray_box_t unscaled = { 0.0, 1.0f, FLT_MIN };
+    job->box_t = unscaled;
+    job->has_intervals = true;
+    job->is_exact = false;
+    job->triangle = UINT32_MAX;
     job->box_limit = job->t + FLT_MIN;
-    tl_ray_prepare_filters(job, origin, direction, size, largest);
-    job->has_intervals = job->reach < TL_RAY_INTERVALS_MAX;
     return job->t >= 0.0f;
 }
 

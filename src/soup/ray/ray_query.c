@@ -63,13 +63,29 @@ tl_ray_packets_fn *tl_ray_packets_for(tl_ray_isa isa)
 // AVX-512 always has AVX2.
 //
 // Where the target decides, kernels are named and not looked up, so that a linker can leave the others out.
+#if TL_CPU_LEVELS == 3
+static inline tl_ray_walk_fn *walk_of_features(uint32_t found, bool any)
+{
+    if ((found & TL_CPU_AVX2) != 0) {
+        bool wide = (any || (found & TL_CPU_AMD) != 0) && (found & TL_CPU_AVX512) != 0;
+        return wide ? tl_ray_walk_avx512 : tl_ray_walk_avx2;
+    }
+    return (found & TL_CPU_VEC128) != 0 ? tl_ray_walk_vec128 : tl_ray_walk_scalar;
+}
+
+// The first query's walk: it looks at the processor. A call in best_ray_walk would have every query save its registers.
+static bool walk_first(const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *target, float tmax, bool is_segment,
+                       const tl_ray_filter *filter, tl_ray_hit *hit_out)
+{
+    return walk_of_features(tl_cpu_look(), hit_out == NULL)(soup, origin, target, tmax, is_segment, filter, hit_out);
+}
+#endif
+
 static inline tl_ray_walk_fn *best_ray_walk(bool any)
 {
 #if TL_CPU_LEVELS == 3
-    if (tl_cpu_has_avx2()) {
-        return (any || tl_cpu_is_amd()) && tl_cpu_has_avx512() ? tl_ray_walk_avx512 : tl_ray_walk_avx2;
-    }
-    return tl_cpu_has_vec128() ? tl_ray_walk_vec128 : tl_ray_walk_scalar;
+    const uint32_t found = __atomic_load_n(&tl_cpu_found, __ATOMIC_RELAXED);
+    return found != 0 ? walk_of_features(found, any) : walk_first;
 #elif TL_CPU_LEVELS == 1
     (void)any;
     return tl_ray_walk_vec128;
@@ -82,7 +98,7 @@ static inline tl_ray_walk_fn *best_ray_walk(bool any)
 tl_ray_isa tl_ray_best_isa(void)
 {
     tl_ray_isa isa = TL_RAY_SCALAR;
-    while (tl_ray_walk_for(isa) != best_ray_walk(false)) {
+    while (tl_ray_walk_for(isa) != tl_ray_best_walk()) {
         isa = (tl_ray_isa)(isa + 1);
     }
     return isa;
@@ -90,13 +106,29 @@ tl_ray_isa tl_ray_best_isa(void)
 
 tl_ray_walk_fn *tl_ray_best_walk(void)
 {
+#if TL_CPU_LEVELS == 3
+    return walk_of_features(tl_cpu_features(), false);
+#else
     return best_ray_walk(false);
+#endif
 }
+
+#if TL_CPU_LEVELS == 3
+// What batches run: rays that do not wait for each other fill the lanes, on Intel's processors too.
+static tl_ray_isa widest_isa(void)
+{
+    int level = TL_CPU_LEVELS;
+    while (!tl_cpu_has_level(level)) {
+        level--;
+    }
+    return (tl_ray_isa)level;
+}
+#endif
 
 tl_ray_walk_many_fn *tl_ray_best_walk_many(void)
 {
 #if TL_CPU_LEVELS == 3
-    return tl_ray_walk_many_for(tl_ray_best_isa());
+    return tl_ray_walk_many_for(widest_isa());
 #elif TL_CPU_LEVELS == 1
     return tl_ray_walk_many_vec128;
 #else
@@ -107,11 +139,7 @@ tl_ray_walk_many_fn *tl_ray_best_walk_many(void)
 tl_ray_packets_fn *tl_ray_best_packets(void)
 {
 #if TL_CPU_LEVELS == 3
-    int level = TL_CPU_LEVELS;
-    while (!tl_cpu_has_level(level)) {
-        level--;
-    }
-    return tl_ray_packets_for((tl_ray_isa)level);
+    return tl_ray_packets_for(widest_isa());
 #elif TL_CPU_LEVELS == 1
     return tl_ray_packets_vec128;
 #else

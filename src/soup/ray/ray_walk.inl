@@ -375,7 +375,7 @@ static TL_NOINLINE walk_best settle_each(tl_ray_job *job, const walk_lanes *lane
         }
         decide(job, leaf, n, bit, (lanes->sure >> bit & 1u) != 0);
         best.limit = job->box_limit;
-        best.ahead = job->t * job->box_scale * (1.0f - T_MARGIN);
+        best.ahead = job->t * job->box_t.scale * (1.0f - T_MARGIN);
     }
     return best;
 }
@@ -522,7 +522,7 @@ static TL_ALWAYS_INLINE void begin_walk(const tl_ray_job *job, uint32_t node_siz
     ray->node_size = node_size;
     ray->nodes = (const char *)job->soup + job->soup->node_offset;
     ray->leaves = (const char *)job->soup + job->soup->leaf_offset;
-    walk_best none = { job->box_limit, job->t * job->box_scale * (1.0f - T_MARGIN), 0, 0 };
+    walk_best none = { job->box_limit, job->t * job->box_t.scale * (1.0f - T_MARGIN), 0, 0 };
     *best = none;
 }
 
