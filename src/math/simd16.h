@@ -322,7 +322,8 @@ static inline uint32_t tl_u32x16_equal(const uint32_t *sixteen, uint32_t value)
 #endif
 }
 
-/// Writes high[i] << 32 | low[i] for each lane i of the mask, in their order. The array holds sixteen.
+/// Writes high[i] << 32 | low[i] for each lane i of the mask, in their order. The array holds sixteen; those behind
+/// the lanes' become anything.
 static inline void tl_u32x16_compress_pairs(uint64_t *to, uint32_t mask, const uint32_t *high, const uint32_t *low)
 {
 #if TL_SIMD_LEVEL == 3
@@ -341,10 +342,14 @@ static inline void tl_u32x16_compress_pairs(uint64_t *to, uint32_t mask, const u
         _mm_storeu_si128((__m128i *)(void *)(to + 14), _mm512_extracti32x4_epi32(b, 3));
     }
 #else
-    for (; mask != 0; mask &= mask - 1) {
-        uint32_t lane = tl_lowest_bit(mask);
-        *to++ = (uint64_t)high[lane] << 32 | low[lane];
-    }
+    // Four at a time, there or not: how many there are is hard to predict, that it is not more is easy.
+    do {
+        for (uint32_t i = 0; i < 4; i++) {
+            uint32_t lane = tl_lowest_bit(mask | 0x8000u);
+            *to++ = (uint64_t)high[lane] << 32 | low[lane];
+            mask &= mask - 1;
+        }
+    } while (mask != 0);
 #endif
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Many rays in one call, with the bits of single calls: slices on the host's tasks; in a slice coherent rays in packets
-// (ray_walk_packet.inl), and the others, where the soup is larger than a core's own cache, several in flight at once
-// (ray_walk_interleaved.inl). In smaller soups that takes 0.9 to 1.1 of the time of single rays.
+// (ray_walk_packet.inl), and the others several in flight at once (ray_walk_interleaved.inl).
 //
 // Rejected: sorting the rays of a slice by a Morton code of origin and direction. It gains a sixth in a soup of ten
 // million triangles, nothing at three million, and costs a sixth at one million and half a ray's time below, even where
@@ -15,9 +14,6 @@
 #include "soup/ray/ray_job.h"
 
 enum { SLICE_RAYS = 1 << 12 };
-
-// Bytes. Measured: 1.0 times single calls at 1.9 MB, 1.2 to 1.3 at 3.7 MB.
-#define INTERLEAVED_SOUP_SIZE (2u << 20)
 
 // A packet numbers children by node * 16 + lane, in 32 bits.
 #define PACKET_MAX_NODES (1u << 28)
@@ -46,7 +42,7 @@ static tl_ray_batch part_of(const tl_ray_batch *all, uint32_t first, uint32_t en
 
 void tl_ray_batch_apart(const tl_ray_batch *batch, uint32_t first, uint32_t end)
 {
-    if (batch->soup->layout == TL_SOUP_FAST && batch->soup->blob.size >= INTERLEAVED_SOUP_SIZE && first < end) {
+    if (batch->soup->layout == TL_SOUP_FAST && end - first > 1) {
         tl_ray_batch part = part_of(batch, first, end);
         tl_ray_best_walk_many()(&part);
         return;

@@ -7,7 +7,7 @@
 // Rays that stand at nodes and rays that stand at leaves wait in a ring each. A round takes a group from one ring and
 // tests it without a branch in between, so that the processor overlaps the tests; only then does each ray find its own
 // way on. Where a single walk branches, up to three children, sorting is branchless. The bookkeeping takes a third more
-// instructions a ray, about what it saves in a soup that fits the caches.
+// instructions a ray; missed branches that no longer stall the others, and memory that is waited for together, save more.
 //
 // A ray in flight has a short stack; one that would overflow it is traced alone. Answers are those of the single walk,
 // as both decide by the same functions. Included after ray_walk.inl.
@@ -121,9 +121,18 @@ static inline walk_entry entry_of_lowest(const uint32_t *t_bits, const uint32_t 
 }
 
 // Puts all children on the stack, the nearest on top. Of up to three, missing ones are zero and sort to the top, where
-// they are not counted.
-static TL_ALWAYS_INLINE void push_all(walk_lane *lane, const uint32_t *children, const uint32_t *t_bits, uint32_t mask)
+// they are not counted. When any hit will do, the lowest lane comes on top, as in push_children.
+static TL_ALWAYS_INLINE void push_all(walk_lane *lane, const uint32_t *children, const uint32_t *t_bits, uint32_t mask,
+                                      bool any)
 {
+    if (any) {
+        uint32_t rest = mask & (mask - 1u), count = tl_bit_count(rest);
+        walk_entry *base = lane->stack + lane->stack_count;
+        tl_u32x16_compress_pairs(base, rest, t_bits, children);
+        base[count] = entry_of_lowest(t_bits, children, mask);
+        lane->stack_count += count + (uint32_t)(mask != 0);
+        return;
+    }
     uint32_t second = mask & (mask - 1u), third = second & (second - 1u);
     if ((third & (third - 1u)) != 0) {
         (void)push_sorted(t_bits, children, mask, lane->stack, &lane->stack_count);
@@ -146,7 +155,7 @@ static TL_ALWAYS_INLINE const tl_soup_node *lane_node(const walk_lane *lane)
     return (const tl_soup_node *)(const void *)(lane->ray.nodes + lane->child * sizeof(tl_soup_node));
 }
 
-static TL_ALWAYS_INLINE void visit_nodes(lane_walk *w, uint32_t count)
+static TL_ALWAYS_INLINE void visit_nodes(lane_walk *w, uint32_t count, bool any)
 {
     _Alignas(64) uint32_t t_bits[LANE_GROUP][TL_SOUP_WIDTH];
     uint32_t masks[LANE_GROUP], at[LANE_GROUP];
@@ -156,7 +165,7 @@ static TL_ALWAYS_INLINE void visit_nodes(lane_walk *w, uint32_t count)
         masks[i] = enter_children(&lane->job, &lane->ray, lane_node(lane), lane->best.limit, t_bits[i]);
     }
     for (uint32_t i = 0; i < count; i++) {
-        push_all(&w->lanes[at[i]], lane_node(&w->lanes[at[i]])->child, t_bits[i], masks[i]);
+        push_all(&w->lanes[at[i]], lane_node(&w->lanes[at[i]])->child, t_bits[i], masks[i], any);
         advance_lane(w, at[i], false);
     }
 }
@@ -183,11 +192,11 @@ static TL_ALWAYS_INLINE void walk_lanes_to_end(lane_walk *w, bool any)
     for (;;) {
         uint32_t at_nodes = w->nodes.end - w->nodes.first, at_leaves = w->leaves.end - w->leaves.first;
         if (at_nodes >= LANE_GROUP) {
-            visit_nodes(w, LANE_GROUP);
+            visit_nodes(w, LANE_GROUP, any);
         } else if (at_leaves >= LANE_GROUP) {
             visit_leaves(w, LANE_GROUP, any);
         } else if (at_nodes > 0) {
-            visit_nodes(w, at_nodes);
+            visit_nodes(w, at_nodes, any);
         } else if (at_leaves > 0) {
             visit_leaves(w, at_leaves, any);
         } else {
