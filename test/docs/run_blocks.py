@@ -12,7 +12,7 @@ Each page gets one empty folder; its blocks run there in order. By the language 
   sh        commands without their output; each line must succeed. `make` stands for `make -n` at the top of the
             sources: the targets must exist. `cc` stands for the compiler and the flags of the build.
   c         a whole program (it has a main) is compiled, linked and run, and must return 0; a fragment is compiled
-            inside of a function, with warnings as errors.
+            inside of a function, with warnings as errors. With a main in the source around it, it is a program too.
   cmake     is configured and built as the CMakeLists.txt of a project of its own.
   text, json   are not run. No other language is allowed.
 
@@ -196,13 +196,16 @@ class Page:
 
     def run_c(self, block):
         self.count += 1
-        if not re.search(r"\bint main\(", block.text()):
-            result = self.compile(self.fragment_source(block), "-fsyntax-only")
+        source = block.text()
+        if not re.search(r"\bint main\(", source):
+            source = self.fragment_source(block)
+        if not re.search(r"\bint main\(", source):
+            result = self.compile(source, "-fsyntax-only")
             if result.returncode:
                 self.fault(block, "the fragment does not compile", result.stderr)
             return
         program = os.path.join(self.folder, "block")
-        result = self.compile(block.text(), self.options.library, "-lm", "-o", program)
+        result = self.compile(source, self.options.library, "-lm", "-o", program)
         if result.returncode:
             self.fault(block, "the program does not compile", result.stderr)
             return
