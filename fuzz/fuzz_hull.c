@@ -31,6 +31,38 @@ static void use(const tl_hull *hull, tl_vec3 direction)
     tl_hull_contains(hull, direction);
 }
 
+static void require_farthest(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
+{
+    uint32_t best = tl_hull_support(hull, direction, hint);
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        int order = tl_compare_along(direction, tl_hull_vertices(hull)[v], tl_hull_vertices(hull)[best]);
+        require(order < 0 || (order == 0 && v >= best));
+    }
+}
+
+// Merged and welded: nothing farther outside than allowed, and the bytes are what the check derives.
+static void merge(const tl_vec3 *points, uint32_t count, float distance, float weld)
+{
+    tl_hull_def def = tl_default_hull_def();
+    def.flatness = 0.0f;
+    def.merge_distance = distance;
+    def.weld_distance = weld;
+    tl_hull *hull;
+    tl_hull_report report;
+    if (tl_hull_bake(points, count, &def, &hull, &report) != TL_OK) {
+        return;
+    }
+    require(report.max_outside <= ((double)distance + (double)weld) * 1.000001);
+    require(tl_hull_check(hull, hull->blob.size, NULL) == TL_OK);
+    tl_result proof = tl_hull_validate(hull, points, count, NULL);
+    require(proof == TL_OK || (report.corners_left_out > 0 && proof == TL_ERR_RANGE));
+    for (uint32_t i = 0; i < count; i++) {
+        use(hull, points[i]);
+        require_farthest(hull, points[i], i);
+    }
+    tl_blob_free(hull);
+}
+
 static void transform(const tl_hull *hull, tl_vec3 scale, tl_vec3 turn, tl_vec3 shift)
 {
     tl_transform pose = { { turn.x, turn.y, turn.z, 1.0f }, shift };
@@ -56,11 +88,7 @@ static void build(const tl_vec3 *points, uint32_t count, uint32_t limit)
     require(proof == TL_OK || (limit != 0 && proof == TL_ERR_RANGE));
     for (uint32_t i = 0; i < count; i++) {
         use(hull, points[i]);
-        uint32_t best = tl_hull_support(hull, points[i], i);
-        for (uint32_t v = 0; v < hull->vertex_count; v++) {
-            int order = tl_compare_along(points[i], tl_hull_vertices(hull)[v], tl_hull_vertices(hull)[best]);
-            require(order < 0 || (order == 0 && v >= best));
-        }
+        require_farthest(hull, points[i], i);
     }
     transform(hull, points[0], points[1], points[2]);
     tl_blob_free(hull);
@@ -88,6 +116,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         }
     }
     build(points, count, data[1] % 4 == 0 ? 4u + data[1] / 4u : 0);
+    if (data[1] % 4 == 1) {
+        merge(points, count, 0.001f * (float)(data[1] / 4u) * (float)(data[1] / 4u), data[0] % 2 != 0 ? 0.3f : 0.0f);
+    }
 
     void *copy = aligned_alloc(64, (size + 63) / 64 * 64);
     memcpy(copy, data, size);

@@ -23,6 +23,11 @@ static json_t *hull_json(const tl_hull *hull, uint32_t points, const tl_hull_rep
                                tl_json_bounds(hull->bounds), "thickened", json_boolean(report->thickened));
     if (report->points_left_out > 0) {
         json_object_set_new(object, "points_left_out", json_integer((json_int_t)report->points_left_out));
+    }
+    if (report->corners_left_out > 0) {
+        json_object_set_new(object, "corners_left_out", json_integer((json_int_t)report->corners_left_out));
+    }
+    if (report->points_left_out > 0 || report->corners_left_out > 0) {
         json_object_set_new(object, "max_outside", tl_json_double(report->max_outside));
     }
     return object;
@@ -43,6 +48,10 @@ static void print_hull(const tl_hull *hull, uint32_t points, const tl_hull_repor
     }
     if (report->points_left_out > 0) {
         printf("%u points lie outside, by %.9g m at most: --max-vertices was reached\n", report->points_left_out,
+               report->max_outside);
+    }
+    if (report->corners_left_out > 0) {
+        printf("%u corners were left out; no point lies more than %.9g m outside\n", report->corners_left_out,
                report->max_outside);
     }
 }
@@ -208,6 +217,7 @@ const tl_command tl_hull_command = {
     "printf '%s\\n' '0 0 0' '2 0 0' '0 2 0' '0 0 2' > points.txt\n"
     "talus hull points.txt -o hull.talus --json\n"
     "printf '%s\\n' 4 '0 0 0' '1 0 0' '0 1 0' '0 0 1' 4 '0 0 0' '2 0 0' '0 2 0' '0 0 2' > clouds.txt\n"
-    "talus hull clouds.txt --all",
+    "talus hull clouds.txt --all\n"
+    "talus hull courtyard.obj --merge-distance 0.05",
     run_hull,
 };

@@ -25,6 +25,10 @@ void tl_hull_options(tl_hull_settings *settings, tl_option table[TL_HULL_OPTIONS
           0, 0, 0, 0 },
         { "thickness", 0, TL_OPTION_FLOAT, &settings->thickness, "M",
           "metres: make flat input, a line or a single point this thick; 0: refuse it", NULL, 0, 1e6f, 0, 0 },
+        { "weld-distance", 0, TL_OPTION_FLOAT, &settings->weld_distance, "M",
+          "metres: leave out corners this close to another; 0: only equal ones", NULL, 0, 1e6f, 0, 0 },
+        { "merge-distance", 0, TL_OPTION_FLOAT, &settings->merge_distance, "M",
+          "metres: faces this flat are one; 1e-5 of the size undoes rounding; 0: exactly flat", NULL, 0, 1e6f, 0, 0 },
         { "up", 0, TL_OPTION_CHOICE, &settings->level.up, NULL, "a mesh file's axis that points up", axes, 0, 0, 0, 0 },
         { "scale", 0, TL_OPTION_FLOAT, &settings->level.scale, "S", "metres per unit of the file", NULL, 1e-9f, 1e9f, 0,
           0 },
@@ -51,6 +55,8 @@ tl_result tl_hull_bake_cloud(tl_cli *cli, const tl_hull_settings *settings, tl_p
     tl_hull_def def = tl_default_hull_def();
     def.max_vertices = settings->max_vertices;
     def.thickness = settings->thickness;
+    def.weld_distance = settings->weld_distance;
+    def.merge_distance = settings->merge_distance;
     def.host = cli->host;
     return tl_hull_bake(cloud.points, cloud.count, &def, hull_out, report_out);
 }

@@ -401,6 +401,8 @@ namespace Talus.Interop
         public uint max_vertices;
         public float thickness;
         public float flatness;
+        public float weld_distance;
+        public float merge_distance;
         public tl_host host;
         public uint cookie;
     }
@@ -413,6 +415,7 @@ namespace Talus.Interop
         public byte thickened;
         public uint points_left_out;
         public double max_outside;
+        public uint corners_left_out;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -482,6 +485,7 @@ namespace Talus.Interop
         public ulong half_edges;
         public ulong faces;
         public ulong planes;
+        public double merge_distance;
     }
 
     [StructLayout(LayoutKind.Sequential)]

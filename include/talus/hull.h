@@ -4,7 +4,8 @@
 //
 // The bake decides every side of every plane exactly, so the hull is the true convex hull of the float points at any
 // scale and at any distance from the origin. Faces are polygons: triangles that lie in exactly one plane are merged,
-// and only strict corners stay vertices.
+// and only strict corners stay vertices. With tl_hull_def.merge_distance those in nearly one plane are merged too: the
+// vertices are still the corners of an exact hull, no face's plane cuts it, and a bound says what lies outside.
 // Source: Barber, Dobkin, Huhdanpaa, The Quickhull Algorithm for Convex Hulls, ACM TOMS 22, 1996.
 
 #ifndef TALUS_HULL_H
@@ -41,6 +42,13 @@ typedef struct tl_hull_def {
     /// >= 0. Input counts as flat when its thickness is at most this many roundings (half ulps) of its largest
     /// coordinate: 8 covers a plane whose points were rounded to floats. 0: only what is exactly flat.
     float flatness;
+    /// Metres, >= 0. Corners that lie within this of an earlier one are left out. 0: only equal points are one.
+    float weld_distance;
+    /// Metres, >= 0. 0: faces are exactly flat, so a turned box, whose corners were rounded, has twelve. Else nearly
+    /// coplanar faces are one: those whose corners all lie within this behind the plane of one of them, the largest
+    /// first, and that face no more than 45 degrees away from it; and corners inside such a face, or in the middle of a
+    /// nearly straight edge, are left out. 1e-5 of the size undoes rounding; a scanned body takes its noise.
+    float merge_distance;
     tl_host host;    ///< allocator and progress
     uint32_t cookie; ///< private: set by tl_default_hull_def
 } tl_hull_def;
@@ -51,7 +59,10 @@ typedef struct tl_hull_report {
     uint32_t triangle_count;  ///< of the hull before coplanar ones were merged
     bool thickened;           ///< the input had no volume, and was given the def's thickness
     uint32_t points_left_out; ///< points outside, because max_vertices was reached
-    double max_outside;       ///< metres, to double rounding; how far the farthest of these is from the hull, else 0
+    /// Metres, to double rounding: no point of the input lies farther outside of the hull. 0 where none was left out;
+    /// at most weld_distance + merge_distance, if max_vertices is 0.
+    double max_outside;
+    uint32_t corners_left_out; ///< of the exact hull, by weld_distance and merge_distance
 } tl_hull_report;
 
 /// One directed edge of a face. The face lies to its left, seen from outside; the half-edges of a face are consecutive.
@@ -118,9 +129,10 @@ typedef struct tl_hull {
     uint64_t half_edges;      ///< tl_hull_half_edge [2 E]
     uint64_t faces;           ///< tl_hull_face [F]
     uint64_t planes;          ///< tl_hull_plane_block [(F + 7) / 8]
+    double merge_distance;    ///< metres; a face's corners lie within this of its plane. 0: exactly in it
 } tl_hull;
 
-/// No limit of vertices, no thickness, flatness 8, malloc.
+/// No limit of vertices, no thickness, flatness 8, nothing welded or merged but what is exactly equal, malloc.
 TL_API tl_hull_def tl_default_hull_def(void);
 
 /// Bakes the convex hull of `count` points. Duplicates and inner points are allowed and cost little.
@@ -155,6 +167,8 @@ TL_API tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge_mesh *mesh
 /// any bytes; `bytes` must be 16-byte aligned. Planes, mass and inertia are computed again, and must be the same bits.
 /// O(size). That the points of the input lie inside, and that the surface
 /// does not wind around twice, which no bake does, takes tl_hull_validate.
+/// Of a hull with a merge_distance, the exact hull of its vertices is built again, in memory of malloc and in the time
+/// of a bake, and the rest derived from it and compared; TL_ERR_MEMORY.
 /// A failure names the head's field, or the half-edge, face, vertex or cell, in `report_out`, which may be NULL.
 TL_API tl_result tl_hull_check(const void *bytes, uint64_t size, tl_report *report_out);
 
@@ -162,15 +176,16 @@ TL_API tl_result tl_hull_check(const void *bytes, uint64_t size, tl_report *repo
 typedef struct tl_hull_validation {
     tl_report base;     ///< names the first face that is not flat or not convex, else the first point outside
     bool euler;         ///< V - E + F = 2
-    bool flat_faces;    ///< each face's vertices lie exactly in one plane
-    bool convex;        ///< every edge is strictly convex, exactly decided; so the whole surface is
+    bool flat_faces;    ///< each face's vertices lie exactly in one plane, or within the hull's merge_distance
+    bool convex;        ///< every edge of the exact hull is strictly convex, exactly decided; so the whole surface is
     bool contains;      ///< no point lies outside any face, exactly decided
     double max_outside; ///< metres; largest distance of a point in front of a face's plane, 0 when contained
 } tl_hull_validation;
 
 /// Proves a checked hull's geometry exactly, and that it contains `count` points (which may be 0).
 /// TL_OK when all holds, else TL_ERR_CORRUPT (topology, convexity) or TL_ERR_RANGE (a point outside).
-/// O((V + count) * F): meant for tests and tools. `validation_out` may be NULL.
+/// O((V + count) * F): meant for tests and tools. `validation_out` may be NULL. A hull with a merge_distance is judged
+/// by the exact hull of its vertices, in memory of malloc; TL_ERR_MEMORY.
 TL_API tl_result tl_hull_validate(const tl_hull *hull, const tl_vec3 *points, uint32_t count,
                                   tl_hull_validation *validation_out);
 
@@ -199,7 +214,7 @@ TL_API bool tl_hull_cast_ray(const tl_hull *hull, tl_vec3 origin, tl_vec3 direct
 TL_API bool tl_hull_clip_ray(const tl_hull *hull, const double origin[3], const double direction[3], double max_t,
                              double *t_out, uint32_t *face_out);
 
-/// Whether a point lies in the closed hull, exactly decided. O(F).
+/// Whether a point lies in the closed hull, exactly decided; where faces are merged, behind all of their planes. O(F).
 TL_API bool tl_hull_contains(const tl_hull *hull, tl_vec3 point);
 
 /// V positions.

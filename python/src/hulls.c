@@ -11,14 +11,16 @@ static const tl_hull *hull_of(PyObject *capsule)
     return binding_blob_of(capsule, BINDING_HULL);
 }
 
-// hull_bake(points, max_vertices, thickness, flatness, progress) -> (capsule, points left out, metres outside)
+// hull_bake(points, max_vertices, thickness, flatness, weld distance, merge distance, progress)
+// -> (capsule, points left out, metres outside)
 static PyObject *hull_bake(PyObject *self, PyObject *args)
 {
     (void)self;
     Py_buffer points;
     PyObject *progress;
     tl_hull_def def = tl_default_hull_def();
-    if (!PyArg_ParseTuple(args, "y*IffO", &points, &def.max_vertices, &def.thickness, &def.flatness, &progress)) {
+    if (!PyArg_ParseTuple(args, "y*IffffO", &points, &def.max_vertices, &def.thickness, &def.flatness,
+                          &def.weld_distance, &def.merge_distance, &progress)) {
         return NULL;
     }
     Py_ssize_t count = binding_count(&points, sizeof(tl_vec3), "points");

@@ -29,6 +29,8 @@ class Hull:
         max_vertices: int = 0,
         thickness: float = 0.0,
         flatness: float = 8.0,
+        weld_distance: float = 0.0,
+        merge_distance: float = 0.0,
         progress: Progress | None = None,
     ) -> None:
         """Bake the hull of (N, 3) points in metres.
@@ -37,13 +39,21 @@ class Hull:
             max_vertices: 0 is no limit; else at least 4. The farthest points come first, so those that matter are kept.
             thickness: metres; input without volume is made this thick instead of being refused.
             flatness: input counts as flat when it is thinner than this many roundings of its largest coordinate.
+            weld_distance: metres; corners this close to an earlier one are left out.
+            merge_distance: metres; faces whose corners lie within this of one plane are one. 0: exactly flat ones.
             progress: called with stage, steps done and steps in all; returning False cancels.
 
         Raises:
             talus.Error: no points, points without volume (TL_ERR_COPLANAR ...), or a NaN.
         """
         self._hull, self._left_out, self._max_outside = _talus.hull_bake(
-            as_points(points, "points"), int(max_vertices), float(thickness), float(flatness), progress
+            as_points(points, "points"),
+            int(max_vertices),
+            float(thickness),
+            float(flatness),
+            float(weld_distance),
+            float(merge_distance),
+            progress,
         )
         self._read()
 
@@ -117,7 +127,7 @@ class Hull:
 
     @property
     def max_outside(self) -> float:
-        """Metres by which the farthest of them does."""
+        """Metres: no point lies farther outside of the hull."""
         return float(self._max_outside)
 
     def contains(self, points: ArrayLike) -> npt.NDArray[np.bool_]:

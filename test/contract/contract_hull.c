@@ -38,6 +38,8 @@ static tl_result hull_bake(contract_run *run)
         def.max_vertices = run->variant == 0 ? 3 : 0;
         def.thickness = run->variant == 1 ? -1.0f : 0.0f;
         def.flatness = run->variant == 2 ? NAN : 8.0f;
+        def.weld_distance = run->variant == 3 ? -1.0f : 0.0f;
+        def.merge_distance = run->variant == 4 ? INFINITY : 0.0f;
     }
     def.host = *run->host;
     tl_hull *hull = NULL;
@@ -122,7 +124,8 @@ static tl_result hull_validate(contract_run *run)
     return result;
 }
 
-static const char *const HULL_FIELDS[] = { "max_vertices", "thickness", "flatness", NULL };
+static const char *const HULL_FIELDS[] = { "max_vertices",  "thickness",      "flatness",
+                                           "weld_distance", "merge_distance", NULL };
 
 enum {
     HULL_CASES = CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_DEF) | CONTRACT_BIT(NULL_INPUT) |

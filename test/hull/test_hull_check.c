@@ -125,7 +125,8 @@ static tl_hull *bake_pyramid(const tl_hull *right, float height, float bottom, t
     tl_hull_face faces[32];
     memcpy(half_edges, tl_hull_half_edges(right), right->half_edge_count * sizeof *half_edges);
     memcpy(faces, tl_hull_faces(right), right->face_count * sizeof *faces);
-    tl_hull_polygons polygons = { 9, right->face_count, right->half_edge_count, numbers, half_edges, faces };
+    tl_hull_polygons polygons = { 9,  right->face_count, right->half_edge_count, numbers, half_edges, faces, NULL, NULL,
+                                  0.0 };
     tl_hull *hull;
     TEST_RESULT(tl_hull_encode(&polygons, corners, 1, arena, NULL, &hull), TL_OK);
     return hull;

@@ -318,6 +318,8 @@ pub struct tl_hull_def {
     pub max_vertices: u32,
     pub thickness: f32,
     pub flatness: f32,
+    pub weld_distance: f32,
+    pub merge_distance: f32,
     pub host: tl_host,
     pub cookie: u32,
 }
@@ -329,6 +331,7 @@ pub struct tl_hull_report {
     pub thickened: bool,
     pub points_left_out: u32,
     pub max_outside: f64,
+    pub corners_left_out: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -392,6 +395,7 @@ pub struct tl_hull {
     pub half_edges: u64,
     pub faces: u64,
     pub planes: u64,
+    pub merge_distance: f64,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -3993,18 +3997,21 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_halfedge_mesh, free_face), 72);
         assert_eq!(core::mem::offset_of!(tl_halfedge_mesh, stamp), 76);
         assert_eq!(core::mem::offset_of!(tl_halfedge_mesh, allocator), 80);
-        assert_eq!(core::mem::size_of::<tl_hull_def>(), 48);
+        assert_eq!(core::mem::size_of::<tl_hull_def>(), 56);
         assert_eq!(core::mem::offset_of!(tl_hull_def, max_vertices), 0);
         assert_eq!(core::mem::offset_of!(tl_hull_def, thickness), 4);
         assert_eq!(core::mem::offset_of!(tl_hull_def, flatness), 8);
-        assert_eq!(core::mem::offset_of!(tl_hull_def, host), 16);
-        assert_eq!(core::mem::offset_of!(tl_hull_def, cookie), 40);
-        assert_eq!(core::mem::size_of::<tl_hull_report>(), 72);
+        assert_eq!(core::mem::offset_of!(tl_hull_def, weld_distance), 12);
+        assert_eq!(core::mem::offset_of!(tl_hull_def, merge_distance), 16);
+        assert_eq!(core::mem::offset_of!(tl_hull_def, host), 24);
+        assert_eq!(core::mem::offset_of!(tl_hull_def, cookie), 48);
+        assert_eq!(core::mem::size_of::<tl_hull_report>(), 80);
         assert_eq!(core::mem::offset_of!(tl_hull_report, base), 0);
         assert_eq!(core::mem::offset_of!(tl_hull_report, triangle_count), 48);
         assert_eq!(core::mem::offset_of!(tl_hull_report, thickened), 52);
         assert_eq!(core::mem::offset_of!(tl_hull_report, points_left_out), 56);
         assert_eq!(core::mem::offset_of!(tl_hull_report, max_outside), 64);
+        assert_eq!(core::mem::offset_of!(tl_hull_report, corners_left_out), 72);
         assert_eq!(core::mem::size_of::<tl_hull_half_edge>(), 16);
         assert_eq!(core::mem::offset_of!(tl_hull_half_edge, origin), 0);
         assert_eq!(core::mem::offset_of!(tl_hull_half_edge, twin), 4);
@@ -4026,7 +4033,7 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_hull_mass, area), 8);
         assert_eq!(core::mem::offset_of!(tl_hull_mass, center), 16);
         assert_eq!(core::mem::offset_of!(tl_hull_mass, inertia), 40);
-        assert_eq!(core::mem::size_of::<tl_hull>(), 240);
+        assert_eq!(core::mem::size_of::<tl_hull>(), 248);
         assert_eq!(core::mem::offset_of!(tl_hull, blob), 0);
         assert_eq!(core::mem::offset_of!(tl_hull, vertex_count), 16);
         assert_eq!(core::mem::offset_of!(tl_hull, scan_count), 20);
@@ -4050,6 +4057,7 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_hull, half_edges), 216);
         assert_eq!(core::mem::offset_of!(tl_hull, faces), 224);
         assert_eq!(core::mem::offset_of!(tl_hull, planes), 232);
+        assert_eq!(core::mem::offset_of!(tl_hull, merge_distance), 240);
         assert_eq!(core::mem::size_of::<tl_hull_validation>(), 64);
         assert_eq!(core::mem::offset_of!(tl_hull_validation, base), 0);
         assert_eq!(core::mem::offset_of!(tl_hull_validation, euler), 48);

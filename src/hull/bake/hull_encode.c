@@ -19,23 +19,36 @@
 // Vertices whose blocks are written between two calls of progress, at some 300 ns each.
 enum { VERTICES_PER_CALL = 1 << 14 };
 
-static tl_result count_blocks(const tl_hull_polygons *polygons, tl_stage *stage, uint32_t *degrees,
-                              uint32_t *blocks_out)
+// What an encoding works with.
+typedef struct hull_encoder {
+    const tl_hull_polygons *polygons, *exact; // exact: what a climb goes along, so that it ends at a maximum
+    const tl_vec3 *points;
+    uint32_t copies;
+    uint32_t *degrees, *edges; // [vertex_count] of the exact polygons: at each vertex, and one that starts there
+    tl_arena *arena;
+    tl_stage *stage;
+} hull_encoder;
+
+static tl_result count_blocks(const hull_encoder *e, uint32_t *blocks_out)
 {
+    const tl_hull_polygons *polygons = e->exact;
     *blocks_out = 0;
-    for (uint32_t h = 0; h < polygons->half_edge_count; h++) {
-        TL_TRY(tl_stage_tick(stage, h));
-        degrees[polygons->half_edges[h].origin]++;
+    for (uint32_t h = polygons->half_edge_count; h-- > 0;) {
+        TL_TRY(tl_stage_tick(e->stage, h));
+        const uint32_t v = polygons->half_edges[h].origin;
+        e->degrees[v]++;
+        e->edges[v] = h; // the first stays
     }
     for (uint32_t v = 0; v < polygons->vertex_count; v++) {
-        *blocks_out += tl_hull_blocks_of(degrees[v]);
+        *blocks_out += tl_hull_blocks_of(e->degrees[v]);
     }
     return TL_OK;
 }
 
-static tl_result write_topology(tl_hull *hull, const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies,
-                                tl_stage *stage)
+static tl_result write_topology(tl_hull *hull, const hull_encoder *e)
 {
+    const tl_hull_polygons *polygons = e->polygons;
+    tl_stage *stage = e->stage;
     char *bytes = (char *)hull;
     tl_vec3 *vertices = (tl_vec3 *)(void *)(bytes + hull->vertices);
     uint32_t *sources = (uint32_t *)(void *)(bytes + hull->sources);
@@ -45,8 +58,8 @@ static tl_result write_topology(tl_hull *hull, const tl_hull_polygons *polygons,
     hull->bounds = tl_aabb_empty();
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
         TL_TRY(tl_stage_tick(stage, v));
-        vertices[v] = points[polygons->points[v]];
-        sources[v] = polygons->points[v] / copies;
+        vertices[v] = e->points[polygons->points[v]];
+        sources[v] = polygons->points[v] / e->copies;
         vertex_edges[v] = TL_NONE;
         hull->bounds = tl_aabb_add_point(hull->bounds, vertices[v]);
     }
@@ -79,15 +92,21 @@ static tl_vec3d normal_of(tl_vec3 a, tl_vec3 b, tl_vec3 c)
                          tl_area2d(a.x, a.y, b.x, b.y, c.x, c.y));
 }
 
-// The fan triangle with the largest area spans the plane best.
-tl_hull_plane tl_hull_fit_plane(const tl_hull *hull, tl_hull_face face)
+static tl_vec3 face_corner(const tl_vec3 *vertices, const tl_hull_half_edge *half_edges, uint32_t half_edge)
 {
-    tl_vec3 a = tl_hull_corner(hull, face.first);
+    return vertices[half_edges[half_edge].origin];
+}
+
+// The fan triangle with the largest area spans the plane best.
+tl_hull_plane tl_hull_fit_plane(const tl_vec3 *vertices, const tl_hull_half_edge *half_edges, tl_hull_face face)
+{
+    tl_vec3 a = face_corner(vertices, half_edges, face.first);
     uint32_t best = 1;
     double best_area = 0.0;
     for (uint32_t k = 1; k + 1 < face.count && face.count > 3; k++) {
-        tl_vec3d u = tl_vec3d_sub(tl_vec3d_from(tl_hull_corner(hull, face.first + k)), tl_vec3d_from(a));
-        tl_vec3d v = tl_vec3d_sub(tl_vec3d_from(tl_hull_corner(hull, face.first + k + 1)), tl_vec3d_from(a));
+        tl_vec3d u = tl_vec3d_sub(tl_vec3d_from(face_corner(vertices, half_edges, face.first + k)), tl_vec3d_from(a));
+        tl_vec3d v =
+            tl_vec3d_sub(tl_vec3d_from(face_corner(vertices, half_edges, face.first + k + 1)), tl_vec3d_from(a));
         tl_vec3d normal = tl_vec3d_cross(u, v);
         double area = tl_vec3d_dot(normal, normal);
         if (area > best_area) {
@@ -95,29 +114,33 @@ tl_hull_plane tl_hull_fit_plane(const tl_hull *hull, tl_hull_face face)
             best = k;
         }
     }
-    tl_vec3 b = tl_hull_corner(hull, face.first + best), c = tl_hull_corner(hull, face.first + best + 1);
+    tl_vec3 b = face_corner(vertices, half_edges, face.first + best);
+    tl_vec3 c = face_corner(vertices, half_edges, face.first + best + 1);
     tl_vec3d n = normal_of(a, b, c);
     double length = tl_vec3d_length(n);
     tl_hull_plane plane = { { n.x / length, n.y / length, n.z / length }, -(double)INFINITY };
     for (uint32_t k = 0; k < face.count; k++) {
-        tl_vec3 p = tl_hull_corner(hull, face.first + k);
+        tl_vec3 p = face_corner(vertices, half_edges, face.first + k);
         double offset = plane.normal[0] * (double)p.x + plane.normal[1] * (double)p.y + plane.normal[2] * (double)p.z;
         plane.offset = offset > plane.offset ? offset : plane.offset;
     }
     return plane;
 }
 
-static tl_result write_planes(tl_hull *hull, tl_stage *stage)
+// A merged face has the plane of the exact one that it grew from, which the whole hull lies behind.
+static tl_result write_planes(tl_hull *hull, const hull_encoder *e)
 {
     tl_hull_plane_block *blocks = (tl_hull_plane_block *)(void *)((char *)hull + hull->planes);
+    const uint32_t *plane_faces = e->polygons->plane_faces;
     for (uint32_t f = 0; f < hull->face_count; f++) {
-        tl_hull_plane plane = tl_hull_fit_plane(hull, tl_hull_faces(hull)[f]);
+        const tl_hull_face face = e->exact->faces[plane_faces != NULL ? plane_faces[f] : f];
+        tl_hull_plane plane = tl_hull_fit_plane(tl_hull_vertices(hull), e->exact->half_edges, face);
         tl_hull_plane_block *block = &blocks[f / 8];
         block->x[f % 8] = plane.normal[0];
         block->y[f % 8] = plane.normal[1];
         block->z[f % 8] = plane.normal[2];
         block->offset[f % 8] = plane.offset;
-        TL_TRY(tl_stage_tick(stage, f));
+        TL_TRY(tl_stage_tick(e->stage, f));
     }
     return TL_OK;
 }
@@ -134,15 +157,16 @@ static void write_scan(tl_hull *hull)
     hull->scan_error = tl_hull_scan_error(hull);
 }
 
-static tl_result write_blocks(tl_hull *hull, const uint32_t *degrees, tl_stage *stage)
+static tl_result write_blocks(tl_hull *hull, const hull_encoder *e)
 {
     tl_climb_block *blocks = (tl_climb_block *)(uintptr_t)tl_hull_blocks(hull);
     uint32_t behind = hull->vertex_count;
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
-        uint32_t edge = tl_hull_vertex_edges(hull)[v], left = degrees[v], at = v;
+        uint32_t edge = e->edges[v], left = e->degrees[v], at = v;
         for (;;) {
             bool more = left > TL_CLIMB_LANES;
-            tl_hull_fill_block(hull, v, &edge, more ? TL_CLIMB_LANES - 1 : left, &blocks[at]);
+            tl_hull_fill_block(tl_hull_vertices(hull), e->exact->half_edges, &edge, more ? TL_CLIMB_LANES - 1 : left,
+                               &blocks[at]);
             if (!more) {
                 break;
             }
@@ -150,32 +174,35 @@ static tl_result write_blocks(tl_hull *hull, const uint32_t *degrees, tl_stage *
             blocks[at].link[TL_CLIMB_LANES - 1] = TL_CLIMB_MORE | behind;
             at = behind++;
         }
-        TL_TRY(v % VERTICES_PER_CALL == 0 ? tl_stage_add(stage, 0) : TL_OK);
+        TL_TRY(v % VERTICES_PER_CALL == 0 ? tl_stage_add(e->stage, 0) : TL_OK);
     }
     return TL_OK;
 }
 
-static tl_result write_hull(tl_hull *hull, const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies,
-                            const uint32_t *degrees, tl_arena *arena, tl_stage *stage)
+static tl_result write_hull(tl_hull *hull, const hull_encoder *e)
 {
-    TL_TRY(tl_stage_zero(stage, hull + 1, hull->blob.size - sizeof *hull));
-    TL_TRY(write_topology(hull, polygons, points, copies, stage));
-    TL_TRY(write_planes(hull, stage));
-    TL_TRY(tl_hull_measure_mass(hull, stage, &hull->mass));
+    TL_TRY(tl_stage_zero(e->stage, hull + 1, hull->blob.size - sizeof *hull));
+    TL_TRY(write_topology(hull, e));
+    TL_TRY(write_planes(hull, e));
+    TL_TRY(tl_hull_measure_mass(hull, e->stage, &hull->mass));
     hull->table_scale = tl_hull_table_scale(hull);
-    TL_TRY(write_blocks(hull, degrees, stage));
+    TL_TRY(write_blocks(hull, e));
     if (hull->scan_count > 0) {
         write_scan(hull);
         return TL_OK;
     }
-    return tl_hull_fill_table(hull, arena, stage);
+    return tl_hull_fill_table(hull, e->arena, e->stage);
 }
 
 tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
                          tl_stage *stage, tl_hull **hull_out)
 {
-    uint32_t *degrees = TL_PUSH_ZERO(arena, uint32_t, polygons->vertex_count);
-    if (degrees == NULL) {
+    hull_encoder e = {
+        polygons, polygons->exact != NULL ? polygons->exact : polygons, points, copies, NULL, NULL, arena, stage
+    };
+    e.degrees = TL_PUSH_ZERO(arena, uint32_t, polygons->vertex_count);
+    e.edges = TL_PUSH(arena, uint32_t, polygons->vertex_count);
+    if (e.degrees == NULL || e.edges == NULL) {
         return TL_ERR_MEMORY;
     }
     tl_hull head;
@@ -184,7 +211,8 @@ tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points
     head.vertex_count = polygons->vertex_count;
     head.face_count = polygons->face_count;
     head.half_edge_count = polygons->half_edge_count;
-    TL_TRY(count_blocks(polygons, stage, degrees, &head.block_count));
+    head.merge_distance = polygons->merge_distance;
+    TL_TRY(count_blocks(&e, &head.block_count));
     tl_hull_count_rings(&head, polygons->faces);
     size = tl_hull_lay_out(&head);
     tl_hull *hull = tl_blob_allocate_part(&arena->allocator, TL_HULL_MAGIC, TL_HULL_VERSION, size, sizeof *hull, size);
@@ -193,7 +221,7 @@ tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points
     }
     head.blob = hull->blob;
     memcpy(hull, &head, sizeof head);
-    const tl_result result = write_hull(hull, polygons, points, copies, degrees, arena, stage);
+    const tl_result result = write_hull(hull, &e);
     if (result != TL_OK) {
         tl_blob_free(hull);
         return result;

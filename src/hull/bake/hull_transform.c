@@ -6,6 +6,7 @@
 
 #include "base/arena.h"
 #include "base/host.h"
+#include "base/min_max.h"
 #include "math/vec3d.h"
 
 #include <talus/hull.h>
@@ -29,6 +30,11 @@ tl_result tl_hull_transform(const tl_hull *hull, tl_vec3 scale, tl_transform pos
     }
     tl_hull_def def = tl_default_hull_def();
     def.flatness = 0.0f; // the hull was no chip of rounding, so what remains of it is meant
+    if (hull->merge_distance > 0.0 && tl_is_finite(scale)) { // another scale is refused by the points it makes
+        const tl_vec3 size = tl_abs(scale);
+        const double distance = hull->merge_distance * (double)tl_maxf(size.x, tl_maxf(size.y, size.z));
+        def.merge_distance = (float)tl_min_f64(distance, (double)TL_MAX_HULL_COORDINATE);
+    }
     if (host != NULL) {
         def.host = *host;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A hull with limited vertices leaves points out: the largest distance of one from the hull.
+// Points that a hull leaves out, for its vertices are limited or its faces merged: how far they lie outside.
 //
 // The nearest point of a convex body lies on a face that the point is in front of. So the faces that it sees, flooded
 // as for a step of quickhull, are all that must be tested. For nearly every point that is not needed: its distance from
@@ -36,12 +36,12 @@ static double distance_sq_to_face(const tl_quickhull *hull, uint32_t face, tl_ve
     return above ? tl_min_f64(nearest, height * height / tl_vec3d_dot(normal, normal)) : nearest;
 }
 
-static double distance_sq_to_hull(tl_quickhull *hull, uint32_t face, uint32_t point)
+static double distance_sq_to_hull(tl_quickhull *hull, uint32_t face, tl_vec3 point)
 {
     double nearest = (double)INFINITY;
-    tl_quickhull_flood_visible(hull, face, hull->local[point].position);
+    tl_quickhull_flood_visible(hull, face, point);
     for (uint32_t i = 0; i < hull->visible_count; i++) {
-        double distance_sq = distance_sq_to_face(hull, hull->visible[i], tl_vec3d_from(hull->local[point].position));
+        double distance_sq = distance_sq_to_face(hull, hull->visible[i], tl_vec3d_from(point));
         nearest = tl_min_f64(nearest, distance_sq);
     }
     return nearest;
@@ -55,10 +55,51 @@ void tl_quickhull_report_left_out(tl_quickhull *hull, tl_hull_report *report)
         for (; point != TL_NONE; point = hull->local[point].next) {
             double bound_sq = distance_sq_to_face(hull, face, tl_vec3d_from(hull->local[point].position));
             if (bound_sq > farthest_sq) {
-                farthest_sq = tl_max_f64(farthest_sq, distance_sq_to_hull(hull, face, point));
+                farthest_sq = tl_max_f64(farthest_sq, distance_sq_to_hull(hull, face, hull->local[point].position));
             }
         }
     }
     report->points_left_out = hull->waiting;
     report->max_outside = sqrt(farthest_sq);
+}
+
+// How far out of a face's plane a point lies, in units of the middle's depth below it. Over the planes of a hull,
+// points of the polar body, this is linear, so a face that no neighbour exceeds is the best of all.
+static double relative_height(const tl_quickhull *hull, uint32_t face, tl_vec3 point, tl_vec3d middle)
+{
+    const tl_side_plane *plane = &hull->faces[face].plane;
+    const tl_vec3d normal = tl_vec3d_make(plane->normal[0], plane->normal[1], plane->normal[2]);
+    return tl_side_plane_height(plane, point) / (plane->offset - tl_vec3d_dot(normal, middle));
+}
+
+static bool sees(const tl_quickhull *hull, uint32_t face, tl_vec3 point)
+{
+    double height;
+    return tl_quickhull_side(hull, &hull->faces[face], point, &height) > 0;
+}
+
+double tl_quickhull_distance_outside(tl_quickhull *hull, tl_vec3 point, tl_vec3d middle, uint32_t *face)
+{
+    uint32_t at = *face, best = at;
+    double height = relative_height(hull, at, point, middle);
+    while (!sees(hull, at, point)) {
+        for (uint32_t k = 0; k < 3; k++) {
+            const uint32_t other = tl_half_edge_face(hull->faces[at].across[k]);
+            const double higher = relative_height(hull, other, point, middle);
+            if (higher > height) {
+                height = higher;
+                best = other;
+            }
+        }
+        if (best == at) {
+            break;
+        }
+        at = best;
+    }
+    // Among triangles of one plane, or by rounding, the walk may end too early.
+    for (uint32_t f = 0; f < hull->face_count && !sees(hull, at, point); f++) {
+        at = hull->conflicts[f].live ? f : at;
+    }
+    *face = at;
+    return sees(hull, at, point) ? sqrt(distance_sq_to_hull(hull, at, point)) : 0.0;
 }

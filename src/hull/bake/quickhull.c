@@ -14,6 +14,7 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "base/min_max.h"
+#include "hull/bake/flat_regions.h"
 
 #include <string.h>
 
@@ -149,6 +150,7 @@ static tl_result make_local(tl_quickhull *hull)
     tl_vec3 low = hull->box.min, high = hull->box.max;
     tl_vec3 origin =
         tl_vec3_make(tl_side_origin(low.x, high.x), tl_side_origin(low.y, high.y), tl_side_origin(low.z, high.z));
+    hull->origin = origin;
     tl_vec3 reach = tl_max(tl_abs(tl_sub(low, origin)), tl_abs(tl_sub(high, origin)));
     for (uint32_t i = 0; i < hull->point_count; i++) {
         hull->local[i].position = tl_sub(hull->points[i], origin);
@@ -215,14 +217,28 @@ static tl_result fail_without_volume(tl_report *report, tl_result result)
                           "the points have no volume: set a thickness, or use them as a point cloud");
 }
 
-static tl_result bake_polytope(tl_quickhull *hull, const tl_hull_def *def, tl_hull **hull_out, tl_hull_report *report)
+void tl_quickhull_init(tl_quickhull *hull, const tl_vec3 *points, uint32_t count, tl_arena *arena, tl_stage *stage)
+{
+    memset(hull, 0, sizeof *hull);
+    hull->arena = arena;
+    hull->stage = stage;
+    hull->points = points;
+    hull->point_count = count;
+    hull->free_face = TL_NONE;
+    hull->newest = TL_NONE;
+}
+
+tl_result tl_quickhull_build(tl_quickhull *hull, const tl_hull_def *def, tl_hull_report *report, uint32_t *copies_out,
+                             tl_hull_polygons *polygons_out)
 {
     tl_report *base = report != NULL ? &report->base : NULL;
-    uint32_t seed[4], rank, copies = 1;
+    uint32_t seed[4], rank;
+    *copies_out = 1;
+    hull->farthest_first = def->max_vertices != 0;
     measure_box(hull);
     tl_result result = tl_quickhull_seed(hull, (double)def->flatness, seed, &rank);
     if (result != TL_OK && def->thickness > 0.0f) {
-        TL_TRY(tl_quickhull_thicken(hull, seed, rank, def->thickness, &copies));
+        TL_TRY(tl_quickhull_thicken(hull, seed, rank, def->thickness, copies_out));
         measure_box(hull);
         if (!is_in_range(hull->box.min) || !is_in_range(hull->box.max)) {
             return tl_report_field(base, TL_ERR_RANGE, "thickness", "make it smaller, or use a larger unit");
@@ -245,15 +261,61 @@ static tl_result bake_polytope(tl_quickhull *hull, const tl_hull_def *def, tl_hu
     TL_TRY(add_farthest_points(hull, def));
     if (report != NULL) {
         report->triangle_count = hull->live_faces;
+        report->thickened = *copies_out > 1;
         tl_quickhull_report_left_out(hull, report);
     }
-    tl_hull_polygons polygons;
-    TL_TRY(tl_quickhull_merge_faces(hull, &polygons));
-    TL_TRY(tl_hull_encode(&polygons, hull->points, copies, hull->arena, hull->stage, hull_out));
-    if (report != NULL) {
-        report->thickened = copies > 1;
+    return tl_quickhull_merge_faces(hull, polygons_out);
+}
+
+// The exact hull of corners, and the same with nearly flat faces merged.
+static tl_result merge_and_encode(tl_quickhull *hull, const tl_hull_polygons *exact, double distance, uint32_t copies,
+                                  tl_hull **hull_out)
+{
+    tl_hull_polygons merged = *exact;
+    if (distance > 0.0) {
+        TL_TRY(tl_hull_merge_flat_regions(exact, hull->points, distance, hull->arena, hull->stage, &merged));
     }
-    return TL_OK;
+    const tl_hull_polygons *polygons = merged.face_count < exact->face_count ? &merged : exact;
+    return tl_hull_encode(polygons, hull->points, copies, hull->arena, hull->stage, hull_out);
+}
+
+// The exact hull, then what the def's distances make of it.
+static tl_result bake_polytope(tl_quickhull *hull, const tl_hull_def *def, tl_hull **hull_out, tl_hull_report *report)
+{
+    uint32_t copies;
+    tl_hull_polygons exact;
+    TL_TRY(tl_quickhull_build(hull, def, report, &copies, &exact));
+    const uint32_t corners = exact.vertex_count;
+    double outside = 0.0;
+    if (def->weld_distance > 0.0f || def->merge_distance > 0.0f) {
+        TL_TRY(tl_hull_simplify(hull->points, def, hull->arena, &exact, &outside));
+    }
+    if (report != NULL) {
+        report->corners_left_out = corners - exact.vertex_count;
+        report->max_outside += outside;
+    }
+    return merge_and_encode(hull, &exact, (double)def->merge_distance, copies, hull_out);
+}
+
+tl_result tl_hull_bake_merged(const tl_vec3 *corners, uint32_t count, double distance, const tl_allocator *allocator,
+                              tl_hull **hull_out)
+{
+    tl_hull_def def = tl_default_hull_def();
+    def.flatness = 0.0f;
+    tl_arena arena;
+    tl_arena_init(&arena, allocator);
+    tl_quickhull hull;
+    tl_stage stage = { NULL, "hull", 0, count };
+    tl_quickhull_init(&hull, corners, count, &arena, &stage);
+    tl_hull_polygons exact;
+    uint32_t copies;
+    tl_result result = tl_quickhull_build(&hull, &def, NULL, &copies, &exact);
+    if (result == TL_OK) {
+        result =
+            exact.vertex_count == count ? merge_and_encode(&hull, &exact, distance, copies, hull_out) : TL_ERR_CORRUPT;
+    }
+    tl_arena_free(&arena);
+    return result;
 }
 
 static tl_result check_hull_def(const tl_hull_def *def, tl_report *report)
@@ -267,6 +329,12 @@ static tl_result check_hull_def(const tl_hull_def *def, tl_report *report)
     }
     if (!(def->flatness >= 0.0f)) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "flatness", "give half ulps, 0 or more");
+    }
+    if (!(def->weld_distance >= 0.0f) || !isfinite(def->weld_distance)) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "weld_distance", "give metres, 0 or more");
+    }
+    if (!(def->merge_distance >= 0.0f) || !isfinite(def->merge_distance)) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "merge_distance", "give metres, 0 or more");
     }
     return TL_OK;
 }
@@ -291,15 +359,8 @@ tl_result tl_hull_bake(const tl_vec3 *points, uint32_t count, const tl_hull_def 
     tl_arena arena;
     tl_arena_init(&arena, def->host.allocator);
     tl_quickhull hull;
-    memset(&hull, 0, sizeof hull);
     tl_stage stage;
-    hull.arena = &arena;
-    hull.stage = &stage;
-    hull.points = points;
-    hull.point_count = count;
-    hull.free_face = TL_NONE;
-    hull.newest = TL_NONE;
-    hull.farthest_first = def->max_vertices != 0;
+    tl_quickhull_init(&hull, points, count, &arena, &stage);
     const tl_host serial = { def->host.allocator, NULL, def->host.progress };
     tl_result result = tl_stage_begin(&stage, &serial, "hull", count);
     result = result == TL_OK ? bake_polytope(&hull, def, hull_out, report_out) : result;

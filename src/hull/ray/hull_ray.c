@@ -57,9 +57,25 @@ bool tl_hull_cast_ray(const tl_hull *hull, tl_vec3 origin, tl_vec3 direction, fl
     return true;
 }
 
+// The corners of merged faces do not span their planes.
+static bool lies_behind_all_planes(const tl_hull *hull, tl_vec3 point)
+{
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        tl_hull_plane plane = tl_hull_face_plane(hull, f);
+        if (plane.normal[0] * (double)point.x + plane.normal[1] * (double)point.y + plane.normal[2] * (double)point.z >
+            plane.offset) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool tl_hull_contains(const tl_hull *hull, tl_vec3 point)
 {
     TL_ASSERT(hull != NULL);
+    if (hull->merge_distance > 0.0) {
+        return lies_behind_all_planes(hull, point);
+    }
     const tl_vec3 *vertices = tl_hull_vertices(hull);
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
     for (uint32_t f = 0; f < hull->face_count; f++) {

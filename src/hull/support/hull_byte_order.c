@@ -11,7 +11,7 @@ static const tl_word_run HULL_HEAD[] = {
     { 4, 16 }, // vertex_count .. half_edge_count
     { 4, 6 },  // bounds
     { 8, 11 }, // mass
-    { 8, 6 },  // offsets
+    { 8, 7 },  // offsets, merge_distance
 };
 
 static uint64_t bytes_at(uint32_t units)

@@ -72,14 +72,14 @@ tl_vec3 tl_hull_edge_vector(tl_vec3 from, tl_vec3 to)
                         (float)((double)to.z - (double)from.z));
 }
 
-void tl_hull_fill_block(const tl_hull *hull, uint32_t vertex, uint32_t *edge, uint32_t count, tl_climb_block *block)
+void tl_hull_fill_block(const tl_vec3 *vertices, const tl_hull_half_edge *half_edges, uint32_t *edge, uint32_t count,
+                        tl_climb_block *block)
 {
-    const tl_vec3 *vertices = tl_hull_vertices(hull);
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
+    const tl_vec3 vertex = vertices[half_edges[*edge].origin];
     for (uint32_t lane = 0; lane < TL_CLIMB_LANES; lane++) {
         if (lane < count) {
             uint32_t other = half_edges[half_edges[*edge].next].origin;
-            tl_vec3 e = tl_hull_edge_vector(vertices[vertex], vertices[other]);
+            tl_vec3 e = tl_hull_edge_vector(vertex, vertices[other]);
             block->x[lane] = e.x;
             block->y[lane] = e.y;
             block->z[lane] = e.z;

@@ -115,7 +115,7 @@ tl_support_kernel tl_support_kernel_best(void);
 uint32_t tl_hull_support_unusual(const tl_hull *hull, tl_vec3 direction, uint32_t hint);
 
 // support_exact.c, for any direction.
-// Climbs on the half-edges.
+// Climbs on the half-edges; where faces are merged, on the blocks.
 uint32_t tl_hull_climb_exact(const tl_hull *hull, tl_vec3 direction, uint32_t vertex);
 // The lowest of the farthest vertices among those whose bits are set; one is.
 uint32_t tl_hull_decide_exact(const tl_hull *hull, tl_vec3 direction, uint64_t candidates);
@@ -134,8 +134,10 @@ tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena, tl_stage *stage);
 uint64_t tl_hull_lay_out(tl_hull *head);
 // Fills in ring_count and ring_cells of a head whose V and F are set.
 void tl_hull_count_rings(tl_hull *head, const tl_hull_face *faces);
-// Writes `count` <= 8 neighbours of a vertex, those of `edge` and on, which is moved behind them.
-void tl_hull_fill_block(const tl_hull *hull, uint32_t vertex, uint32_t *edge, uint32_t count, tl_climb_block *block);
+// Writes `count` <= 8 neighbours of the vertex that `edge` starts at, those of `edge` and on, which is moved behind
+// them.
+void tl_hull_fill_block(const tl_vec3 *vertices, const tl_hull_half_edge *half_edges, uint32_t *edge, uint32_t count,
+                        tl_climb_block *block);
 // Blocks of a vertex with so many neighbours.
 uint32_t tl_hull_blocks_of(uint32_t degree);
 tl_vec3 tl_hull_edge_vector(tl_vec3 from, tl_vec3 to);

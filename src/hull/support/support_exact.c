@@ -21,8 +21,41 @@ static uint32_t lowest_of_face(const tl_hull *hull, uint32_t half_edge)
     return half_edges[tl_hull_faces(hull)[half_edges[half_edge].face].first].origin;
 }
 
+// Merged faces lack edges that a climb needs; the blocks have those of the exact hull. Level neighbours are rare, and
+// then the lowest of all vertices as far is looked for among all.
+static uint32_t climb_merged(const tl_hull *hull, tl_vec3 direction, uint32_t vertex)
+{
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    const tl_climb_block *blocks = tl_hull_blocks(hull);
+    bool level = false;
+    for (uint32_t at = vertex, better = vertex; at != TL_NO_VERTEX;) {
+        const uint32_t last = blocks[at].link[TL_CLIMB_LANES - 1];
+        const bool more = (last & TL_CLIMB_MORE) != 0;
+        for (uint32_t lane = 0; lane < TL_CLIMB_LANES - (more ? 1 : 0); lane++) {
+            const uint32_t other = blocks[at].link[lane];
+            const int order = tl_compare_along(direction, vertices[other], vertices[better]);
+            level = order > 0 ? false : level || (order == 0 && other != better);
+            better = order > 0 ? other : better;
+        }
+        at = more ? last & ~TL_CLIMB_MORE : better != vertex ? better : TL_NO_VERTEX;
+        if (!more) {
+            level = level && better == vertex;
+            vertex = better;
+        }
+    }
+    for (uint32_t v = 0; level && v < hull->vertex_count; v++) {
+        if (tl_compare_along(direction, vertices[v], vertices[vertex]) == 0) {
+            return v;
+        }
+    }
+    return vertex;
+}
+
 uint32_t tl_hull_climb_exact(const tl_hull *hull, tl_vec3 direction, uint32_t vertex)
 {
+    if (hull->merge_distance > 0.0) {
+        return climb_merged(hull, direction, vertex);
+    }
     const tl_vec3 *vertices = tl_hull_vertices(hull);
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
     for (;;) {

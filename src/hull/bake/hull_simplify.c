@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+//
+// Leaves corners out that a weld distance or a merge distance makes superfluous, and proves by how much.
+//
+// Which corners may go is a guess: those within the weld distance of an earlier one, and those inside a nearly flat
+// region or on a nearly straight border. How far each that went lies outside of the exact hull of the others is then
+// measured, and what lies farther out than allowed comes back for good. So the bound holds whatever was guessed, and a
+// chain of small steps cannot add up.
+//
+// Inner points need no look: the distance from a convex body is convex, so it is largest at a corner.
+
+#include "hull/bake/flat_regions.h"
+
+#include "base/assert.h"
+#include "base/hash.h"
+#include "base/min_max.h"
+
+#include <string.h>
+
+// Each pass of leaving out finds what the one before made possible; nearly always two are all.
+enum { MAX_PASSES = 8, MAX_RESTORES = 4 };
+
+// Corners that are welded or measured between two calls of progress, at some us each.
+enum { CORNERS_PER_CALL = 1 << 12 };
+
+typedef struct hull_simplifier {
+    const tl_vec3 *points;
+    const tl_hull_def *def;
+    tl_arena *arena;
+    tl_host host;
+    tl_stage *stage;
+    uint32_t corner_count;    // of the exact hull
+    const uint32_t *corners;  // [corner_count] points
+    bool *is_kept, *is_fixed; // [corner_count] fixed: came back, and stays
+    uint32_t kept_count;
+    tl_vec3 *kept;         // [kept_count] where they are
+    uint32_t *kept_points; // [kept_count] which points they are
+} hull_simplifier;
+
+static bool are_within(tl_vec3 a, tl_vec3 b, double distance)
+{
+    const tl_vec3d d = tl_vec3d_sub(tl_vec3d_from(a), tl_vec3d_from(b));
+    return tl_vec3d_dot(d, d) <= distance * distance;
+}
+
+typedef struct weld_table {
+    uint32_t *slots, *next;
+    uint32_t mask;
+    double distance;
+} weld_table;
+
+// Of the cell of a point, moved by -1, 0 or 1 cells along each axis. Cells are numbered in double: where these lose
+// their last digits, different floats are farther apart than a cell.
+static uint32_t weld_slot(const weld_table *table, tl_vec3 p, int x, int y, int z)
+{
+    const double cell[3] = { floor((double)p.x / table->distance) + x, floor((double)p.y / table->distance) + y,
+                             floor((double)p.z / table->distance) + z };
+    uint64_t hash = 0;
+    for (int i = 0; i < 3; i++) {
+        const double number = cell[i] + 0.0; // no -0
+        uint64_t bits;
+        memcpy(&bits, &number, sizeof bits);
+        hash = tl_hash_mix(hash ^ bits);
+    }
+    return (uint32_t)hash & table->mask;
+}
+
+static bool is_near_a_kept_one(const hull_simplifier *s, const weld_table *table, uint32_t corner)
+{
+    const tl_vec3 p = s->points[s->corners[corner]];
+    for (int i = 0; i < 27; i++) {
+        uint32_t other = table->slots[weld_slot(table, p, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)];
+        for (; other != TL_NONE; other = table->next[other]) {
+            if (are_within(p, s->points[s->corners[other]], table->distance)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// Keeps a corner unless an earlier kept one is near: kept ones lie apart, so a cell holds few of them.
+static tl_result weld_corners(hull_simplifier *s)
+{
+    uint32_t size = 16;
+    while (size / 2 < s->corner_count) {
+        size *= 2;
+    }
+    weld_table table = { TL_PUSH(s->arena, uint32_t, size), TL_PUSH(s->arena, uint32_t, s->corner_count), size - 1,
+                         (double)s->def->weld_distance };
+    if (table.slots == NULL || table.next == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(table.slots, 0xff, size * sizeof *table.slots);
+    for (uint32_t i = 0; i < s->corner_count; i++) {
+        TL_TRY(i % CORNERS_PER_CALL == 0 ? tl_stage_add(s->stage, 0) : TL_OK);
+        if (is_near_a_kept_one(s, &table, i)) {
+            s->is_kept[i] = false;
+            s->kept_count--;
+            continue;
+        }
+        const uint32_t slot = weld_slot(&table, s->points[s->corners[i]], 0, 0, 0);
+        table.next[i] = table.slots[slot];
+        table.slots[slot] = i;
+    }
+    return TL_OK;
+}
+
+static void restore_corner(hull_simplifier *s, uint32_t corner)
+{
+    s->kept_count += !s->is_kept[corner];
+    s->is_kept[corner] = s->is_fixed[corner] = true;
+}
+
+// Marks corners of the hull of the kept ones, `exact`, as left out. False: none is spare.
+static tl_result leave_out_spare(hull_simplifier *s, const tl_hull_polygons *exact, bool *changed)
+{
+    *changed = false;
+    tl_arena_mark mark = tl_arena_get_mark(s->arena);
+    bool *spare = TL_PUSH_ZERO(s->arena, bool, exact->vertex_count);
+    if (spare == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    TL_TRY(tl_hull_find_spare_vertices(exact, s->points, (double)s->def->merge_distance, s->arena, s->stage, spare));
+    uint32_t vertex = 0;
+    for (uint32_t i = 0; i < s->corner_count; i++) {
+        // A subset of a hull's corners are all corners of its own hull.
+        if (s->is_kept[i] && spare[vertex++] && !s->is_fixed[i]) {
+            s->is_kept[i] = false;
+            s->kept_count--;
+            *changed = true;
+        }
+    }
+    tl_arena_rollback(s->arena, mark);
+    return TL_OK;
+}
+
+// The exact hull of the kept corners; its polygons name points of the whole.
+static tl_result build_kept(hull_simplifier *s, tl_quickhull *hull, tl_hull_polygons *exact)
+{
+    uint32_t count = 0, copies;
+    for (uint32_t i = 0; i < s->corner_count; i++) {
+        if (s->is_kept[i]) {
+            s->kept[count] = s->points[s->corners[i]];
+            s->kept_points[count++] = s->corners[i];
+        }
+    }
+    tl_hull_def def = tl_default_hull_def();
+    def.flatness = 0.0f;
+    TL_TRY(tl_stage_begin(s->stage, &s->host, "merge hull", count));
+    tl_quickhull_init(hull, s->kept, count, s->arena, s->stage);
+    TL_TRY(tl_quickhull_build(hull, &def, NULL, &copies, exact));
+    for (uint32_t v = 0; v < exact->vertex_count; v++) {
+        exact->points[v] = s->kept_points[exact->points[v]];
+    }
+    return TL_OK;
+}
+
+// How far the corners that were left out lie outside; those farther out than allowed come back.
+static tl_result measure_left_out(hull_simplifier *s, tl_quickhull *hull, double *max_outside, bool *changed)
+{
+    const double allowed = (double)s->def->weld_distance + (double)s->def->merge_distance;
+    tl_vec3d middle = { 0.0, 0.0, 0.0 };
+    for (uint32_t i = 0; i < hull->point_count; i++) {
+        middle = tl_vec3d_add(middle, tl_vec3d_from(hull->local[i].position));
+    }
+    middle = tl_vec3d_scale(middle, 1.0 / (double)hull->point_count);
+    uint32_t face = 0;
+    while (!hull->conflicts[face].live) {
+        face++;
+    }
+    *max_outside = 0.0;
+    *changed = false;
+    for (uint32_t i = 0; i < s->corner_count; i++) {
+        TL_TRY(i % CORNERS_PER_CALL == 0 ? tl_stage_add(s->stage, 0) : TL_OK);
+        if (s->is_kept[i]) {
+            continue;
+        }
+        const tl_vec3 local = tl_sub(s->points[s->corners[i]], hull->origin);
+        const double distance = tl_quickhull_distance_outside(hull, local, middle, &face);
+        if (distance > allowed) {
+            restore_corner(s, i);
+            *changed = true;
+        } else {
+            *max_outside = tl_max_f64(*max_outside, distance);
+        }
+    }
+    return TL_OK;
+}
+
+static bool has_no_volume(tl_result result)
+{
+    return result == TL_ERR_COINCIDENT || result == TL_ERR_COLLINEAR || result == TL_ERR_COPLANAR;
+}
+
+// The hull of what is kept, once more for as long as measuring brings corners back; all of them after some times.
+static tl_result settle(hull_simplifier *s, tl_hull_polygons *exact, double *max_outside)
+{
+    tl_quickhull hull;
+    bool changed = true;
+    for (uint32_t restores = 0; changed; restores++) {
+        if (restores > MAX_RESTORES) {
+            for (uint32_t i = 0; i < s->corner_count; i++) {
+                restore_corner(s, i);
+            }
+        }
+        const tl_result result = build_kept(s, &hull, exact);
+        if (has_no_volume(result)) {
+            restores = MAX_RESTORES;
+            continue;
+        }
+        TL_TRY(result);
+        TL_TRY(measure_left_out(s, &hull, max_outside, &changed));
+    }
+    return TL_OK;
+}
+
+tl_result tl_hull_simplify(const tl_vec3 *points, const tl_hull_def *def, tl_arena *arena, tl_hull_polygons *polygons,
+                           double *max_outside)
+{
+    const uint32_t count = polygons->vertex_count;
+    tl_stage stage;
+    hull_simplifier s = { points,
+                          def,
+                          arena,
+                          { def->host.allocator, NULL, def->host.progress },
+                          &stage,
+                          count,
+                          polygons->points,
+                          NULL,
+                          NULL,
+                          count,
+                          NULL,
+                          NULL };
+    s.is_kept = TL_PUSH(arena, bool, count);
+    s.is_fixed = TL_PUSH_ZERO(arena, bool, count);
+    s.kept = TL_PUSH(arena, tl_vec3, count);
+    s.kept_points = TL_PUSH(arena, uint32_t, count);
+    if (s.is_kept == NULL || s.is_fixed == NULL || s.kept == NULL || s.kept_points == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(s.is_kept, 1, count * sizeof *s.is_kept);
+    *max_outside = 0.0;
+    TL_TRY(tl_stage_begin(&stage, &s.host, "merge hull", count));
+    if (def->weld_distance > 0.0f) {
+        TL_TRY(weld_corners(&s));
+    }
+    if (s.kept_count < count) {
+        TL_TRY(settle(&s, polygons, max_outside));
+    }
+    bool changed = def->merge_distance > 0.0f;
+    for (uint32_t pass = 0; changed && pass < MAX_PASSES; pass++) {
+        TL_TRY(leave_out_spare(&s, polygons, &changed));
+        if (changed) {
+            TL_TRY(settle(&s, polygons, max_outside));
+        }
+    }
+    return tl_stage_end(&stage);
+}
