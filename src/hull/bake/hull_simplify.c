@@ -12,8 +12,8 @@
 #include "hull/bake/flat_regions.h"
 
 #include "base/assert.h"
-#include "base/hash.h"
 #include "base/min_max.h"
+#include "math/point_grid.h"
 
 #include <string.h>
 
@@ -37,41 +37,12 @@ typedef struct hull_simplifier {
     uint32_t *kept_points; // [kept_count] which points they are
 } hull_simplifier;
 
-static bool are_within(tl_vec3 a, tl_vec3 b, double distance)
+static bool is_near_a_kept_one(const hull_simplifier *s, const tl_point_grid *grid, tl_vec3 p, tl_point_cell cell)
 {
-    const tl_vec3d d = tl_vec3d_sub(tl_vec3d_from(a), tl_vec3d_from(b));
-    return tl_vec3d_dot(d, d) <= distance * distance;
-}
-
-typedef struct weld_table {
-    uint32_t *slots, *next;
-    uint32_t mask;
-    double distance;
-} weld_table;
-
-// Of the cell of a point, moved by -1, 0 or 1 cells along each axis. Cells are numbered in double: where these lose
-// their last digits, different floats are farther apart than a cell.
-static uint32_t weld_slot(const weld_table *table, tl_vec3 p, int x, int y, int z)
-{
-    const double cell[3] = { floor((double)p.x / table->distance) + x, floor((double)p.y / table->distance) + y,
-                             floor((double)p.z / table->distance) + z };
-    uint64_t hash = 0;
-    for (int i = 0; i < 3; i++) {
-        const double number = cell[i] + 0.0; // no -0
-        uint64_t bits;
-        memcpy(&bits, &number, sizeof bits);
-        hash = tl_hash_mix(hash ^ bits);
-    }
-    return (uint32_t)hash & table->mask;
-}
-
-static bool is_near_a_kept_one(const hull_simplifier *s, const weld_table *table, uint32_t corner)
-{
-    const tl_vec3 p = s->points[s->corners[corner]];
-    for (int i = 0; i < 27; i++) {
-        uint32_t other = table->slots[weld_slot(table, p, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)];
-        for (; other != TL_NONE; other = table->next[other]) {
-            if (are_within(p, s->points[s->corners[other]], table->distance)) {
+    for (int around = 0; around < 27; around++) {
+        uint32_t other = grid->slots[tl_point_grid_slot(grid, cell, around)];
+        for (; other != TL_POINT_GRID_NONE; other = grid->next[other]) {
+            if (tl_points_are_within(p, s->points[s->corners[other]], grid->distance)) {
                 return true;
             }
         }
@@ -82,26 +53,22 @@ static bool is_near_a_kept_one(const hull_simplifier *s, const weld_table *table
 // Keeps a corner unless an earlier kept one is near: kept ones lie apart, so a cell holds few of them.
 static tl_result weld_corners(hull_simplifier *s)
 {
-    uint32_t size = 16;
-    while (size / 2 < s->corner_count) {
-        size *= 2;
-    }
-    weld_table table = { TL_PUSH(s->arena, uint32_t, size), TL_PUSH(s->arena, uint32_t, s->corner_count), size - 1,
-                         (double)s->def->weld_distance };
-    if (table.slots == NULL || table.next == NULL) {
+    const uint32_t size = tl_point_grid_slots(s->corner_count);
+    uint32_t *slots = TL_PUSH(s->arena, uint32_t, size), *next = TL_PUSH(s->arena, uint32_t, s->corner_count);
+    if (slots == NULL || next == NULL) {
         return TL_ERR_MEMORY;
     }
-    memset(table.slots, 0xff, size * sizeof *table.slots);
+    tl_point_grid grid = tl_point_grid_make((double)s->def->weld_distance, slots, size, next);
     for (uint32_t i = 0; i < s->corner_count; i++) {
         TL_TRY(i % CORNERS_PER_CALL == 0 ? tl_stage_add(s->stage, 0) : TL_OK);
-        if (is_near_a_kept_one(s, &table, i)) {
+        const tl_vec3 p = s->points[s->corners[i]];
+        const tl_point_cell cell = tl_point_grid_cell(&grid, p);
+        if (is_near_a_kept_one(s, &grid, p, cell)) {
             s->is_kept[i] = false;
             s->kept_count--;
-            continue;
+        } else {
+            tl_point_grid_keep(&grid, cell, i);
         }
-        const uint32_t slot = weld_slot(&table, s->points[s->corners[i]], 0, 0, 0);
-        table.next[i] = table.slots[slot];
-        table.slots[slot] = i;
     }
     return TL_OK;
 }
