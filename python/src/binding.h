@@ -110,14 +110,19 @@ typedef struct binding_navmesh {
     const tl_nav_links *links;      ///< found and added; NULL: none
     tl_pack_pruning *own_pruning;   ///< freed with it; NULL where it lies in the pack
     tl_nav_links *own_links;        ///< the same
-    PyObject *owner;                ///< the pack whose bytes the tiles lie in
+    PyObject *owner;                ///< the pack whose bytes the tiles lie in, or the versions
+    tl_nav_versions *versions;      ///< of which it is a version, or the draft; it owns its query alone then
+    bool is_fixed;                  ///< a version, or what was given to versions: not to be changed
 } binding_navmesh;
 
 void binding_navmesh_free_parts(binding_navmesh *navmesh);
 
 /// A capsule around a navmesh, whose parts are freed with it, and on failure.
 PyObject *binding_navmesh_capsule(binding_navmesh *navmesh);
+/// NULL with a TypeError; with a ValueError where a version was given back.
 binding_navmesh *binding_navmesh_of(PyObject *capsule);
+/// The same for what changes it: NULL with a ValueError where it is fixed.
+binding_navmesh *binding_navmesh_to_change(PyObject *capsule);
 /// A query that no search is too large for.
 tl_result binding_query_create(tl_nav_query **query_out);
 /// The navmesh's own. NULL: MemoryError.
@@ -159,5 +164,6 @@ extern PyMethodDef binding_audit_methods[];
 extern PyMethodDef binding_pack_methods[];
 extern PyMethodDef binding_crowd_methods[];
 extern PyMethodDef binding_character_methods[];
+extern PyMethodDef binding_versions_methods[];
 
 #endif

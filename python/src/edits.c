@@ -23,7 +23,7 @@ static PyObject *navmesh_add_link(PyObject *self, PyObject *args)
                           &flags, &area)) {
         return NULL;
     }
-    binding_navmesh *held = binding_navmesh_of(capsule);
+    binding_navmesh *held = binding_navmesh_to_change(capsule);
     if (held == NULL) {
         return NULL;
     }
@@ -44,7 +44,7 @@ static PyObject *navmesh_remove_link(PyObject *self, PyObject *args)
     if (!PyArg_ParseTuple(args, "OK", &capsule, &ref)) {
         return NULL;
     }
-    binding_navmesh *held = binding_navmesh_of(capsule);
+    binding_navmesh *held = binding_navmesh_to_change(capsule);
     if (held == NULL) {
         return NULL;
     }
@@ -90,9 +90,14 @@ static PyObject *navmesh_find_links(PyObject *self, PyObject *args)
                           &progress)) {
         return NULL;
     }
-    binding_navmesh *held = binding_navmesh_of(capsule);
+    binding_navmesh *held = add ? binding_navmesh_to_change(capsule) : binding_navmesh_of(capsule);
     const tl_soup *soup = held != NULL ? binding_blob_of(soup_capsule, BINDING_SOUP) : NULL;
     if (soup == NULL) {
+        return NULL;
+    }
+    if (add && held->versions != NULL) {
+        // They are saved with the navmesh, and versions share what that was made with.
+        PyErr_SetString(PyExc_ValueError, "add found links before the navmesh goes into versions, or use add_link");
         return NULL;
     }
     tl_nav_links *links = NULL;
@@ -124,7 +129,7 @@ static PyObject *navmesh_find_links(PyObject *self, PyObject *args)
 
 static binding_navmesh *with_obstacles(PyObject *capsule)
 {
-    binding_navmesh *held = binding_navmesh_of(capsule);
+    binding_navmesh *held = binding_navmesh_to_change(capsule);
     if (held != NULL && held->obstacles == NULL) {
         PyErr_SetString(PyExc_ValueError, "the navmesh was baked without obstacles; bake it with obstacles=True");
         return NULL;
@@ -222,7 +227,7 @@ static PyObject *navmesh_prepare(PyObject *self, PyObject *args)
     if (!PyArg_ParseTuple(args, "OKK", &capsule, &table, &labels)) {
         return NULL;
     }
-    const binding_navmesh *held = binding_navmesh_of(capsule);
+    const binding_navmesh *held = binding_navmesh_to_change(capsule);
     if (held == NULL) {
         return NULL;
     }

@@ -25,6 +25,7 @@ static int fill_module(PyObject *module)
         binding_pack_methods,
         binding_crowd_methods,
         binding_character_methods,
+        binding_versions_methods,
         binding_world_methods,
         binding_world_query_methods,
     };

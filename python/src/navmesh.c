@@ -13,6 +13,13 @@
 void binding_navmesh_free_parts(binding_navmesh *navmesh)
 {
     tl_nav_query_destroy(navmesh->query);
+    if (navmesh->versions != NULL) {
+        if (navmesh->is_fixed) {
+            tl_nav_versions_release(navmesh->versions, navmesh->navmesh);
+        }
+        Py_XDECREF(navmesh->owner);
+        return;
+    }
     tl_nav_obstacles_destroy(navmesh->obstacles);
     tl_navmesh_destroy(navmesh->navmesh);
     tl_navmesh_destroy(navmesh->removed);
@@ -43,7 +50,22 @@ PyObject *binding_navmesh_capsule(binding_navmesh *navmesh)
 
 binding_navmesh *binding_navmesh_of(PyObject *capsule)
 {
-    return PyCapsule_GetPointer(capsule, BINDING_NAVMESH);
+    binding_navmesh *held = PyCapsule_GetPointer(capsule, BINDING_NAVMESH);
+    if (held != NULL && held->navmesh == NULL) {
+        PyErr_SetString(PyExc_ValueError, "this version of the navmesh was given back: acquire another one");
+        return NULL;
+    }
+    return held;
+}
+
+binding_navmesh *binding_navmesh_to_change(PyObject *capsule)
+{
+    binding_navmesh *held = binding_navmesh_of(capsule);
+    if (held != NULL && held->is_fixed) {
+        PyErr_SetString(PyExc_ValueError, "a navmesh in versions is changed by NavVersions.edit alone");
+        return NULL;
+    }
+    return held;
 }
 
 tl_result binding_query_create(tl_nav_query **query_out)

@@ -62,6 +62,7 @@ from .shapes import (
     triangle,
 )
 from .soup import AllHits, Locations, NearestPoints, RayHits, Soup, SoupStats, SweepHits
+from .versions import NavVersions, NavVersionsState
 from .world import Route, World, WorldLoad, WorldPath, WorldPlaces, WorldRay, WorldState
 
 __version__: str = _talus.version
@@ -89,6 +90,8 @@ __all__ = [
     "Link",
     "Locations",
     "Moves",
+    "NavVersions",
+    "NavVersionsState",
     "Navmesh",
     "NearestPoints",
     "Obstacle",
