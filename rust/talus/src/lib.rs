@@ -18,8 +18,8 @@ pub use crowd::{Agent, AgentSettings, AgentState, AgentStatus, Crowd, CrowdRepor
 pub use error::{Error, ErrorKind};
 pub use level::Level;
 pub use navmesh::{Navmesh, NavmeshSettings, Path, Query};
-pub use shapes::{distance, penetration, Hull, Penetration, Pose, Separation, Shape};
-pub use soup::{Cull, Nearest, Ray, RayHit, Side, Soup};
+pub use shapes::{cast, distance, penetration, CastHit, Hull, Penetration, Pose, Separation, Shape};
+pub use soup::{Cull, Nearest, Ray, RayHit, ShapeHit, Side, Soup};
 
 /// A point or direction: x, y up, z; metres.
 pub type Point = [f32; 3];

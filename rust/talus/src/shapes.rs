@@ -199,3 +199,57 @@ pub fn penetration(a: &Shape<'_>, pose_a: &Pose, b: &Shape<'_>, pose_b: &Pose) -
         })
     }
 }
+
+/// When a moving shape touches another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CastHit {
+    /// Fraction of the motion, 0 to 1; never later than the true one.
+    pub t: f32,
+    /// They overlap at the start: `t` is 0, the normal zero, and [`penetration`] has the depth.
+    pub initial_overlap: bool,
+    /// On the first shape.
+    pub point: Point,
+    /// From the first shape to the second, of length 1.
+    pub normal: Point,
+    /// False: the motion is free until `t`, and what is beyond could not be decided. It counts as a hit.
+    pub converged: bool,
+}
+
+/// Moves the second shape by `motion`, metres, without turning it: when does it first touch the first shape? `None`:
+/// never. Shapes that touch at the start and part, or slide along one another, do not hit.
+///
+/// ```
+/// use talus::{cast, Pose, Shape};
+///
+/// let wall = Shape::cuboid([0.0; 3], [0.5, 4.0, 4.0], 0.0);
+/// let ball = Shape::sphere([0.0; 3], 0.5);
+/// let hit = cast(&wall, &Pose::default(), &ball, &Pose::at([9.0, 0.0, 0.0]), [-16.0, 0.0, 0.0])?.unwrap();
+/// assert!((hit.t - 0.5).abs() < 1e-6 && hit.normal == [1.0, 0.0, 0.0]);
+/// # Ok::<(), talus::Error>(())
+/// ```
+///
+/// # Errors
+/// [`ErrorKind::NotFinite`](crate::ErrorKind) for such a shape, pose or motion.
+pub fn cast(
+    a: &Shape<'_>,
+    pose_a: &Pose,
+    b: &Shape<'_>,
+    pose_b: &Pose,
+    motion: Point,
+) -> Result<Option<CastHit>, Error> {
+    // SAFETY: as in distance.
+    unsafe {
+        let mut hit: sys::tl_convex_hit = std::mem::zeroed();
+        sys::tl_convex_cast(a.raw(), pose_a.raw(), b.raw(), pose_b.raw(), vec3(motion), &mut hit);
+        if hit.status == sys::TL_CONVEX_NOT_FINITE {
+            return Err(Error::new(sys::TL_ERR_NOT_FINITE, None));
+        }
+        Ok(hit.hit.then(|| CastHit {
+            t: hit.t,
+            initial_overlap: hit.initial_overlap,
+            point: point_of(hit.point),
+            normal: point_of(hit.normal),
+            converged: hit.status == sys::TL_CONVEX_CONVERGED,
+        }))
+    }
+}

@@ -46,6 +46,11 @@ impl Ray {
         Ray { origin, direction, max_t: f32::INFINITY }
     }
 
+    /// The point at `t` lengths of the direction.
+    pub fn at(&self, t: f32) -> Point {
+        std::array::from_fn(|axis| self.origin[axis] + t * self.direction[axis])
+    }
+
     fn raw(&self) -> sys::tl_ray {
         sys::tl_ray { origin: vec3(self.origin), direction: vec3(self.direction), tmax: self.max_t }
     }
@@ -79,6 +84,29 @@ pub struct Nearest {
     pub normal: Point,
     /// Index of the triangle in the source.
     pub triangle: u32,
+}
+
+/// Where a moving shape meets a soup.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShapeHit {
+    /// Fraction of the motion, 0 to 1; not later than the true one.
+    pub t: f32,
+    /// Index of the triangle in the source.
+    pub triangle: u32,
+    /// On the triangle.
+    pub point: Point,
+    /// From the triangle to the shape, of length 1: the face's, or an edge's or corner's own.
+    pub normal: Point,
+    /// It overlapped at the start: `t` is 0.
+    pub initial_overlap: bool,
+    /// Metres, of an initial overlap: moving this far along the normal separates them.
+    pub depth: f32,
+    /// It came from behind.
+    pub back: bool,
+    /// The triangle's material, or 0.
+    pub material: u16,
+    /// False: the motion is free until `t`, and what is beyond could not be decided. It counts as a hit.
+    pub converged: bool,
 }
 
 /// Where a point is, in a closed soup.
@@ -220,6 +248,35 @@ impl Soup {
         // SAFETY: the shape borrows its hull; the rest is plain data, and the output valid.
         let result = unsafe { sys::tl_soup_overlaps(self.blob.get(), shape.raw(), pose.raw(), null(), &mut overlap) };
         Error::check(result, None).map(|()| overlap)
+    }
+
+    /// The triangle that a shape meets first when it moves from `pose` by `motion`, metres, without turning; `None`: the
+    /// way is free. A triangle that it merely touches does not stop it: it slides along the floor that it stands on.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Argument`](crate::ErrorKind) and `NotFinite` for such a shape, pose or motion.
+    pub fn cast_shape(&self, shape: &Shape<'_>, pose: &Pose, motion: Point) -> Result<Option<ShapeHit>, Error> {
+        // SAFETY: the shape borrows its hull; the rest is plain data, and the output valid.
+        unsafe {
+            let mut hit: sys::tl_shape_hit = std::mem::zeroed();
+            let soup = self.blob.get();
+            match sys::tl_soup_cast_shape(soup, shape.raw(), pose.raw(), vec3(motion), null(), &mut hit) {
+                sys::TL_NOT_FOUND => Ok(None),
+                result => Error::check(result, None).map(|()| {
+                    Some(ShapeHit {
+                        t: hit.t,
+                        triangle: hit.triangle,
+                        point: point_of(hit.point),
+                        normal: point_of(hit.normal),
+                        initial_overlap: hit.initial_overlap,
+                        depth: hit.depth,
+                        back: hit.back,
+                        material: hit.material,
+                        converged: hit.status == sys::TL_CONVEX_CONVERGED,
+                    })
+                }),
+            }
+        }
     }
 
     /// On which side of a closed surface a point is.

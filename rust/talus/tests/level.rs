@@ -2,7 +2,7 @@
 //! A level with a wall: rays, shapes, paths, files, errors and threads through the safe interface.
 
 use talus::{
-    distance, penetration, Cull, ErrorKind, Hull, Level, Navmesh, NavmeshSettings, Pose, Ray, Shape, Side, Soup,
+    cast, distance, penetration, Cull, ErrorKind, Hull, Level, Navmesh, NavmeshSettings, Pose, Ray, Shape, Side, Soup,
 };
 
 // A floor 20 m square, and a wall 3 m high with a passage around its end at z = 6.
@@ -85,6 +85,7 @@ fn rays_hit_what_they_should() {
     let ball = Shape::sphere([0.0; 3], 1.0);
     assert!(soup.overlaps(&ball, &Pose::at([-0.5, 1.5, 0.0])).unwrap());
     assert!(!soup.overlaps(&ball, &Pose::at([-5.0, 1.5, 0.0])).unwrap());
+    assert_eq!(ray.at(hit.t), [0.0, 1.0, 0.0]);
 }
 
 #[test]
@@ -103,6 +104,30 @@ fn batches_are_single_rays() {
         assert_eq!(soup.cast_rays(&rays).unwrap(), single);
         assert!(count < 1800 || (single.iter().any(Option::is_none) && single.iter().any(Option::is_some)));
     }
+}
+
+#[test]
+fn moving_shapes_meet_what_they_should() {
+    let soup = Soup::bake(&VERTICES, &TRIANGLES).unwrap();
+    let ball = Shape::sphere([0.0; 3], 1.0);
+    let start = Pose::at([-5.0, 1.5, 0.0]);
+    let hit = soup.cast_shape(&ball, &start, [8.0, 0.0, 0.0]).unwrap().unwrap();
+    assert!((hit.t - 0.5).abs() < 1e-6 && hit.converged && !hit.initial_overlap && !hit.back);
+    assert_eq!((hit.normal, hit.point[0]), ([-1.0, 0.0, 0.0], 0.0));
+    assert_eq!(soup.cast_shape(&ball, &start, [-3.0, 0.0, 0.0]).unwrap(), None);
+    let inside = soup.cast_shape(&ball, &Pose::at([-0.5, 1.5, 0.0]), [1.0, 0.0, 0.0]).unwrap().unwrap();
+    assert!(inside.initial_overlap && inside.t == 0.0 && (inside.depth - 0.5).abs() < 1e-6);
+    assert_eq!(soup.cast_shape(&ball, &start, [f32::NAN; 3]).unwrap_err().kind(), ErrorKind::NotFinite);
+
+    let wall = Shape::cuboid([0.0; 3], [0.5, 4.0, 4.0], 0.0);
+    let at = |x| Pose::at([x, 0.0, 0.0]);
+    let hit = cast(&wall, &Pose::default(), &ball, &at(5.5), [-8.0, 0.0, 0.0]).unwrap().unwrap();
+    assert!((hit.t - 0.5).abs() < 1e-6 && hit.converged && !hit.initial_overlap);
+    assert_eq!(hit.normal, [1.0, 0.0, 0.0]);
+    assert_eq!(cast(&wall, &Pose::default(), &ball, &at(5.5), [-3.9, 0.0, 0.0]).unwrap(), None);
+    assert!(cast(&wall, &Pose::default(), &ball, &at(1.0), [-8.0, 0.0, 0.0]).unwrap().unwrap().initial_overlap);
+    let error = cast(&wall, &Pose::default(), &ball, &at(f32::NAN), [1.0, 0.0, 0.0]).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::NotFinite);
 }
 
 #[test]
