@@ -59,7 +59,7 @@ fn distance(points: &[[f32; 3]], runs: usize, theirs: &ConvexPolyhedron) -> bool
         })
         .collect();
     let still = Pose::default();
-    let ours = |pose: &Pose| talus::distance(&shape, &still, &shape, pose).distance;
+    let ours = |pose: &Pose| talus::distance(&shape, &still, &shape, pose).expect("poses are finite").distance;
     let of_parry = |pose: &TheirPose| {
         parry3d::query::distance(&TheirPose::IDENTITY, theirs, pose, theirs).expect("parry has hulls").distance
     };

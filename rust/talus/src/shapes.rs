@@ -164,40 +164,56 @@ pub struct Penetration {
 ///
 /// let ball = Shape::sphere([0.0; 3], 1.0);
 /// let crate_ = Shape::cuboid([0.0; 3], [1.0; 3], 0.0);
-/// let apart = distance(&ball, &Pose::at([4.0, 0.0, 0.0]), &crate_, &Pose::default());
+/// let apart = distance(&ball, &Pose::at([4.0, 0.0, 0.0]), &crate_, &Pose::default())?;
 /// assert!((apart.distance - 2.0).abs() < 1e-6);
+/// # Ok::<(), talus::Error>(())
 /// ```
-pub fn distance(a: &Shape<'_>, pose_a: &Pose, b: &Shape<'_>, pose_b: &Pose) -> Separation {
+///
+/// # Errors
+/// [`ErrorKind::NotFinite`](crate::ErrorKind) for such a shape or pose.
+pub fn distance(a: &Shape<'_>, pose_a: &Pose, b: &Shape<'_>, pose_b: &Pose) -> Result<Separation, Error> {
     // SAFETY: shapes borrow their hulls; the rest is plain data; without a cache the search begins anew.
     unsafe {
         let mut found: sys::tl_separation = std::mem::zeroed();
         sys::tl_convex_distance(a.raw(), pose_a.raw(), b.raw(), pose_b.raw(), null_mut(), &mut found);
-        Separation {
+        check_finite(found.status)?;
+        Ok(Separation {
             distance: found.distance,
             lower_bound: found.lower_bound,
             overlap: found.overlap,
             point_a: point_of(found.point_a),
             point_b: point_of(found.point_b),
             normal: point_of(found.normal),
-        }
+        })
     }
 }
 
 /// How deep two shapes are in one another; `None`: they do not overlap.
-pub fn penetration(a: &Shape<'_>, pose_a: &Pose, b: &Shape<'_>, pose_b: &Pose) -> Option<Penetration> {
+///
+/// # Errors
+/// [`ErrorKind::NotFinite`](crate::ErrorKind) for such a shape or pose.
+pub fn penetration(a: &Shape<'_>, pose_a: &Pose, b: &Shape<'_>, pose_b: &Pose) -> Result<Option<Penetration>, Error> {
     // SAFETY: as in distance.
     unsafe {
         let mut found: sys::tl_penetration = std::mem::zeroed();
-        sys::tl_convex_penetration(a.raw(), pose_a.raw(), b.raw(), pose_b.raw(), null_mut(), &mut found).then(|| {
-            Penetration {
-                depth: found.depth,
-                bounds: [found.lower_bound, found.upper_bound],
-                normal: point_of(found.normal),
-                point_a: point_of(found.point_a),
-                point_b: point_of(found.point_b),
-            }
-        })
+        let overlap = sys::tl_convex_penetration(a.raw(), pose_a.raw(), b.raw(), pose_b.raw(), null_mut(), &mut found);
+        check_finite(found.status)?;
+        Ok(overlap.then(|| Penetration {
+            depth: found.depth,
+            bounds: [found.lower_bound, found.upper_bound],
+            normal: point_of(found.normal),
+            point_a: point_of(found.point_a),
+            point_b: point_of(found.point_b),
+        }))
     }
+}
+
+// An answer about what is not finite is zero, which must not pass for one.
+fn check_finite(status: sys::tl_convex_status) -> Result<(), Error> {
+    if status == sys::TL_CONVEX_NOT_FINITE {
+        return Err(Error::new(sys::TL_ERR_NOT_FINITE, None));
+    }
+    Ok(())
 }
 
 /// When a moving shape touches another one.
@@ -241,9 +257,7 @@ pub fn cast(
     unsafe {
         let mut hit: sys::tl_convex_hit = std::mem::zeroed();
         sys::tl_convex_cast(a.raw(), pose_a.raw(), b.raw(), pose_b.raw(), vec3(motion), &mut hit);
-        if hit.status == sys::TL_CONVEX_NOT_FINITE {
-            return Err(Error::new(sys::TL_ERR_NOT_FINITE, None));
-        }
+        check_finite(hit.status)?;
         Ok(hit.hit.then(|| CastHit {
             t: hit.t,
             initial_overlap: hit.initial_overlap,

@@ -147,10 +147,13 @@ fn hulls_keep_their_distance() {
     assert_eq!(hull.vertex_count(), 8);
     assert!(hull.contains([0.9, 0.9, 0.9]) && !hull.contains([1.1, 0.0, 0.0]));
     let cube = Shape::hull(&hull, 0.0);
-    let apart = distance(&cube, &Pose::default(), &cube, &Pose::at([5.0, 0.5, 0.0]));
+    let apart = distance(&cube, &Pose::default(), &cube, &Pose::at([5.0, 0.5, 0.0])).unwrap();
     assert!((apart.distance - 3.0).abs() < 1e-6 && apart.lower_bound <= apart.distance);
-    assert!(penetration(&cube, &Pose::default(), &cube, &Pose::at([5.0, 0.0, 0.0])).is_none());
-    let deep = penetration(&cube, &Pose::default(), &cube, &Pose::at([1.5, 0.0, 0.0])).unwrap();
+    assert!(penetration(&cube, &Pose::default(), &cube, &Pose::at([5.0, 0.0, 0.0])).unwrap().is_none());
+    let deep = penetration(&cube, &Pose::default(), &cube, &Pose::at([1.5, 0.0, 0.0])).unwrap().unwrap();
+    let nowhere = Pose::at([f32::NAN, 0.0, 0.0]);
+    assert_eq!(distance(&cube, &nowhere, &cube, &Pose::default()).unwrap_err().kind(), ErrorKind::NotFinite);
+    assert_eq!(penetration(&cube, &nowhere, &cube, &Pose::default()).unwrap_err().kind(), ErrorKind::NotFinite);
     assert!((deep.depth - 0.5).abs() < 1e-6 && deep.bounds[0] <= deep.depth && deep.depth <= deep.bounds[1]);
     assert_eq!(Hull::bake(&[[f32::INFINITY; 3]; 4]).err().unwrap().kind(), ErrorKind::NotFinite);
 }
