@@ -223,7 +223,7 @@ typedef struct tl_segment {
 /// Runs on the host's tasks, 4,096 rays each. Rays that follow each other in the array and run nearly alike, as those
 /// of a camera's row or tile, a lidar's fan, or shadow rays of neighbouring points do, are found and traced sixteen at
 /// once, for 1 / 3 to 1 / 5 of the time of single calls. Of others a thread has several under way, so that one
-/// continues while another waits for memory or a missed branch: 1 / 1.1 to 1 / 1.6, and where any hit will do 1 / 1.2
+/// continues while another waits for memory or a missed branch: 1 to 1 / 1.6, and where any hit will do 1 / 1.2
 /// to 1 / 1.6. With a filter none are sought that run alike; in the compact layout rays are traced one by one.
 TL_API void tl_soup_cast_rays(const tl_soup *soup, const tl_ray *rays, uint32_t count, const tl_ray_filter *filter,
                               const tl_host *host, tl_ray_hit *hits_out);
