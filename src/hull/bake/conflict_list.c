@@ -20,6 +20,9 @@ static void file_under(tl_quickhull *hull, uint32_t face, uint32_t point, double
     tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
     hull->local[point].next = conflicts->first;
     conflicts->first = point;
+    if (point >= hull->point_count) {
+        return;
+    }
     if (conflicts->farthest == TL_NONE || value > conflicts->farthest_value ||
         (value == conflicts->farthest_value && point < conflicts->farthest)) {
         conflicts->farthest = point;
@@ -30,7 +33,7 @@ static void file_under(tl_quickhull *hull, uint32_t face, uint32_t point, double
 tl_result tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4])
 {
     hull->waiting = hull->point_count;
-    for (uint32_t p = 0; p < hull->point_count; p++) {
+    for (uint32_t p = 0; p < hull->point_count + hull->passive_count; p++) {
         TL_TRY(tl_quickhull_count_work(hull, 1));
         if (p == seed[0] || p == seed[1] || p == seed[2] || p == seed[3]) {
             hull->waiting--;
@@ -44,7 +47,7 @@ tl_result tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4])
                 break;
             }
         }
-        hull->waiting -= f == 4;
+        hull->waiting -= f == 4 && p < hull->point_count;
     }
     return TL_OK;
 }
@@ -68,7 +71,7 @@ tl_result tl_quickhull_refile(tl_quickhull *hull)
                     break;
                 }
             }
-            hull->waiting -= k == hull->created_count; // inside, or on the surface
+            hull->waiting -= k == hull->created_count && p < hull->point_count; // inside, or on the surface
             p = next;
         }
     }
@@ -111,7 +114,7 @@ static tl_result push_waiting_face(tl_quickhull *hull, uint32_t face)
 tl_result tl_quickhull_enqueue(tl_quickhull *hull, uint32_t face)
 {
     tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
-    if (conflicts->first == TL_NONE) {
+    if (conflicts->farthest == TL_NONE) {
         return TL_OK;
     }
     if (hull->farthest_first) {
@@ -129,7 +132,7 @@ tl_result tl_quickhull_enqueue(tl_quickhull *hull, uint32_t face)
 void tl_quickhull_unqueue(tl_quickhull *hull, uint32_t face)
 {
     const tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
-    if (hull->farthest_first || conflicts->first == TL_NONE) {
+    if (hull->farthest_first || conflicts->farthest == TL_NONE) {
         return;
     }
     if (conflicts->newer != TL_NONE) {

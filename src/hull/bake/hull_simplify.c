@@ -12,7 +12,6 @@
 #include "hull/bake/flat_regions.h"
 
 #include "base/assert.h"
-#include "base/min_max.h"
 #include "math/point_grid.h"
 
 #include <string.h>
@@ -20,7 +19,7 @@
 // Each pass of leaving out finds what the one before made possible; nearly always two are all.
 enum { MAX_PASSES = 8, MAX_RESTORES = 4 };
 
-// Corners that are welded or measured between two calls of progress, at some us each.
+// Corners that are welded between two calls of progress, at some us each.
 enum { CORNERS_PER_CALL = 1 << 12 };
 
 typedef struct hull_simplifier {
@@ -33,8 +32,8 @@ typedef struct hull_simplifier {
     const uint32_t *corners;  // [corner_count] points
     bool *is_kept, *is_fixed; // [corner_count] fixed: came back, and stays
     uint32_t kept_count;
-    tl_vec3 *kept;         // [kept_count] where they are
-    uint32_t *kept_points; // [kept_count] which points they are
+    tl_vec3 *places; // [corner_count] of the kept corners, then of the others
+    uint32_t *order; // [corner_count] which corner each of them is
 } hull_simplifier;
 
 static bool is_near_a_kept_one(const hull_simplifier *s, const tl_point_grid *grid, tl_vec3 p, tl_point_cell cell)
@@ -102,23 +101,23 @@ static tl_result leave_out_spare(hull_simplifier *s, const tl_hull_polygons *exa
     return TL_OK;
 }
 
-// The exact hull of the kept corners; its polygons name points of the whole.
+// The exact hull of the kept corners, with the others filed under faces that they see; its polygons name points.
 static tl_result build_kept(hull_simplifier *s, tl_quickhull *hull, tl_hull_polygons *exact)
 {
-    uint32_t count = 0, copies;
+    uint32_t kept = 0, left_out = s->kept_count, copies;
     for (uint32_t i = 0; i < s->corner_count; i++) {
-        if (s->is_kept[i]) {
-            s->kept[count] = s->points[s->corners[i]];
-            s->kept_points[count++] = s->corners[i];
-        }
+        const uint32_t at = s->is_kept[i] ? kept++ : left_out++;
+        s->places[at] = s->points[s->corners[i]];
+        s->order[at] = i;
     }
     tl_hull_def def = tl_default_hull_def();
     def.flatness = 0.0f;
-    TL_TRY(tl_stage_begin(s->stage, &s->host, "merge hull", count));
-    tl_quickhull_init(hull, s->kept, count, s->arena, s->stage);
+    TL_TRY(tl_stage_begin(s->stage, &s->host, "merge hull", kept));
+    tl_quickhull_init(hull, s->places, kept, s->arena, s->stage);
+    hull->passive_count = s->corner_count - kept;
     TL_TRY(tl_quickhull_build(hull, &def, NULL, &copies, exact));
     for (uint32_t v = 0; v < exact->vertex_count; v++) {
-        exact->points[v] = s->kept_points[exact->points[v]];
+        exact->points[v] = s->corners[s->order[exact->points[v]]];
     }
     return TL_OK;
 }
@@ -127,31 +126,15 @@ static tl_result build_kept(hull_simplifier *s, tl_quickhull *hull, tl_hull_poly
 static tl_result measure_left_out(hull_simplifier *s, tl_quickhull *hull, double *max_outside, bool *changed)
 {
     const double allowed = (double)s->def->weld_distance + (double)s->def->merge_distance;
-    tl_vec3d middle = { 0.0, 0.0, 0.0 };
-    for (uint32_t i = 0; i < hull->point_count; i++) {
-        middle = tl_vec3d_add(middle, tl_vec3d_from(hull->local[i].position));
+    uint32_t *beyond = TL_PUSH(s->arena, uint32_t, (uint64_t)hull->passive_count + 1), count;
+    if (beyond == NULL) {
+        return TL_ERR_MEMORY;
     }
-    middle = tl_vec3d_scale(middle, 1.0 / (double)hull->point_count);
-    uint32_t face = 0;
-    while (!hull->conflicts[face].live) {
-        face++;
+    TL_TRY(tl_quickhull_measure_passive(hull, allowed, beyond, &count, max_outside));
+    for (uint32_t i = 0; i < count; i++) {
+        restore_corner(s, s->order[beyond[i]]);
     }
-    *max_outside = 0.0;
-    *changed = false;
-    for (uint32_t i = 0; i < s->corner_count; i++) {
-        TL_TRY(i % CORNERS_PER_CALL == 0 ? tl_stage_add(s->stage, 0) : TL_OK);
-        if (s->is_kept[i]) {
-            continue;
-        }
-        const tl_vec3 local = tl_sub(s->points[s->corners[i]], hull->origin);
-        const double distance = tl_quickhull_distance_outside(hull, local, middle, &face);
-        if (distance > allowed) {
-            restore_corner(s, i);
-            *changed = true;
-        } else {
-            *max_outside = tl_max_f64(*max_outside, distance);
-        }
-    }
+    *changed = count > 0;
     return TL_OK;
 }
 
@@ -201,9 +184,9 @@ tl_result tl_hull_simplify(const tl_vec3 *points, const tl_hull_def *def, tl_are
                           NULL };
     s.is_kept = TL_PUSH(arena, bool, count);
     s.is_fixed = TL_PUSH_ZERO(arena, bool, count);
-    s.kept = TL_PUSH(arena, tl_vec3, count);
-    s.kept_points = TL_PUSH(arena, uint32_t, count);
-    if (s.is_kept == NULL || s.is_fixed == NULL || s.kept == NULL || s.kept_points == NULL) {
+    s.places = TL_PUSH(arena, tl_vec3, count);
+    s.order = TL_PUSH(arena, uint32_t, count);
+    if (s.is_kept == NULL || s.is_fixed == NULL || s.places == NULL || s.order == NULL) {
         return TL_ERR_MEMORY;
     }
     memset(s.is_kept, 1, count * sizeof *s.is_kept);

@@ -9,6 +9,7 @@
 
 #include "hull/bake/quickhull.h"
 
+#include "base/assert.h"
 #include "base/min_max.h"
 #include "math/vec3d.h"
 
@@ -63,43 +64,27 @@ void tl_quickhull_report_left_out(tl_quickhull *hull, tl_hull_report *report)
     report->max_outside = sqrt(farthest_sq);
 }
 
-// How far out of a face's plane a point lies, in units of the middle's depth below it. Over the planes of a hull,
-// points of the polar body, this is linear, so a face that no neighbour exceeds is the best of all.
-static double relative_height(const tl_quickhull *hull, uint32_t face, tl_vec3 point, tl_vec3d middle)
+tl_result tl_quickhull_measure_passive(tl_quickhull *hull, double allowed, uint32_t *beyond, uint32_t *beyond_count,
+                                       double *max_outside)
 {
-    const tl_side_plane *plane = &hull->faces[face].plane;
-    const tl_vec3d normal = tl_vec3d_make(plane->normal[0], plane->normal[1], plane->normal[2]);
-    return tl_side_plane_height(plane, point) / (plane->offset - tl_vec3d_dot(normal, middle));
-}
-
-static bool sees(const tl_quickhull *hull, uint32_t face, tl_vec3 point)
-{
-    double height;
-    return tl_quickhull_side(hull, &hull->faces[face], point, &height) > 0;
-}
-
-double tl_quickhull_distance_outside(tl_quickhull *hull, tl_vec3 point, tl_vec3d middle, uint32_t *face)
-{
-    uint32_t at = *face, best = at;
-    double height = relative_height(hull, at, point, middle);
-    while (!sees(hull, at, point)) {
-        for (uint32_t k = 0; k < 3; k++) {
-            const uint32_t other = tl_half_edge_face(hull->faces[at].across[k]);
-            const double higher = relative_height(hull, other, point, middle);
-            if (higher > height) {
-                height = higher;
-                best = other;
+    double farthest_sq = 0.0;
+    *beyond_count = 0;
+    for (uint32_t face = 0; face < hull->face_count; face++) {
+        uint32_t point = hull->conflicts[face].live ? hull->conflicts[face].first : TL_NONE;
+        for (; point != TL_NONE; point = hull->local[point].next) {
+            const tl_vec3 position = hull->local[point].position;
+            if (distance_sq_to_face(hull, face, tl_vec3d_from(position)) <= farthest_sq) {
+                continue;
+            }
+            const double distance_sq = distance_sq_to_hull(hull, face, position);
+            TL_TRY(tl_quickhull_count_work(hull, hull->visible_count));
+            if (sqrt(distance_sq) > allowed) {
+                beyond[(*beyond_count)++] = point;
+            } else {
+                farthest_sq = tl_max_f64(farthest_sq, distance_sq);
             }
         }
-        if (best == at) {
-            break;
-        }
-        at = best;
     }
-    // Among triangles of one plane, or by rounding, the walk may end too early.
-    for (uint32_t f = 0; f < hull->face_count && !sees(hull, at, point); f++) {
-        at = hull->conflicts[f].live ? f : at;
-    }
-    *face = at;
-    return sees(hull, at, point) ? sqrt(distance_sq_to_hull(hull, at, point)) : 0.0;
+    *max_outside = sqrt(farthest_sq);
+    return TL_OK;
 }

@@ -131,10 +131,10 @@ static tl_result check_points(const tl_vec3 *points, uint32_t count, tl_report *
     return TL_OK;
 }
 
-static void measure_box(tl_quickhull *hull)
+static void measure_box(tl_quickhull *hull, uint32_t count)
 {
     hull->box = tl_aabb_empty();
-    for (uint32_t i = 0; i < hull->point_count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         hull->box = tl_aabb_add_point(hull->box, hull->points[i]);
     }
 }
@@ -143,7 +143,11 @@ static void measure_box(tl_quickhull *hull)
 // the same.
 static tl_result make_local(tl_quickhull *hull)
 {
-    hull->local = TL_PUSH(hull->arena, tl_quickhull_point, hull->point_count);
+    const uint32_t count = hull->point_count + hull->passive_count;
+    if (hull->passive_count > 0) {
+        measure_box(hull, count);
+    }
+    hull->local = TL_PUSH(hull->arena, tl_quickhull_point, count);
     if (hull->local == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -152,10 +156,10 @@ static tl_result make_local(tl_quickhull *hull)
         tl_vec3_make(tl_side_origin(low.x, high.x), tl_side_origin(low.y, high.y), tl_side_origin(low.z, high.z));
     hull->origin = origin;
     tl_vec3 reach = tl_max(tl_abs(tl_sub(low, origin)), tl_abs(tl_sub(high, origin)));
-    for (uint32_t i = 0; i < hull->point_count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         hull->local[i].position = tl_sub(hull->points[i], origin);
     }
-    hull->exact = tl_quickhull_on_lattice(hull->local, hull->point_count, reach);
+    hull->exact = tl_quickhull_on_lattice(hull->local, count, reach);
     if (!hull->exact) {
         hull->reach[0] = (double)reach.x;
         hull->reach[1] = (double)reach.y;
@@ -235,11 +239,11 @@ tl_result tl_quickhull_build(tl_quickhull *hull, const tl_hull_def *def, tl_hull
     uint32_t seed[4], rank;
     *copies_out = 1;
     hull->farthest_first = def->max_vertices != 0;
-    measure_box(hull);
+    measure_box(hull, hull->point_count);
     tl_result result = tl_quickhull_seed(hull, (double)def->flatness, seed, &rank);
     if (result != TL_OK && def->thickness > 0.0f) {
         TL_TRY(tl_quickhull_thicken(hull, seed, rank, def->thickness, copies_out));
-        measure_box(hull);
+        measure_box(hull, hull->point_count);
         if (!is_in_range(hull->box.min) || !is_in_range(hull->box.max)) {
             return tl_report_field(base, TL_ERR_RANGE, "thickness", "make it smaller, or use a larger unit");
         }

@@ -53,10 +53,11 @@ typedef struct tl_quickhull {
     uint32_t work;   // points and faces that were looked at since progress was called
     const tl_vec3 *points;
     uint32_t point_count;
-    uint32_t waiting; // points that are filed under a face
+    uint32_t passive_count; // behind them: points that become no corner, and end filed under a face that they see
+    uint32_t waiting;       // points that are filed under a face
     tl_aabb box;
     tl_vec3 origin;            // of the local points
-    tl_quickhull_point *local; // [point_count] the points near the origin, exactly moved
+    tl_quickhull_point *local; // [point_count + passive_count] the points near the origin, exactly moved
     double reach[3];           // the largest absolute local coordinates; 0 where heights are exact
     bool exact;                // heights are: see tl_quickhull_on_lattice
 
@@ -177,9 +178,10 @@ tl_result tl_quickhull_add_point(tl_quickhull *hull, uint32_t face);
 
 // left_out.c: the points that are still outside.
 void tl_quickhull_report_left_out(tl_quickhull *hull, tl_hull_report *report);
-// The distance of a point, which lies strictly outside of a finished hull, from it. `middle` is a local position well
-// inside; `*face` is a live face to search from, and then one that the point sees.
-double tl_quickhull_distance_outside(tl_quickhull *hull, tl_vec3 point, tl_vec3d middle, uint32_t *face);
+// Lists in `beyond` [passive_count] the passive points that lie farther outside than `allowed`, and how far the
+// farthest of the others does. TL_ERR_CANCELLED.
+tl_result tl_quickhull_measure_passive(tl_quickhull *hull, double allowed, uint32_t *beyond, uint32_t *beyond_count,
+                                       double *max_outside);
 
 // quickhull.c: the merged hull of points that are all corners; NULL allocator: malloc. Silent.
 tl_result tl_hull_bake_merged(const tl_vec3 *corners, uint32_t count, double distance, const tl_allocator *allocator,
