@@ -56,14 +56,15 @@ static PyObject *raise_for(tl_result result, const tl_report *report, Py_ssize_t
 }
 
 // crowd_create((max agents, max path, max neighbors, paths per step, max nodes, neighbor distance, agent horizon, wall
-//              horizon), threads) -> crowd
+//              horizon, max shared goals), threads) -> crowd
 static PyObject *crowd_create(PyObject *self, PyObject *args)
 {
     (void)self;
     tl_nav_crowd_def def = tl_default_nav_crowd_def();
     unsigned threads = 1;
-    if (!PyArg_ParseTuple(args, "(IIIIIfff)I", &def.max_agents, &def.max_path, &def.max_neighbors, &def.paths_per_step,
-                          &def.max_nodes, &def.neighbor_distance, &def.agent_horizon, &def.wall_horizon, &threads)) {
+    if (!PyArg_ParseTuple(args, "(IIIIIfffI)I", &def.max_agents, &def.max_path, &def.max_neighbors, &def.paths_per_step,
+                          &def.max_nodes, &def.neighbor_distance, &def.agent_horizon, &def.wall_horizon,
+                          &def.max_shared_goals, &threads)) {
         return NULL;
     }
     binding_crowd *held = calloc(1, sizeof(*held));
@@ -293,8 +294,8 @@ static PyObject *crowd_states(PyObject *self, PyObject *args)
 
 // --- steps ----------------------------------------------------------------------------------------------------------
 
-// crowd_step(crowd, navmesh, dt, count) -> (searched, waiting, walking, arrived, unreachable, on_link, off_mesh) of the
-// last of `count` steps; searched of all of them
+// crowd_step(crowd, navmesh, dt, count) -> (searched, waiting, walking, arrived, unreachable, on_link, off_mesh,
+// shared) of the last of `count` steps; searched and shared of all of them
 static PyObject *crowd_step(PyObject *self, PyObject *args)
 {
     (void)self;
@@ -313,11 +314,13 @@ static PyObject *crowd_step(PyObject *self, PyObject *args)
     tl_nav_crowd_step_report report;
     tl_result result = TL_OK;
     unsigned searched = 0;
+    unsigned shared = 0;
     for (unsigned done = 0; done < count && result == TL_OK;) {
         PyThreadState *state = PyEval_SaveThread();
         for (unsigned first = done; done < count && done - first < 64 && result == TL_OK; done++) {
             result = tl_nav_crowd_step(held->crowd, mesh->navmesh, dt, &report);
             searched += result == TL_OK ? report.searched : 0;
+            shared += result == TL_OK ? report.shared : 0;
         }
         PyEval_RestoreThread(state);
         if (result == TL_OK && PyErr_CheckSignals() != 0) {
@@ -328,8 +331,8 @@ static PyObject *crowd_step(PyObject *self, PyObject *args)
         tl_report refused = { NULL, "dt", NULL, TL_NO_ELEMENT, "make it > 0 and at most 1 second", 0 };
         return binding_raise(result, &refused);
     }
-    return Py_BuildValue("(IIIIIII)", searched, report.waiting, report.walking, report.arrived, report.unreachable,
-                         report.on_link, report.off_mesh);
+    return Py_BuildValue("(IIIIIIII)", searched, report.waiting, report.walking, report.arrived, report.unreachable,
+                         report.on_link, report.off_mesh, shared);
 }
 
 // crowd_agents(crowd) -> bytes: the name of each agent

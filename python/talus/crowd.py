@@ -94,6 +94,8 @@ class CrowdReport:
     on_link: int
     """Those that queue not counted."""
     off_mesh: int
+    shared: int
+    """Paths that were taken from the search of a shared goal, in all steps."""
 
 
 class Crowd:
@@ -127,6 +129,7 @@ class Crowd:
         neighbor_distance: float = 4.0,
         agent_horizon: float = 2.0,
         wall_horizon: float = 0.25,
+        max_shared_goals: int = 4,
         filters: Sequence[Filter] = (),
         threads: int | None = 1,
     ) -> None:
@@ -142,6 +145,8 @@ class Crowd:
             neighbor_distance: metres, > 0: agents whose rims are farther apart ignore one another.
             agent_horizon: seconds, > 0: so far ahead collisions with agents are avoided.
             wall_horizon: seconds, > 0: walls are approached so that they are not reached sooner.
+            max_shared_goals: goals whose paths are found by one search for all that walk there, 0 to 8: those that most
+                agents have. 0: each agent searches its own path.
             filters: up to 16, which agents choose by index; without any, one that passes all.
             threads: of a step. One is enough for some hundreds of agents; None is all.
 
@@ -154,7 +159,7 @@ class Crowd:
         self._lock = threading.RLock()
         self._crowd = _talus.crowd_create(
             (int(max_agents), int(max_path), int(max_neighbors), int(paths_per_step), int(max_nodes),
-             float(neighbor_distance), float(agent_horizon), float(wall_horizon)),
+             float(neighbor_distance), float(agent_horizon), float(wall_horizon), int(max_shared_goals)),
             thread_count(threads),
         )  # fmt: skip
         for place, filter in enumerate(filters):

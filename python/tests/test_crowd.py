@@ -189,3 +189,22 @@ def test_navmesh_changes_under_them(hall: Mesh) -> None:
         if report.arrived:
             break
     assert crowd.states(agent).status.tolist() == ["arrived"]
+
+
+def test_shared_goals_are_searched_once(navmesh: talus.Navmesh) -> None:
+    def searches(shared: int) -> tuple[int, int]:
+        crowd = talus.Crowd(navmesh, max_shared_goals=shared)
+        places = [[3 + 0.8 * (i % 8), 0, 12 + 0.8 * (i // 8)] for i in range(40)]
+        crowd.set_goals(crowd.add(places), [35, 0, 35])
+        report = crowd.step(DT, count=5)
+        return report.searched, report.shared
+
+    alone, none = searches(0)
+    together, shared = searches(4)
+    assert alone >= 40
+    assert none == 0
+    assert together < 10
+    assert shared >= 30
+    with pytest.raises(talus.Error) as refused:
+        talus.Crowd(navmesh, max_shared_goals=9)
+    assert refused.value.field == "max_shared_goals"

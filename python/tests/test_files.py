@@ -45,6 +45,30 @@ def test_round_trip(hall: Mesh, tmp_path: Path) -> None:
     assert opened.navmesh.shortest_path([5, 0, 20], [35, 0, 20]).length == path.length
 
 
+def test_links_set_by_hand_are_saved(hall: Mesh) -> None:
+    soup = talus.Soup(*hall)
+    navmesh = talus.Navmesh.bake(*hall)
+    found = len(navmesh.find_links(soup=soup, max_drop=7))
+    navmesh.add_link([3, 0, 3], [12, 6.5, 34], both_ways=True, fixed_cost=2)
+    gone = navmesh.add_link([3, 0, 5], [12, 6.5, 34])
+    navmesh.remove_link(gone)
+    assert found > 0
+    data = talus.Level(soup=soup, navmesh=navmesh).to_bytes()
+    level = talus.load(data)
+    assert level.navmesh is not None
+    assert sorted((link.start, link.end, link.both_ways, link.cost) for link in level.navmesh.links()) == sorted(
+        (link.start, link.end, link.both_ways, link.cost) for link in navmesh.links()
+    )
+    assert level.to_bytes() == data
+    # Those of the file can be removed, and stay away.
+    for link in level.navmesh.links():
+        if link.both_ways and link.start == (3, 0, 3):
+            level.navmesh.remove_link(link.ref)
+    again = talus.load(level.to_bytes()).navmesh
+    assert again is not None
+    assert len(again.links()) == found
+
+
 def test_damage_is_named(hall: Mesh, tmp_path: Path) -> None:
     data = talus.Level(soup=talus.Soup(*hall)).to_bytes()
     for bad, result in (
