@@ -4,8 +4,8 @@
 // the one before joins every two tiles that are neighbours; what lies further back leaves it.
 
 #include "io/files/file_pack.h"
-#include "world/bytes/random_read.h"
 #include "world/job/merge_tiles.h"
+#include "world/job/world_reader.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,9 +15,7 @@ enum { FIRST_ROOM = 64 };
 
 typedef struct check_job {
     const char *path;
-    tl_random_file file;
-    void *index_bytes; // of the index
-    tl_pack_index index;
+    tl_world_reader reader;
     tl_pack_navmesh *settings;
     tl_navmesh *rows;
     tl_nav_tile **held; // [held_count], of `rows`, by z
@@ -38,13 +36,6 @@ static tl_result fail_chunk(const check_job *job, tl_result result, uint32_t chu
 static tl_result fail_check_memory(const check_job *job)
 {
     return tl_io_fail(job->error, TL_ERR_MEMORY, job->path, 0, "", "out of memory");
-}
-
-static tl_result fail_pack(const check_job *job, tl_result result, const tl_report *why)
-{
-    return tl_io_fail(job->error, result, job->path, 0, "merge it again", "%s%s%s",
-                      why->element != NULL ? why->element : "", why->element != NULL ? ": " : "",
-                      tl_result_text(result));
 }
 
 static int compare_places(const tl_nav_tile *a, const tl_nav_tile *b)
@@ -131,7 +122,7 @@ static tl_result join_tile(check_job *job, uint32_t chunk, tl_nav_tile *tile)
 
 static tl_result take_tile(check_job *job, uint32_t chunk, tl_nav_tile *tile)
 {
-    const char *fault = tl_nav_tile_check(tile, job->index.entries[chunk].size, NULL) != TL_OK
+    const char *fault = tl_nav_tile_check(tile, job->reader.index.entries[chunk].size, NULL) != TL_OK
                             ? "no sound tile"
                             : tile_fault(tile, job->has_last ? &job->last : NULL, job->settings);
     if (fault != NULL) {
@@ -161,7 +152,7 @@ static bool is_zero(const unsigned char *bytes, size_t size)
 // The chunk and the padding behind it, verified. The bytes are freed with free().
 static tl_result read_chunk(const check_job *job, uint32_t chunk, void **bytes_out)
 {
-    const tl_pack_index *index = &job->index;
+    const tl_pack_index *index = &job->reader.index;
     const tl_pack_entry *entry = &index->entries[chunk];
     const uint64_t end = chunk + 1 < index->count ? entry[1].offset : index->file_size;
     const size_t size = (size_t)(end - entry->offset);
@@ -170,7 +161,7 @@ static tl_result read_chunk(const check_job *job, uint32_t chunk, void **bytes_o
     if (bytes == NULL) {
         return fail_check_memory(job);
     }
-    tl_result result = tl_random_file_read(&job->file, job->path, entry->offset, bytes, size, job->error);
+    tl_result result = tl_random_file_read(&job->reader.file, job->path, entry->offset, bytes, size, job->error);
     if (result == TL_OK) {
         const bool is_clear = is_zero(bytes + entry->size, size - (size_t)entry->size);
         result = is_clear ? tl_pack_entry_open(entry, bytes, NULL) : TL_ERR_CORRUPT;
@@ -189,18 +180,18 @@ static tl_result read_chunk(const check_job *job, uint32_t chunk, void **bytes_o
 static tl_result read_settings(check_job *job)
 {
     uint32_t chunk = 0;
-    while (chunk < job->index.count && job->index.entries[chunk].type != TL_PACK_NAVM) {
+    while (chunk < job->reader.index.count && job->reader.index.entries[chunk].type != TL_PACK_NAVM) {
         chunk++;
     }
     tl_result result = TL_ERR_CORRUPT;
-    if (chunk < job->index.count) {
+    if (chunk < job->reader.index.count) {
         void *bytes;
         result = read_chunk(job, chunk, &bytes);
         if (result != TL_OK) {
             return result;
         }
         job->settings = bytes;
-        result = tl_pack_navmesh_check(bytes, job->index.entries[chunk].size, NULL);
+        result = tl_pack_navmesh_check(bytes, job->reader.index.entries[chunk].size, NULL);
     }
     return result == TL_OK ? TL_OK
                            : tl_io_fail(job->error, TL_ERR_CORRUPT, job->path, 0, "give a file of 'talus world merge'",
@@ -209,8 +200,8 @@ static tl_result read_settings(check_job *job)
 
 static tl_result check_chunks(check_job *job)
 {
-    for (uint32_t i = 0; i < job->index.count; i++) {
-        const uint32_t type = job->index.entries[i].type;
+    for (uint32_t i = 0; i < job->reader.index.count; i++) {
+        const uint32_t type = job->reader.index.entries[i].type;
         void *bytes;
         tl_result result = read_chunk(job, i, &bytes);
         if (result == TL_OK && type == TL_PACK_NAVT) {
@@ -250,18 +241,19 @@ static tl_result join_links(check_job *job)
     }
     tl_navmesh_destroy(navmesh);
     tl_file_map_close(&map);
-    return result == TL_OK ? TL_OK : fail_pack(job, result, &why);
+    return result == TL_OK ? TL_OK : tl_world_reader_fail(&job->reader, result, &why, job->error);
 }
 
 // ---- The file ----------------------------------------------------------------------------------------------
 
 // Between the index and the first chunk.
-static tl_result check_padding(const check_job *job, uint64_t end)
+static tl_result check_padding(const check_job *job)
 {
     unsigned char padding[TL_BLOB_ALIGNMENT];
-    const tl_pack_index *index = &job->index;
+    const tl_pack_index *index = &job->reader.index;
+    const uint64_t end = TL_PACK_HEAD_SIZE + (uint64_t)index->count * sizeof *index->entries;
     const size_t size = (size_t)((index->count > 0 ? index->entries[0].offset : index->file_size) - end);
-    tl_result result = tl_random_file_read(&job->file, job->path, end, padding, size, job->error);
+    tl_result result = tl_random_file_read(&job->reader.file, job->path, end, padding, size, job->error);
     if (result == TL_OK && !is_zero(padding, size)) {
         result = tl_io_fail(job->error, TL_ERR_CORRUPT, job->path, 0, "merge it again",
                             "bytes behind its table are not zero");
@@ -269,51 +261,15 @@ static tl_result check_padding(const check_job *job, uint64_t end)
     return result;
 }
 
-static tl_result open_index(check_job *job)
-{
-    _Alignas(8) unsigned char head[TL_PACK_HEAD_SIZE];
-    tl_file_facts facts;
-    tl_report why;
-    uint64_t size = 0;
-    memset(&why, 0, sizeof why);
-    tl_result result = tl_random_file_open(job->path, &job->file, job->error);
-    if (result != TL_OK) {
-        return result;
-    }
-    if (!tl_file_look(job->path, &facts) || facts.size < sizeof head) {
-        return tl_io_fail(job->error, TL_ERR_TRUNCATED, job->path, 0, "give a file of 'talus world merge'",
-                          "is too short for a baked file");
-    }
-    result = tl_random_file_read(&job->file, job->path, 0, head, sizeof head, job->error);
-    if (result != TL_OK) {
-        return result;
-    }
-    result = tl_pack_index_size(head, &size, &why);
-    if (result != TL_OK) {
-        return fail_pack(job, result, &why);
-    }
-    if (size > facts.size) {
-        return tl_io_fail(job->error, TL_ERR_TRUNCATED, job->path, 0, "merge it again", "%s",
-                          tl_result_text(TL_ERR_TRUNCATED));
-    }
-    job->index_bytes = malloc((size_t)size);
-    if (job->index_bytes == NULL) {
-        return fail_check_memory(job);
-    }
-    result = tl_random_file_read(&job->file, job->path, 0, job->index_bytes, (size_t)size, job->error);
-    if (result != TL_OK) {
-        return result;
-    }
-    result = tl_pack_index_open(job->index_bytes, size, &job->index, &why);
-    if (result == TL_OK && job->index.file_size != facts.size) {
-        result = job->index.file_size > facts.size ? TL_ERR_TRUNCATED : TL_ERR_CORRUPT;
-    }
-    return result == TL_OK ? check_padding(job, size) : fail_pack(job, result, &why);
-}
-
 static tl_result check_file(check_job *job)
 {
-    tl_result result = open_index(job);
+    tl_result result = tl_world_reader_open(job->path, &job->reader, job->error);
+    if (result == TL_OK) {
+        result = tl_world_reader_index(&job->reader, job->error);
+    }
+    if (result == TL_OK) {
+        result = check_padding(job);
+    }
     if (result == TL_OK) {
         result = read_settings(job);
     }
@@ -344,7 +300,6 @@ tl_result tl_world_check(const char *path, tl_world_check_report *report_out, tl
     }
     free(job.held);
     free(job.settings);
-    free(job.index_bytes);
-    tl_random_file_close(&job.file);
+    tl_world_reader_close(&job.reader);
     return result;
 }

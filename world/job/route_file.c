@@ -10,52 +10,11 @@
 #include <string.h>
 #include <talus/pack.h>
 
-tl_result tl_world_reader_open(const char *path, tl_world_reader *reader_out, tl_io_error *error_out)
-{
-    memset(reader_out, 0, sizeof *reader_out);
-    reader_out->path = path;
-    return tl_random_file_open(path, &reader_out->file, error_out);
-}
-
-tl_result tl_world_reader_read(uint64_t offset, void *bytes, size_t size, void *user)
-{
-    tl_world_reader *reader = user;
-    tl_io_error error;
-    memset(&error, 0, sizeof error);
-    const tl_result result = tl_random_file_read(&reader->file, reader->path, offset, bytes, size, &error);
-    if (result != TL_OK && reader->error.result == TL_OK) {
-        reader->error = error;
-    }
-    return result;
-}
-
-void tl_world_reader_close(tl_world_reader *reader)
-{
-    tl_random_file_close(&reader->file);
-}
-
-tl_result tl_world_reader_fail(const tl_world_reader *reader, tl_result result, const tl_report *report,
-                               tl_io_error *error_out)
-{
-    if (reader->error.result != TL_OK) {
-        *error_out = reader->error;
-        return result;
-    }
-    const char *advice = report->advice != NULL ? report->advice : "";
-    if (report->element != NULL && report->element_index != TL_NO_ELEMENT) {
-        return tl_io_fail(error_out, result, reader->path, 0, advice, "%s %llu: %s", report->element,
-                          (unsigned long long)report->element_index, tl_result_text(result));
-    }
-    return tl_io_fail(error_out, result, reader->path, 0, advice, "%s", tl_result_text(result));
-}
-
 // ---- Writing the file again ----------------------------------------------------------------------------------
 
 typedef struct route_job {
     const tl_world_routes_def *def;
     tl_world_reader reader;
-    void *index_bytes;
-    tl_pack_index index;
     tl_pack_entry *entries; // of the new file, with the offsets of the old one
     uint32_t count;
     tl_nav_routes *routes;
@@ -88,42 +47,16 @@ static tl_result bake_file_routes(route_job *job, tl_world_routes_report *report
     return TL_OK;
 }
 
-static tl_result read_file_index(route_job *job)
-{
-    union {
-        uint64_t aligned[TL_PACK_HEAD_SIZE / 8];
-        unsigned char bytes[TL_PACK_HEAD_SIZE];
-    } head;
-    uint64_t size = 0;
-    tl_report why;
-    tl_result result = tl_world_reader_read(0, head.bytes, TL_PACK_HEAD_SIZE, &job->reader);
-    memset(&why, 0, sizeof why);
-    if (result == TL_OK) {
-        result = tl_pack_index_size(head.bytes, &size, &why);
-    }
-    if (result == TL_OK) {
-        job->index_bytes = malloc((size_t)size);
-        if (job->index_bytes == NULL) {
-            return fail_route_memory(job);
-        }
-        result = tl_world_reader_read(0, job->index_bytes, (size_t)size, &job->reader);
-    }
-    if (result == TL_OK) {
-        result = tl_pack_index_open(job->index_bytes, size, &job->index, &why);
-    }
-    return result == TL_OK ? result : tl_world_reader_fail(&job->reader, result, &why, job->error);
-}
-
 static tl_result list_chunks(route_job *job, tl_world_routes_report *report)
 {
-    job->entries = malloc(((size_t)job->index.count + 1) * sizeof *job->entries);
+    job->entries = malloc(((size_t)job->reader.index.count + 1) * sizeof *job->entries);
     if (job->entries == NULL) {
         return fail_route_memory(job);
     }
-    for (uint32_t i = 0; i < job->index.count; i++) {
-        if (job->index.entries[i].type != TL_PACK_ROUT) {
-            job->entries[job->count++] = job->index.entries[i];
-            report->tiles += job->index.entries[i].type == TL_PACK_NAVT;
+    for (uint32_t i = 0; i < job->reader.index.count; i++) {
+        if (job->reader.index.entries[i].type != TL_PACK_ROUT) {
+            job->entries[job->count++] = job->reader.index.entries[i];
+            report->tiles += job->reader.index.entries[i].type == TL_PACK_NAVT;
         }
     }
     tl_result result = tl_blob_to_file_order(job->routes, job->routes->blob.size, NULL);
@@ -195,7 +128,7 @@ tl_result tl_world_add_routes(const tl_world_routes_def *def, tl_world_routes_re
         result = bake_file_routes(&job, report_out);
     }
     if (result == TL_OK) {
-        result = read_file_index(&job);
+        result = tl_world_reader_index(&job.reader, error_out);
     }
     if (result == TL_OK) {
         result = list_chunks(&job, report_out);
@@ -205,7 +138,6 @@ tl_result tl_world_add_routes(const tl_world_routes_def *def, tl_world_routes_re
     }
     free(job.chunk);
     free(job.entries);
-    free(job.index_bytes);
     tl_blob_free(job.routes);
     tl_world_reader_close(&job.reader);
     return result;
