@@ -17,14 +17,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEFAULT_TILE_SIZE = 128, DEFAULT_MEMORY_MIB = 1024, MAX_MEMORY_MIB = 1 << 20 };
+enum { DEFAULT_TILE_SIZE = 128, DEFAULT_MEMORY_MIB = 1024, MAX_MEMORY_MIB = 1 << 20, DEFAULT_PICTURE_SIZE = 900 };
 
 typedef struct world_options {
     const char *output;
     const char *origin;
     const char *shard;
     const char *extents;
-    uint32_t shards, ranks, memory_mib, block;
+    uint32_t shards, ranks, memory_mib, block, size;
     bool as_planned;
     tl_bake_settings bake;
 } world_options;
@@ -310,8 +310,11 @@ static tl_exit run_routes(tl_cli *cli, world_options *options)
 
 static tl_exit run_route(tl_cli *cli, world_options *options)
 {
-    const char *const ends[2] = { cli->arguments.words[2], cli->arguments.words[3] };
-    return tl_run_world_route(cli, cli->arguments.words[1], ends, options->extents);
+    const char *const *words = cli->arguments.words;
+    const tl_world_route_request request = {
+        words[1], { words[2], words[3] }, options->extents, options->output, options->size
+    };
+    return tl_run_world_route(cli, &request);
 }
 
 // ---- The command -------------------------------------------------------------------------------------------
@@ -322,7 +325,7 @@ static const char *const status_takes[] = { "shard", "ranks", NULL };
 static const char *const merge_takes[] = { "output", "as-planned", NULL };
 static const char *const check_takes[] = { NULL };
 static const char *const routes_takes[] = { "output", "block", NULL };
-static const char *const route_takes[] = { "extents", NULL };
+static const char *const route_takes[] = { "extents", "output", "size", NULL };
 
 static const world_action actions[] = {
     { "plan", 2, true, run_plan, plan_takes },           { "bake", 2, false, run_world_bake, bake_takes },
@@ -396,9 +399,10 @@ static tl_exit run_world(tl_cli *cli)
     options.bake = tl_default_bake_settings();
     options.bake.nav_def.tile_size = DEFAULT_TILE_SIZE;
     options.memory_mib = DEFAULT_MEMORY_MIB;
+    options.size = DEFAULT_PICTURE_SIZE;
     const tl_option own[] = {
         { "output", 'o', TL_OPTION_OUTPUT, &options.output, "PATH",
-          "plan: the job's folder; merge, routes: the baked file", NULL, 0, 0, 0, 0 },
+          "plan: the job's folder; merge, routes: the baked file; route: a picture, .png or .svg", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     const tl_option plan[] = {
@@ -433,6 +437,8 @@ static tl_exit run_world(tl_cli *cli)
           16 },
         { "extents", 0, TL_OPTION_TEXT, &options.extents, "X,Y,Z",
           "route: metres around a point that are looked at for the navmesh (2,4,2)", NULL, 0, 0, 0, 0 },
+        { "size", 0, TL_OPTION_COUNT, &options.size, "PIXELS", "route: longer side of the picture's map", NULL, 0, 0,
+          200, 8000 },
         TL_OPTION_TABLE_END,
     };
     tl_option nav[TL_NAV_OPTIONS];

@@ -6,6 +6,7 @@
 #include "io/files/atomic_write.h"
 
 #include <cairo-svg.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -60,6 +61,24 @@ double draw_text_width(cairo_t *cairo, const char *words)
     cairo_text_extents_t extents;
     cairo_text_extents(cairo, words, &extents);
     return extents.x_advance;
+}
+
+void draw_scale_bar(cairo_t *cairo, double pixels_per_metre, double width, double right, double y)
+{
+    const double wish = 0.2 * width / pixels_per_metre, power = pow(10.0, floor(log10(wish)));
+    const double metres = wish >= 5.0 * power ? 5.0 * power : wish >= 2.0 * power ? 2.0 * power : power;
+    const double length = metres * pixels_per_metre;
+    const bool is_far = metres >= 1000.0;
+    char words[32];
+    snprintf(words, sizeof words, is_far ? "%g km" : "%g m", is_far ? metres / 1000.0 : metres);
+    draw_set_colour(cairo, DRAW_INK, 1.0);
+    cairo_set_line_width(cairo, 1.5);
+    cairo_move_to(cairo, right - length, y - 5);
+    cairo_line_to(cairo, right - length, y);
+    cairo_line_to(cairo, right, y);
+    cairo_line_to(cairo, right, y - 5);
+    cairo_stroke(cairo);
+    draw_text(cairo, right - length + 6, y - 5, 12, false, words);
 }
 
 typedef struct paper_file {

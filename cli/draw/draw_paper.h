@@ -26,5 +26,8 @@ void draw_text(cairo_t *cairo, double x, double y, double size, bool bold, const
 void draw_text_within(cairo_t *cairo, double x, double y, double size, bool bold, const char *words, double width);
 /// Pixels, in the font that was chosen last.
 double draw_text_width(cairo_t *cairo, const char *words);
+/// A bar of 1, 2 or 5 times a power of ten of metres, about a fifth of `width` pixels, which ends at (right, y), and
+/// its length under it.
+void draw_scale_bar(cairo_t *cairo, double pixels_per_metre, double width, double right, double y);
 
 #endif

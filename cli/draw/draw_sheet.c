@@ -88,30 +88,6 @@ static void draw_marks(cairo_t *cairo, const draw_sheet *sheet, const draw_camer
     }
 }
 
-// A round length of 1, 2 or 5 times a power of ten that takes about a fifth of the panel.
-static double scale_bar_metres(const draw_camera *camera)
-{
-    double wish = 0.2 * camera->width / (double)camera->pixels_per_metre;
-    double power = pow(10.0, floor(log10(wish)));
-    return wish >= 5.0 * power ? 5.0 * power : wish >= 2.0 * power ? 2.0 * power : power;
-}
-
-static void draw_scale_bar(cairo_t *cairo, const draw_camera *camera, double right, double y)
-{
-    double metres = scale_bar_metres(camera);
-    double length = metres * (double)camera->pixels_per_metre;
-    char words[32];
-    snprintf(words, sizeof words, "%g m", metres);
-    draw_set_colour(cairo, DRAW_INK, 1.0);
-    cairo_set_line_width(cairo, 1.5);
-    cairo_move_to(cairo, right - length, y - 5);
-    cairo_line_to(cairo, right - length, y);
-    cairo_line_to(cairo, right, y);
-    cairo_line_to(cairo, right, y - 5);
-    cairo_stroke(cairo);
-    draw_text(cairo, right - length + 6, y - 5, 12, false, words);
-}
-
 // In as many rows as the width asks for, the first at `y`; returns how many. Paints only if `paints`.
 static uint32_t draw_legends(cairo_t *cairo, const draw_scene *scene, double width, double y, bool paints)
 {
@@ -160,7 +136,8 @@ static void paint_views(cairo_t *cairo, const void *user)
         cairo_paint(cairo);
         draw_marks(cairo, sheet, camera);
         cairo_restore(cairo);
-        draw_scale_bar(cairo, camera, x + camera->width - 20, HEAD_PIXELS + camera->height + 18);
+        draw_scale_bar(cairo, (double)camera->pixels_per_metre, camera->width, x + camera->width - 20,
+                       HEAD_PIXELS + camera->height + 18);
         x += camera->width + GAP_PIXELS;
     }
     draw_set_colour(cairo, DRAW_INK, 1.0);

@@ -291,22 +291,6 @@ static void paint_legend(cairo_t *cairo, const map_sheet *sheet, world_map map, 
     draw_text(cairo, from + width + 6, y + 11, 12, false, scale->high_text);
 }
 
-// A length of 1, 2 or 5 times a power of ten, about a fifth of the map.
-static void paint_scale(cairo_t *cairo, const map_sheet *sheet, double right, double y)
-{
-    const double wanted = 0.2 * sheet->map_width / sheet->pixels_per_metre;
-    const double power = pow(10.0, floor(log10(wanted))), digit = wanted / power;
-    const double length = power * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0);
-    const double pixels = length * sheet->pixels_per_metre;
-    char words[WORDS];
-    snprintf(words, sizeof words, length >= 1000.0 ? "%g km" : "%g m", length >= 1000.0 ? length / 1000.0 : length);
-    draw_set_colour(cairo, DRAW_INK, 1.0);
-    cairo_rectangle(cairo, right - pixels, y, pixels, 2);
-    cairo_fill(cairo);
-    draw_choose_font(cairo, 12, false);
-    draw_text(cairo, right - draw_text_width(cairo, words), y + 16, 12, false, words);
-}
-
 static void describe_world(const map_sheet *sheet, char words[WORDS])
 {
     int at = snprintf(words, WORDS, "%llu tiles of a grid %u x %u", (unsigned long long)sheet->plan.tile_count,
@@ -357,7 +341,8 @@ static void paint_maps(cairo_t *cairo, const void *user)
         cairo_paint(cairo);
         cairo_restore(cairo);
         paint_legend(cairo, sheet, (world_map)map, x, x + (double)(column - MAP_MARGIN), y + sheet->map_height + 8);
-        paint_scale(cairo, sheet, x + sheet->map_width, y + sheet->map_height + 24);
+        draw_scale_bar(cairo, sheet->pixels_per_metre, sheet->map_width, x + sheet->map_width,
+                       y + sheet->map_height + 40);
         place++;
     }
 }

@@ -5,8 +5,10 @@
 #include "cli/world/world_route.h"
 
 #include "cli/level/navmesh_query.h"
+#include "cli/options/output_check.h"
 #include "cli/options/parse_value.h"
 #include "cli/shared/json_out.h"
+#include "cli/world/route_picture.h"
 #include "world/job/route_file.h"
 
 #include <math.h>
@@ -175,33 +177,58 @@ static tl_exit print_route(tl_cli *cli, const route_session *session, tl_result 
     return TL_EXIT_OK;
 }
 
-tl_exit tl_run_world_route(tl_cli *cli, const char *path, const char *const ends[2], const char *extents)
+static tl_exit draw_session_route(tl_cli *cli, const route_session *session, const tl_world_route_request *request)
+{
+    const tl_route_picture picture = { request->file, request->output, session->points, &session->route,
+                                       request->size };
+    tl_io_error error;
+    return tl_draw_world_route(&picture, &error) == TL_OK ? TL_EXIT_OK : tl_cli_fail_io(cli, &error);
+}
+
+static tl_exit answer_route(tl_cli *cli, const route_session *session, const tl_world_route_request *request,
+                            tl_result result, int missing)
+{
+    if (result != TL_OK && (result != TL_NOT_FOUND || session->error.result != TL_OK)) {
+        return tl_cli_fail_io(cli, &session->error);
+    }
+    if (request->output != NULL && result == TL_OK && session->route.status == TL_NAV_PATH_COMPLETE) {
+        const tl_exit drawn = draw_session_route(cli, session, request);
+        if (drawn != TL_EXIT_OK) {
+            return drawn;
+        }
+    }
+    return print_route(cli, session, result, missing);
+}
+
+tl_exit tl_run_world_route(tl_cli *cli, const tl_world_route_request *request)
 {
     double points[2][3];
     for (int i = 0; i < 2; i++) {
-        const char *reason = tl_parse_double_triple(ends[i], points[i]);
+        const char *reason = tl_parse_double_triple(request->ends[i], points[i]);
         if (reason != NULL) {
-            return tl_cli_fail(cli, TL_EXIT_USAGE, "'%s' %s; give x,y,z", ends[i], reason);
+            return tl_cli_fail(cli, TL_EXIT_USAGE, "'%s' %s; give x,y,z", request->ends[i], reason);
         }
+    }
+    if (request->output != NULL && !tl_has_ending(request->output, ".png") && !tl_has_ending(request->output, ".svg")) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "--output: a route is drawn as .png or .svg; '%s' is neither",
+                           request->output);
     }
     route_session session;
     memset(&session, 0, sizeof session);
     session.extents = tl_vec3_make(2.0f, 4.0f, 2.0f); // as talus path does
     tl_exit refused;
-    if (!tl_extents_read(cli, extents, &session.extents, &refused)) {
+    if (!tl_extents_read(cli, request->extents, &session.extents, &refused)) {
         return refused;
     }
     int missing = 0;
-    tl_result result = open_session(&session, path);
+    tl_result result = open_session(&session, request->file);
     if (result == TL_OK) {
         result = load_ends(&session, points);
     }
     if (result == TL_OK) {
         result = find_session_route(&session, points, &missing);
     }
-    const tl_exit code = result == TL_OK || (result == TL_NOT_FOUND && session.error.result == TL_OK)
-                             ? print_route(cli, &session, result, missing)
-                             : tl_cli_fail_io(cli, &session.error);
+    const tl_exit code = answer_route(cli, &session, request, result, missing);
     free(session.points);
     tl_nav_router_destroy(session.router);
     tl_nav_world_destroy(session.world);

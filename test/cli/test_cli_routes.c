@@ -56,11 +56,29 @@ static void test_no_answers(void **state)
     cli_check_error(3, "world route city.talus 5,0,5 45,0,150", "holds no routes", "talus world routes");
 }
 
+static void test_picture(void **state)
+{
+    (void)state;
+    make_world();
+    cli_do(0, "world routes city.talus -o with.talus");
+    cli_do(0, "world route with.talus 5,0,5 45,0,150 -o route.png --size 300");
+    cli_do(0, "world route with.talus 5,0,5 45,0,150 -o again.png --size 300");
+    cli_check_same_files("route.png", "again.png");
+    cli_do(0, "world route with.talus 5,0,5 45,0,150 -o route.svg");
+    cli_do(0, "world route with.talus 5,0,5 5,0,5 -o point.png"); // from here to here
+    assert_true(cli_exists("route.png") && cli_exists("route.svg") && cli_exists("point.png"));
+    cli_do(1, "world route with.talus 5,0,5 5000,0,5 -o none.png");
+    assert_false(cli_exists("none.png"));
+    cli_check_error(2, "world route with.talus 5,0,5 45,0,150 -o route.talus", "route.talus", ".png or .svg");
+    cli_do(2, "world routes city.talus --size 300");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_routes),
         cmocka_unit_test(test_no_answers),
+        cmocka_unit_test(test_picture),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }
