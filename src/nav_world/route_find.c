@@ -95,11 +95,7 @@ static tl_result length_in_place(tl_nav_router *router, const route_end *end, co
     if (path.status == TL_NAV_PATH_OUT_OF_NODES) {
         return TL_ERR_NODES;
     }
-    const double most = path.length + end->slack;
-    const float rounded = (float)most;
-    *length_out = path.status != TL_NAV_PATH_COMPLETE ? INFINITY
-                  : (double)rounded < most            ? nextafterf(rounded, INFINITY)
-                                                      : rounded;
+    *length_out = path.status == TL_NAV_PATH_COMPLETE ? tl_route_round_up(path.length + end->slack) : INFINITY;
     return TL_OK;
 }
 
@@ -182,8 +178,7 @@ static void begin_lower(const tl_nav_world *world, const route_end *end, const t
     const uint32_t *rim = tl_route_rim(tree, cell);
     for (uint32_t i = 0; i < cell->rim_count; i++) {
         const double length = tl_nav_gate_distance_to(&tree->gates[rim[i]], world, end->in_file) - end->slack;
-        const float rounded = (float)(length > 0.0 ? length : 0.0);
-        lower[i] = upper[i] < INFINITY ? (rounded > 0.0f ? nextafterf(rounded, 0.0f) : 0.0f) : INFINITY;
+        lower[i] = upper[i] < INFINITY ? tl_route_round_down(length > 0.0 ? length : 0.0) : INFINITY;
     }
 }
 

@@ -115,6 +115,19 @@ static inline double tl_route_slack(double reach)
     return reach * 0x1p-22;
 }
 
+/// The float next to a length, no smaller and no larger than it.
+static inline float tl_route_round_up(double length)
+{
+    const float rounded = (float)length;
+    return (double)rounded < length ? nextafterf(rounded, INFINITY) : rounded;
+}
+
+static inline float tl_route_round_down(double length)
+{
+    const float rounded = (float)length;
+    return (double)rounded > length ? nextafterf(rounded, 0.0f) : rounded;
+}
+
 /// The middle of a gate, metres from the corner of a place: x and z.
 void tl_nav_gate_middle(const tl_nav_gate *gate, const tl_nav_world *world, int32_t from_x, int32_t from_z,
                         double out[2]);

@@ -173,19 +173,25 @@ static const tl_route_place *place_of_rim(const tl_route_tree *tree, const tl_ro
     return &tree->places[tl_route_find_place(tree, across[0], across[1])];
 }
 
-static float round_base(double length, double slack)
+// Where the gates of a cell's rim are on their polygons.
+static tl_result locate_rim(const routes_bake *bake, const place_set *set, const tl_route_cell *cell,
+                            const tl_route_place *frame, tl_nav_location *out)
 {
-    const double most = length * (1.0 + 0x1p-32) + slack;
-    const float rounded = (float)most;
-    return (double)rounded < most ? nextafterf(rounded, INFINITY) : rounded;
+    const uint32_t *rim = tl_route_rim(&bake->tree, cell);
+    for (uint32_t i = 0; i < cell->rim_count; i++) {
+        const tl_nav_gate *gate = &bake->gates[rim[i]];
+        if (!locate_gate(bake, set, gate, place_of_rim(&bake->tree, cell, gate), frame, &out[i])) {
+            return TL_ERR_CORRUPT;
+        }
+    }
+    return TL_OK;
 }
 
-// Shortest lengths between the gates of a cell's rim, over the tiles of the set that pass.
-static tl_result search_lengths(routes_bake *bake, const place_set *set, const tl_route_cell *cell,
-                                const tl_route_place *frame, float *lengths)
+// Shortest lengths between the gates of a cell's rim, which are `at` these places, over the tiles of the set that pass.
+static tl_result search_lengths(const routes_bake *bake, const place_set *set, const tl_route_cell *cell,
+                                const tl_route_place *frame, const tl_nav_location *at, float *lengths)
 {
     const tl_route_tree *tree = &bake->tree;
-    const uint32_t *rim = tl_route_rim(tree, cell);
     const tl_route_place *first = &tree->places[cell->first_place];
     const double side = (double)bake->world->tile_size * (double)bake->world->cell_size;
     const double slack = tl_route_slack(side * (double)tree->block);
@@ -195,22 +201,33 @@ static tl_result search_lengths(routes_bake *bake, const place_set *set, const t
     filter.user = place;
     for (uint32_t j = 1; j < cell->rim_count; j++) {
         for (uint32_t i = 0; i < j; i++) {
-            const tl_nav_gate *a = &bake->gates[rim[i]], *b = &bake->gates[rim[j]];
-            tl_nav_path_request request = { cell->is_leaf ? &filter : NULL, { 0 }, { 0 } };
+            const tl_nav_path_request request = { cell->is_leaf ? &filter : NULL, at[i], at[j] };
             tl_nav_shortest_path path;
-            if (!locate_gate(bake, set, a, place_of_rim(tree, cell, a), frame, &request.start) ||
-                !locate_gate(bake, set, b, place_of_rim(tree, cell, b), frame, &request.goal)) {
-                return TL_ERR_CORRUPT;
-            }
             TL_TRY(tl_nav_query_find_shortest_path(bake->query, set->navmesh, &request, NULL, &path));
             if (path.status == TL_NAV_PATH_OUT_OF_NODES) {
                 return TL_ERR_NODES;
             }
-            lengths[cell->base + tl_route_pair(i, j)] =
-                path.status == TL_NAV_PATH_COMPLETE ? round_base(path.length, slack) : INFINITY;
+            lengths[cell->base + tl_route_pair(i, j)] = path.status == TL_NAV_PATH_COMPLETE
+                                                            ? tl_route_round_up(path.length * (1.0 + 0x1p-32) + slack)
+                                                            : INFINITY;
         }
     }
     return TL_OK;
+}
+
+static tl_result measure_cell(const routes_bake *bake, const place_set *set, const tl_route_cell *cell,
+                              const tl_route_place *frame, float *lengths)
+{
+    tl_nav_location *at = tl_allocate_array(&bake->allocator, cell->rim_count, sizeof *at);
+    if (at == NULL) {
+        return tl_nav_world_no_memory(bake->report);
+    }
+    tl_result result = locate_rim(bake, set, cell, frame, at);
+    if (result == TL_OK) {
+        result = search_lengths(bake, set, cell, frame, at, lengths);
+    }
+    tl_release_array(&bake->allocator, at, cell->rim_count, sizeof *at);
+    return result;
 }
 
 static tl_result measure_block(routes_bake *bake, const tl_route_cell *block, float *lengths)
@@ -225,10 +242,10 @@ static tl_result measure_block(routes_bake *bake, const tl_route_cell *block, fl
         result = add_set_place(bake, &set, at, frame->x, frame->z);
     }
     for (uint32_t i = 0; result == TL_OK && i < block->place_count && !block->is_leaf; i++) {
-        result = search_lengths(bake, &set, &tree->cells[frame[i].cell], frame, lengths);
+        result = measure_cell(bake, &set, &tree->cells[frame[i].cell], frame, lengths);
     }
     if (result == TL_OK) {
-        result = search_lengths(bake, &set, block, frame, lengths);
+        result = measure_cell(bake, &set, block, frame, lengths);
     }
     tl_navmesh_destroy(set.navmesh);
     return result;

@@ -159,17 +159,7 @@ static void join_between(const front_work *work, const tl_route_cell *cell, cons
 // Sums of at most 2^20 doubles are off by less than 2^-32 of them.
 static float round_length(double length, bool down)
 {
-    if (length == (double)INFINITY) {
-        return INFINITY;
-    }
-    length *= down ? 1.0 - 0x1p-32 : 1.0 + 0x1p-32;
-    float rounded = (float)length;
-    if (down && (double)rounded > length) {
-        rounded = nextafterf(rounded, 0.0f);
-    } else if (!down && (double)rounded < length) {
-        rounded = nextafterf(rounded, INFINITY);
-    }
-    return rounded;
+    return down ? tl_route_round_down(length * (1.0 - 0x1p-32)) : tl_route_round_up(length * (1.0 + 0x1p-32));
 }
 
 static tl_result join_cell(front_work *work, uint32_t number)

@@ -169,12 +169,18 @@ tl_result tl_route_tree_begin(tl_route_tree *tree, const tl_allocator *allocator
     return TL_OK;
 }
 
-uint32_t tl_route_cell_of_gate(const tl_route_tree *tree, const tl_nav_gate *gate)
+// The leaves of the two places that a gate lies between.
+static void leaves_of_gate(const tl_route_tree *tree, const tl_nav_gate *gate, uint32_t leaves[2])
 {
     int32_t across[2];
     tl_nav_gate_across(gate, across);
-    uint32_t a = tree->places[find_code(tree, place_code(gate->x, gate->z))].cell;
-    uint32_t b = tree->places[find_code(tree, place_code(across[0], across[1]))].cell;
+    leaves[0] = tree->places[find_code(tree, place_code(gate->x, gate->z))].cell;
+    leaves[1] = tree->places[find_code(tree, place_code(across[0], across[1]))].cell;
+}
+
+// The smallest cell that holds two cells. Parents have higher numbers.
+static uint32_t common_cell(const tl_route_tree *tree, uint32_t a, uint32_t b)
+{
     while (a != b) {
         if (a < b) {
             a = tree->cells[a].parent;
@@ -185,6 +191,13 @@ uint32_t tl_route_cell_of_gate(const tl_route_tree *tree, const tl_nav_gate *gat
     return a;
 }
 
+uint32_t tl_route_cell_of_gate(const tl_route_tree *tree, const tl_nav_gate *gate)
+{
+    uint32_t leaves[2];
+    leaves_of_gate(tree, gate, leaves);
+    return common_cell(tree, leaves[0], leaves[1]);
+}
+
 // ---------------------------------------------------------------------------------------------------------
 // Separators and rims.
 
@@ -192,7 +205,9 @@ static tl_result count_separators(tl_route_tree *tree)
 {
     uint32_t before = 0;
     for (uint32_t i = 0; i < tree->gate_count; i++) {
-        const uint32_t number = tl_route_cell_of_gate(tree, &tree->gates[i]);
+        uint32_t leaves[2];
+        leaves_of_gate(tree, &tree->gates[i], leaves);
+        const uint32_t number = common_cell(tree, leaves[0], leaves[1]);
         tl_route_cell *cell = &tree->cells[number];
         if (number < before) {
             return TL_ERR_CORRUPT;
@@ -200,10 +215,8 @@ static tl_result count_separators(tl_route_tree *tree)
         before = number;
         cell->first_gate = cell->gate_count == 0 ? i : cell->first_gate;
         cell->gate_count++;
-        int32_t across[2];
-        tl_nav_gate_across(&tree->gates[i], across);
-        tree->cells[tree->places[tl_route_find_place(tree, tree->gates[i].x, tree->gates[i].z)].cell].rim_count++;
-        tree->cells[tree->places[tl_route_find_place(tree, across[0], across[1])].cell].rim_count++;
+        tree->cells[leaves[0]].rim_count++;
+        tree->cells[leaves[1]].rim_count++;
     }
     return TL_OK;
 }
@@ -274,11 +287,11 @@ tl_result tl_route_tree_finish(tl_route_tree *tree)
     if (tree->rims != NULL && filled != NULL) {
         memset(filled, 0, tree->place_count * sizeof *filled);
         for (uint32_t i = 0; i < tree->gate_count; i++) {
-            int32_t at[2][2] = { { tree->gates[i].x, tree->gates[i].z }, { 0, 0 } };
-            tl_nav_gate_across(&tree->gates[i], at[1]);
+            uint32_t leaves[2];
+            leaves_of_gate(tree, &tree->gates[i], leaves);
             for (int k = 0; k < 2; k++) {
-                const uint32_t place = tl_route_find_place(tree, at[k][0], at[k][1]);
-                tree->rims[tree->cells[tree->places[place].cell].first_rim + filled[place]++] = i;
+                const tl_route_cell *leaf = &tree->cells[leaves[k]];
+                tree->rims[leaf->first_rim + filled[leaf->first_place]++] = i;
             }
         }
         for (uint32_t i = 0; i < tree->cell_count; i++) {

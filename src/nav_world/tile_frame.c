@@ -13,8 +13,6 @@
 
 #include <math.h>
 
-enum { STEPS_A_CELL = 512 };
-
 // Along one axis: from metres of the old frame to metres of the new one.
 typedef struct axis_move {
     double old_origin, cell;
@@ -24,13 +22,13 @@ typedef struct axis_move {
 static axis_move axis_move_of(float origin, int32_t step, uint32_t tile_size, float cell)
 {
     const axis_move move = { (double)origin, (double)cell,
-                             (double)((int64_t)step * (int64_t)tile_size) * (double)STEPS_A_CELL };
+                             (double)((int64_t)step * (int64_t)tile_size) * (double)TL_NAV_WORLD_STEPS_A_CELL };
     return move;
 }
 
 static float moved(const axis_move *move, float at)
 {
-    const double step = move->cell / (double)STEPS_A_CELL;
+    const double step = move->cell / (double)TL_NAV_WORLD_STEPS_A_CELL;
     const double steps = floor(((double)at - move->old_origin) / step + 0.5);
     return (float)((steps - move->new_steps) * step);
 }

@@ -9,7 +9,12 @@
 
 #include <talus/nav_world.h>
 
+#include <math.h>
+
 #define TL_NAV_WORLD_NO_PLACE UINT32_MAX
+
+/// Inner points of a tile's surface lie on such parts of a cell, where the bake puts them.
+#define TL_NAV_WORLD_STEPS_A_CELL 512
 
 typedef enum tl_nav_place_stage {
     TL_NAV_PLACE_ABSENT,
@@ -138,6 +143,11 @@ bool tl_nav_world_has_room(const tl_nav_world *world, uint32_t place);
 static inline double tl_nav_world_gap(double at, double low, double high)
 {
     return at < low ? low - at : at > high ? at - high : 0.0;
+}
+
+static inline bool tl_nav_world_is_finite(const double point[3])
+{
+    return isfinite(point[0]) && isfinite(point[1]) && isfinite(point[2]);
 }
 
 static inline bool tl_nav_world_is_present(const tl_nav_world *world, uint32_t place)

@@ -4,6 +4,7 @@
 // change about them.
 
 #include "base/assert.h"
+#include "math/tolerance.h"
 #include "nav_world/world.h"
 
 #include <math.h>
@@ -18,11 +19,11 @@ typedef struct unseen_search {
 } unseen_search;
 
 // How far the surface of a tile, put into a frame, may lie outside the box that the file says, along one axis: by a
-// 512th of a cell (tile_frame.c), and by the rounding of the file's floats, a half of 2^-23 of their size.
+// step of a cell (tile_frame.c), and by the rounding of the file's floats.
 static double box_margin(const tl_nav_world *world, double low, double high)
 {
     const double size = fabs(low) > fabs(high) ? fabs(low) : fabs(high);
-    return (double)world->cell_size / 512.0 + size / 8388608.0;
+    return (double)world->cell_size / (double)TL_NAV_WORLD_STEPS_A_CELL + size * TL_FLOAT_OUTWARD;
 }
 
 // Whether a tile that is not in memory may hold a point of the box that is as near as what was found.
@@ -63,11 +64,6 @@ static double measure_of(const tl_nav_world *world, const tl_nav_location *locat
     return dx * dx + dy * dy + dz * dz;
 }
 
-static bool is_finite_place(const double point[3])
-{
-    return isfinite(point[0]) && isfinite(point[1]) && isfinite(point[2]);
-}
-
 tl_result tl_nav_world_find_nearest(const tl_nav_world *world, const tl_nav_filter *filter, const double point[3],
                                     tl_vec3 half_extents, tl_nav_location *location_out)
 {
@@ -78,7 +74,7 @@ tl_result tl_nav_world_find_nearest(const tl_nav_world *world, const tl_nav_filt
     if (world == NULL || point == NULL) {
         return TL_ERR_ARGUMENT;
     }
-    if (!is_finite_place(point)) {
+    if (!tl_nav_world_is_finite(point)) {
         return TL_ERR_NOT_FINITE;
     }
     const tl_vec3 turned = tl_pack_turn_in((tl_pack_axes)world->axes, half_extents);
@@ -109,7 +105,7 @@ tl_result tl_nav_world_covers(const tl_nav_world *world, const double center[3],
     if (world == NULL || center == NULL) {
         return TL_ERR_ARGUMENT;
     }
-    if (!is_finite_place(center) || !isfinite(radius)) {
+    if (!tl_nav_world_is_finite(center) || !isfinite(radius)) {
         return TL_ERR_NOT_FINITE;
     }
     if (radius < 0.0) {
@@ -164,7 +160,7 @@ tl_result tl_nav_world_cast_ray(const tl_nav_world *world, const tl_nav_filter *
     if (world == NULL || start == NULL || end == NULL) {
         return TL_ERR_ARGUMENT;
     }
-    if (!is_finite_place(end)) {
+    if (!tl_nav_world_is_finite(end)) {
         return TL_ERR_NOT_FINITE;
     }
     const tl_result result =

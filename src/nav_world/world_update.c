@@ -325,8 +325,7 @@ static tl_result check_interests(const tl_nav_world_interest *interests, uint32_
 {
     for (uint32_t i = 0; i < count; i++) {
         const tl_nav_world_interest *interest = &interests[i];
-        if (!isfinite(interest->point[0]) || !isfinite(interest->point[1]) || !isfinite(interest->point[2]) ||
-            !isfinite(interest->radius)) {
+        if (!tl_nav_world_is_finite(interest->point) || !isfinite(interest->radius)) {
             return TL_ERR_NOT_FINITE;
         }
         if (interest->radius < 0.0) {

@@ -178,8 +178,10 @@ static void test_few_tiles(void **state)
                 TEST_RESULT(tl_nav_world_find_route(whole, router, &request, NULL, 0, &a), TL_OK);
                 TEST_RESULT(tl_nav_world_find_route(few, few_router, &in_few, NULL, 0, &b), TL_OK);
                 TEST_CHECK(a.status == b.status && a.point_count == b.point_count);
-                TEST_CHECK(fabs(a.length - b.length) <= 1e-4);
-                TEST_CHECK(a.lower_bound == b.lower_bound || fabs(a.lower_bound - b.lower_bound) <= 1e-4);
+                // Ends are rounded in each frame, and both bounds leave room for that.
+                const double rounding = 1e-4 + 1e-6 * (a.status == TL_NAV_PATH_COMPLETE ? a.length : 0.0);
+                TEST_CHECK(fabs(a.length - b.length) <= rounding);
+                TEST_CHECK(a.lower_bound == b.lower_bound || fabs(a.lower_bound - b.lower_bound) <= rounding);
                 asked++;
             }
             tl_nav_router_destroy(few_router);
