@@ -36,14 +36,9 @@ tl_result tl_world_place_triangle(const tl_world_input *input, const tl_vec3 cor
             triangle.corner[2][i] = second;
         }
     }
-    tl_io_error why;
-    memset(&why, 0, sizeof why);
-    const tl_result result = tl_world_builder_add(builder, &triangle, &why);
-    if (result != TL_OK && error_out != NULL) {
-        *error_out = why;
-        if (why.path[0] == '\0') {
-            snprintf(error_out->path, sizeof error_out->path, "%s", input->path);
-        }
+    const tl_result result = tl_world_builder_add(builder, &triangle, error_out);
+    if (result != TL_OK && error_out != NULL && error_out->path[0] == '\0') {
+        snprintf(error_out->path, sizeof error_out->path, "%s", input->path);
     }
     return result;
 }

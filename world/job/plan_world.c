@@ -14,8 +14,11 @@
 
 enum { FOLDERS = 256, BATCH = 4 };
 
-// Columns that a triangle costs as much as, about.
-enum { COLUMNS_A_TRIANGLE = 4 };
+// What a tile costs, in columns of its window: these; what lies along the outlines of its triangles, as many times; and
+// each triangle by itself. N triangles that cover a window have outlines of sqrt(N) of its sides, whatever their sizes.
+// Fitted to the times of four jobs, of 15 to 1,900 triangles a tile (terrain, a town of houses, levels of games): the
+// mean error is 20% of the mean time, without outlines 23%.
+enum { COLUMNS_AN_OUTLINE = 20, COLUMNS_A_TRIANGLE = 2 };
 
 typedef struct planning {
     const tl_world_plan_def *def;
@@ -292,7 +295,9 @@ static tl_result make_tiles(planning *job)
     for (uint64_t i = 0; i < sums->count; i++) {
         const tl_world_tile_sum *row = &sums->rows[i];
         tl_world_tile tile = { row->tile % grid->tiles_x, row->tile / grid->tiles_x, row->triangles, 0, { 0, 0 } };
-        const double cost = side * side + (double)COLUMNS_A_TRIANGLE * (double)row->triangles;
+        const double triangles = (double)row->triangles;
+        const double cost =
+            side * side + (double)COLUMNS_AN_OUTLINE * side * sqrt(triangles) + (double)COLUMNS_A_TRIANGLE * triangles;
         tile.cost = cost < 4e9 ? (uint32_t)cost : UINT32_C(4000000000);
         tile.key = tl_world_tile_key(settings, &tile, row->sum);
         job->plan.tiles[i] = tile;

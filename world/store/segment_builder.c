@@ -189,16 +189,44 @@ static int compare_held(const void *a, const void *b)
 typedef struct sorted_record {
     uint64_t key; // the first bytes
     const unsigned char *record;
-    uint32_t triangle;
 } sorted_record;
 
-static int compare_records(const void *a, const void *b)
+static bool is_before(const sorted_record *a, const sorted_record *b)
 {
-    const sorted_record *x = a, *y = b;
-    if (x->key != y->key) {
-        return x->key < y->key ? -1 : 1;
+    return a->key != b->key ? a->key < b->key : memcmp(a->record, b->record, TL_WORLD_RECORD_BYTES) < 0;
+}
+
+// Merges runs of 8 that were sorted by insertion, twice as long in each pass, from one array to the other and back.
+// Cells hold some hundred triangles, of which qsort moves each through a function's pointer. `other`: as much room.
+// Returns the one that is sorted.
+static sorted_record *sort_records(sorted_record *items, sorted_record *other, uint64_t count)
+{
+    enum { RUN = 8 };
+    for (uint64_t i = 1; i < count; i++) {
+        const sorted_record item = items[i];
+        uint64_t at = i;
+        for (; at % RUN > 0 && is_before(&item, &items[at - 1]); at--) {
+            items[at] = items[at - 1];
+        }
+        items[at] = item;
     }
-    return memcmp(x->record, y->record, TL_WORLD_RECORD_BYTES);
+    for (uint64_t run = RUN; run < count; run *= 2) {
+        for (uint64_t first = 0; first < count; first += 2 * run) {
+            const uint64_t middle = count - first < run ? count : first + run;
+            const uint64_t end = count - first < 2 * run ? count : first + 2 * run;
+            uint64_t a = first, b = middle;
+            for (uint64_t out = first; out < end; out++) {
+                const bool from_b = a == middle || (b < end && is_before(&items[b], &items[a]));
+                other[out] = items[from_b ? b : a];
+                a += !from_b;
+                b += from_b;
+            }
+        }
+        sorted_record *swapped = items;
+        items = other;
+        other = swapped;
+    }
+    return items;
 }
 
 // The cells in their order, and in `order` the triangles of each.
@@ -239,7 +267,7 @@ static tl_aabb bounds_of_records(const unsigned char *records, uint32_t count)
 
 // Room for the largest cell.
 typedef struct cell_room {
-    sorted_record *sorted;
+    sorted_record *sorted; // twice
     unsigned char *bytes;
 } cell_room;
 
@@ -249,12 +277,12 @@ static tl_result write_cell(tl_world_builder *builder, const held_cell *held, co
     for (uint32_t i = 0; i < held->count; i++) {
         const uint32_t triangle = builder->order[held->first + i];
         const unsigned char *record = builder->records + (size_t)triangle * TL_WORLD_RECORD_BYTES;
-        const sorted_record item = { tl_get_u64(record), record, triangle };
+        const sorted_record item = { tl_get_u64(record), record };
         room->sorted[i] = item;
     }
-    qsort(room->sorted, held->count, sizeof *room->sorted, compare_records);
+    const sorted_record *sorted = sort_records(room->sorted, room->sorted + held->count, held->count);
     for (uint32_t i = 0; i < held->count; i++) {
-        memcpy(room->bytes + (size_t)i * TL_WORLD_RECORD_BYTES, room->sorted[i].record, TL_WORLD_RECORD_BYTES);
+        memcpy(room->bytes + (size_t)i * TL_WORLD_RECORD_BYTES, sorted[i].record, TL_WORLD_RECORD_BYTES);
     }
     const size_t size = (size_t)held->count * TL_WORLD_RECORD_BYTES;
     tl_world_segment_cell cell = { held->cell, held->first, held->count, bounds_of_records(room->bytes, held->count),
@@ -271,7 +299,8 @@ static tl_result write_parts(tl_world_builder *builder, held_cell *const *sorted
         largest = sorted[i]->count > largest ? sorted[i]->count : largest;
     }
     const size_t index_size = (size_t)builder->cell_count * TL_WORLD_SEGMENT_CELL;
-    cell_room room = { malloc((size_t)largest * sizeof *room.sorted), malloc((size_t)largest * TL_WORLD_RECORD_BYTES) };
+    cell_room room = { malloc(2 * (size_t)largest * sizeof *room.sorted),
+                       malloc((size_t)largest * TL_WORLD_RECORD_BYTES) };
     unsigned char *index = malloc(index_size + 8);
     unsigned char head[TL_WORLD_SEGMENT_HEADER];
     tl_world_segment_head_encode(&builder->head, head);
