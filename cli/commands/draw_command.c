@@ -406,18 +406,12 @@ static tl_exit draw_stages(tl_cli *cli, const char *path, const draw_settings *s
 // Maps of a job's tiles, which take no other options.
 static tl_exit draw_job(tl_cli *cli, const draw_settings *settings)
 {
-    static const char *const taken[] = { "output", "stage", "size", "json", "threads", "progress", NULL };
+    static const char *const taken[] = { "output", "stage", "size", NULL };
     const char *job = cli->arguments.words[0];
-    for (uint32_t i = 0; i < cli->arguments.given_count; i++) {
-        int at = 0;
-        while (taken[at] != NULL && strcmp(taken[at], cli->arguments.given[i]) != 0) {
-            at++;
-        }
-        if (taken[at] == NULL) {
-            return tl_cli_fail(cli, TL_EXIT_USAGE,
-                               "--%s says nothing of %s, a world's job: its maps take --stage and --size",
-                               cli->arguments.given[i], job);
-        }
+    const char *other = tl_arguments_find_other(&cli->arguments, taken, NULL);
+    if (other != NULL) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE,
+                           "--%s says nothing of %s, a world's job: its maps take --stage and --size", other, job);
     }
     if (settings->output == NULL) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "say where to write with -o FILE.png");

@@ -39,9 +39,7 @@ typedef struct world_action {
 
 static void warn_of_tile(const tl_io_error *error, void *user)
 {
-    char text[TL_IO_PATH_BYTES + TL_IO_MESSAGE_BYTES + TL_IO_ADVICE_BYTES + 8];
-    tl_io_error_format(error, text, sizeof text);
-    tl_cli_warn(user, "%s", text);
+    tl_cli_warn_io(user, "", error);
 }
 
 static json_t *grid_json(uint32_t x, uint32_t z)
@@ -334,30 +332,15 @@ static const world_action actions[] = {
     { "route", 4, false, run_route, route_takes },
 };
 
-static bool is_listed(const char *const *list, const char *name)
-{
-    while (*list != NULL && strcmp(*list, name) != 0) {
-        list++;
-    }
-    return *list != NULL;
-}
-
 // Every option that was given is one of the action's.
 static bool check_given(tl_cli *cli, const world_action *action, const tl_option *nav_options, tl_exit *exit_out)
 {
-    static const char *const common[] = { "json", "threads", "progress", "help", NULL };
-    for (uint32_t i = 0; i < cli->arguments.given_count; i++) {
-        const char *name = cli->arguments.given[i];
-        bool is_nav = false;
-        for (const tl_option *option = nav_options; option->name != NULL; option++) {
-            is_nav = is_nav || strcmp(option->name, name) == 0;
-        }
-        if (!is_listed(common, name) && !is_listed(action->takes, name) && !(is_nav && is_listed(action->takes, "*"))) {
-            *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--%s is no option of 'talus world %s'", name, action->name);
-            return false;
-        }
+    const tl_option *more = tl_is_listed(action->takes, "*") ? nav_options : NULL;
+    const char *other = tl_arguments_find_other(&cli->arguments, action->takes, more);
+    if (other != NULL) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--%s is no option of 'talus world %s'", other, action->name);
     }
-    return true;
+    return other == NULL;
 }
 
 // The navmesh's options without those that need the whole level at once.
@@ -370,7 +353,7 @@ static void list_nav_options(world_options *options, tl_option table[TL_NAV_OPTI
     uint32_t count = 0;
     tl_nav_options(&options->bake, all);
     for (uint32_t i = 0; i < TL_NAV_OPTIONS && all[i].name != NULL; i++) {
-        if (!is_listed(whole, all[i].name)) {
+        if (!tl_is_listed(whole, all[i].name)) {
             table[count++] = all[i];
         }
     }

@@ -282,6 +282,30 @@ const char *tl_arguments_find_given(const tl_arguments *arguments, const tl_opti
     return NULL;
 }
 
+bool tl_is_listed(const char *const *list, const char *name)
+{
+    while (*list != NULL && strcmp(*list, name) != 0) {
+        list++;
+    }
+    return *list != NULL;
+}
+
+const char *tl_arguments_find_other(const tl_arguments *arguments, const char *const *taken, const tl_option *options)
+{
+    static const char *const common[] = { "json", "threads", "progress", "help", NULL };
+    for (uint32_t i = 0; i < arguments->given_count; ++i) {
+        const char *name = arguments->given[i];
+        bool is_known = tl_is_listed(common, name) || tl_is_listed(taken, name);
+        for (const tl_option *option = options; option != NULL && option->name != NULL; ++option) {
+            is_known = is_known || strcmp(option->name, name) == 0;
+        }
+        if (!is_known) {
+            return name;
+        }
+    }
+    return NULL;
+}
+
 // Takes the option that popt met. False: it is refused.
 static bool take_option(tl_arguments *arguments, storage *s, const option_list *list, int code)
 {

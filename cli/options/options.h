@@ -77,6 +77,11 @@ tl_parse_outcome tl_options_parse(const tl_option_group *groups, int argc, const
                                   tl_arguments *arguments_out);
 /// The name of the first option of `options` that was given; NULL: none was.
 const char *tl_arguments_find_given(const tl_arguments *arguments, const tl_option *options);
+/// Whether a NULL-terminated list of words holds a name.
+bool tl_is_listed(const char *const *list, const char *name);
+/// The name of the first option that was given and that none of the NULL-terminated list `taken`, nor of `options`
+/// (NULL: no more), nor of those that all commands have, is called; NULL: there is none.
+const char *tl_arguments_find_other(const tl_arguments *arguments, const char *const *taken, const tl_option *options);
 void tl_arguments_free(tl_arguments *arguments);
 
 /// Prints words from `column` on, broken at blanks and line ends so that lines keep to the help's width; later lines

@@ -184,6 +184,13 @@ void tl_cli_warn(tl_cli *cli, const char *format, ...)
     va_end(list);
 }
 
+void tl_cli_warn_io(tl_cli *cli, const char *before, const tl_io_error *error)
+{
+    char text[TL_IO_PATH_BYTES + TL_IO_MESSAGE_BYTES + TL_IO_ADVICE_BYTES + 8];
+    tl_io_error_format(error, text, sizeof text);
+    tl_cli_warn(cli, "%s%s", before, text);
+}
+
 tl_exit tl_exit_of(tl_result result)
 {
     switch (result) {

@@ -89,6 +89,8 @@ bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t min_words
 tl_exit tl_cli_fail(tl_cli *cli, tl_exit code, const char *format, ...) TL_IO_PRINTF(3, 4);
 /// The same for a message that is not the end.
 void tl_cli_warn(tl_cli *cli, const char *format, ...) TL_IO_PRINTF(2, 3);
+/// The same of an error of io that ends nothing, behind some words ("" or "rank 3: ").
+void tl_cli_warn_io(tl_cli *cli, const char *before, const tl_io_error *error);
 
 /// A failure of io: "file:line: message; advice".
 tl_exit tl_cli_fail_io(tl_cli *cli, const tl_io_error *error);

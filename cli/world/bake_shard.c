@@ -71,22 +71,14 @@ static uint64_t tell_done(uint64_t count, void *user)
 // The order of a rank's numbers.
 enum { SAYS_CODE, SAYS_THERE, SAYS_BAKED, SAYS_FAILED, SAYS_TRIANGLES, SAYS_BYTES };
 
-// "rank 3: " where there are several.
-static void name_rank(const bake_run *run, char text[32])
-{
-    text[0] = '\0';
-    if (run->ranks.count > 1) {
-        snprintf(text, 32, "rank %u: ", run->ranks.index);
-    }
-}
-
 static void warn_of_rank_tile(const tl_io_error *error, void *user)
 {
     bake_run *run = user;
-    char text[TL_IO_PATH_BYTES + TL_IO_MESSAGE_BYTES + TL_IO_ADVICE_BYTES + 8], rank[32];
-    tl_io_error_format(error, text, sizeof text);
-    name_rank(run, rank);
-    tl_cli_warn(run->cli, "%s%s", rank, text);
+    char rank[32] = "";
+    if (run->ranks.count > 1) {
+        snprintf(rank, sizeof rank, "rank %u: ", run->ranks.index);
+    }
+    tl_cli_warn_io(run->cli, rank, error);
 }
 
 // A failure that is no tile's: told by the rank that has it, which takes no more tiles.
