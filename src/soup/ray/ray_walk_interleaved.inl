@@ -7,7 +7,8 @@
 // Rays that stand at nodes and rays that stand at leaves wait in a ring each. A round takes a group from one ring and
 // tests it without a branch in between, so that the processor overlaps the tests; only then does each ray find its own
 // way on. Where a single walk branches, up to three children, sorting is branchless. The bookkeeping takes a third more
-// instructions a ray; missed branches that no longer stall the others, and memory that is waited for together, save more.
+// instructions a ray; missed branches that no longer stall the others, and memory that is waited for together, save
+// more.
 //
 // A ray in flight has a short stack; one that would overflow it is traced alone. Answers are those of the single walk,
 // as both decide by the same functions. Included after ray_walk.inl.
