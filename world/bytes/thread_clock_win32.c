@@ -19,3 +19,10 @@ uint64_t tl_thread_nanoseconds(void)
     }
     return (ticks_of(in_kernel) + ticks_of(in_program)) * 100u;
 }
+
+uint64_t tl_clock_nanoseconds(void)
+{
+    FILETIME now;
+    GetSystemTimeAsFileTime(&now);
+    return ticks_of(now) * 100u;
+}

@@ -6,11 +6,11 @@
 #include "world/bytes/append_file.h"
 #include "world/bytes/folder.h"
 #include "world/bytes/little_endian.h"
+#include "world/bytes/thread_clock.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #define TIME_MAGIC "TLT1"
 
@@ -31,14 +31,11 @@ void tl_world_time_encode(const tl_world_tile *tile, uint64_t nanoseconds,
 // same would append to one file, which does no harm.
 static char *name_file(const tl_world_times *times, const char *job, uint32_t shard)
 {
-    struct timespec now = { 0, 0 };
-    unsigned char seed[32] = { 0 };
+    unsigned char seed[24] = { 0 };
     char text[TL_CONTENT_TEXT_BYTES], part[TL_CONTENT_TEXT_BYTES + 16];
-    (void)timespec_get(&now, TIME_UTC);
-    tl_put_u64(seed, (uint64_t)now.tv_sec);
-    tl_put_u64(seed + 8, (uint64_t)now.tv_nsec);
-    tl_put_u64(seed + 16, (uint64_t)(uintptr_t)times);
-    tl_put_u32(seed + 24, shard);
+    tl_put_u64(seed, tl_clock_nanoseconds());
+    tl_put_u64(seed + 8, (uint64_t)(uintptr_t)times);
+    tl_put_u32(seed + 16, shard);
     tl_content_hash_text(tl_content_hash_of(seed, sizeof seed), text);
     snprintf(part, sizeof part, "times/%s.times", text);
     return tl_world_job_path(job, part);
