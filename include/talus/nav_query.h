@@ -55,8 +55,8 @@ TL_API void tl_navmesh_destroy(tl_navmesh *navmesh);
 /// change while it is in: to change flags and areas there is nav_state.h. Two portals are linked where they overlap
 /// by more than a point and their heights come within agent_max_climb, the larger of both tiles', and one cell height
 /// of one another. On failure nothing is changed and the tile stays the caller's: TL_ERR_ARGUMENT (there is a tile
-/// already, or origin, cell sizes or tile_size differ from the other tiles'), TL_ERR_LIMIT (TL_NAV_MAX_TILES),
-/// TL_ERR_MEMORY. O(corners and links of the tiles of the five places).
+/// already, or origin, cell sizes or tile_size differ from the other tiles'), TL_ERR_LIMIT (TL_NAV_MAX_TILES; 2^26
+/// vertices of one tile at which paths may turn), TL_ERR_MEMORY. O(corners and links of the tiles of the five places).
 TL_API tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership);
 /// Adds `count` tiles, such as those of a tl_nav_tiles. On failure none of them is in, all stay the caller's, and
 /// `report` (may be NULL) names the tile. Errors as those of tl_navmesh_add_tile.

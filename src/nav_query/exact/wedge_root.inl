@@ -46,8 +46,7 @@ static inline void look_out(wedge_search *s, uint32_t index, root_holders *gathe
 {
     const tl_nav_wedge wedge = s->query->wedges[index];
     const wedge_origin root = { wedge.root_x, wedge.root_z, wedge.cost };
-    step_from from = { index, wedge.slot, wedge.polygon, NULL, 0 };
-    from.ring = tl_nav_ring_at(s->navmesh, from.slot, from.polygon, &from.count);
+    const step_from from = step_from_polygon(s, index, wedge.slot, wedge.polygon);
     for (uint32_t i = 0; i < from.count; i++) {
         if (!tl_nav_ring_is_open(&from.ring[i])) {
             continue;

@@ -6,15 +6,24 @@
 #ifndef TALUS_SRC_NAV_QUERY_WEDGE_STEP_INL
 #define TALUS_SRC_NAV_QUERY_WEDGE_STEP_INL
 
+#include "base/compiler.h"
 #include "nav_query/exact/wedge_links.inl"
 
 // What a step goes on from.
 typedef struct step_from {
     uint32_t wedge; // that is expanded
     uint32_t slot, polygon;
+    const tl_nav_rings *rings; // of the slot
     const tl_nav_ring_edge *ring;
     uint32_t count;
 } step_from;
+
+static inline step_from step_from_polygon(const wedge_search *s, uint32_t wedge, uint32_t slot, uint32_t polygon)
+{
+    step_from from = { wedge, slot, polygon, &s->navmesh->slots[slot].rings, NULL, 0 };
+    from.ring = tl_nav_ring_of(from.rings, polygon, &from.count);
+    return from;
+}
 
 // The vertex behind another of a ring: by a mask, as where a ring ends is in no order that a processor could foresee.
 static inline uint32_t vertex_behind(uint32_t vertex, uint32_t count)
@@ -101,10 +110,9 @@ static inline edge_view view_of(const wedge_search *s, const seen_edge *edge)
 #define CORNER_NUMBER  ((uint64_t)1 << 63)
 #define TURNING_NUMBER ((uint64_t)1 << 62)
 
-static inline uint64_t corner_number(const wedge_search *s, uint32_t slot, uint32_t polygon, uint32_t vertex)
+static inline uint64_t corner_number(const step_from *from, uint32_t vertex)
 {
-    const tl_nav_rings *rings = &s->navmesh->slots[slot].rings;
-    return CORNER_NUMBER | (uint64_t)slot << 32 | (rings->cells[polygon].first + vertex);
+    return CORNER_NUMBER | (uint64_t)from->slot << 32 | ((uint32_t)(from->ring - from->rings->edges) + vertex);
 }
 
 // The number of a vertex of the ring in this search, or 0 when no shortest path turns there.
@@ -119,18 +127,17 @@ static inline uint64_t turn_of(const wedge_search *s, const step_from *from, uin
     if (!is_walled && !s->navmesh->slots[from->slot].rings.has_back) {
         return 0;
     }
-    return corner_number(s, place.slot, place.polygon, place.edge);
+    const step_from fan = step_from_polygon(s, from->wedge, place.slot, place.polygon);
+    return corner_number(&fan, place.edge);
 }
 
 // Whether a wedge that turns around a vertex of edge i may go on over the edge: where there is no wall to end it, only
 // once.
 static inline bool may_turn_on(wedge_search *s, const step_from *from, uint32_t vertex, double cost)
 {
-    const tl_nav_rings *rings = &s->navmesh->slots[from->slot].rings;
-    const tl_nav_ring_walls *walls = &rings->walls[rings->cells[from->polygon].first + vertex];
+    const tl_nav_ring_walls *walls = tl_nav_walls_of(from->rings, &from->ring[vertex]);
     bool is_walled = walls->first_x != 0.0f || walls->first_z != 0.0f;
-    return (is_walled && s->in->filter == NULL) ||
-           is_first_root(s, TURNING_NUMBER | corner_number(s, from->slot, from->polygon, vertex), cost);
+    return (is_walled && s->in->filter == NULL) || is_first_root(s, TURNING_NUMBER | corner_number(from, vertex), cost);
 }
 
 static inline void note_corner(const wedge_search *s, uint64_t turn)
@@ -152,7 +159,7 @@ static inline bool is_repeated(wedge_search *s, const step_from *from, uint32_t 
     if (s->query->repeat_count >= s->query->max_nodes / 2) {
         return false; // the table has room for others
     }
-    uint64_t number = TURNING_NUMBER >> (hand > 0 ? 1 : 2) | corner_number(s, from->slot, from->polygon, vertex);
+    uint64_t number = TURNING_NUMBER >> (hand > 0 ? 1 : 2) | corner_number(from, vertex);
     bool found = false;
     tl_nav_root *root = tl_nav_find_root(s->query, number, &found);
     if (root == NULL) {
@@ -214,8 +221,7 @@ static inline void add_edge_on(wedge_search *s, const step_from *from, uint32_t 
 static inline bool has_walls_on(const wedge_search *s, const step_from *from, uint32_t vertex, tl_nav_direction limit,
                                 int hand)
 {
-    const tl_nav_rings *rings = &s->navmesh->slots[from->slot].rings;
-    return may_turn(&rings->walls[rings->cells[from->polygon].first + vertex], limit, hand, s->rounding);
+    return may_turn(tl_nav_walls_of(from->rings, &from->ring[vertex]), limit, hand, s->rounding);
 }
 
 // Whether the root, which lies on the line of an edge, is between its ends.
@@ -247,6 +253,20 @@ static inline const tl_nav_wedge *first_with_limit(const wedge_search *s, const 
     }
 }
 
+// Whether a wall that holds the wedge's root ends where its limit leads to; `first` is the first wedge with that limit.
+static TL_NOINLINE bool is_wall_beside(const wedge_search *s, const tl_nav_wedge *first, const tl_nav_wedge *wedge,
+                                       int hand)
+{
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(s->navmesh, first->slot, first->polygon, &count);
+    const tl_nav_ring_place way = tl_nav_ring_twin(s->navmesh, first->slot, first->polygon, ring, count, first->edge);
+    const step_from holder = step_from_polygon(s, first->parent, way.slot, way.polygon);
+    const uint32_t before = way.edge > 0 ? way.edge - 1 : holder.count - 1;
+    const uint32_t beside = hand > 0 ? vertex_behind(way.edge, holder.count) : before;
+    const seen_edge wall = see_edge(&holder, beside, wedge->root_x, wedge->root_z);
+    return !tl_nav_ring_is_open(&holder.ring[beside]) && view_of(s, &wall).edge_on && is_root_within(s, &wall);
+}
+
 // Whether the root lies on a wall that ends in the vertex which a wedge's limit leads to. It does not lie there
 // exactly: its coordinates were rounded. Behind the wall's line by that, it would see nothing that the wall's
 // continuation runs to, and where walls run on in line no vertex is one to turn at. So paths may bend there, by the
@@ -254,18 +274,7 @@ static inline const tl_nav_wedge *first_with_limit(const wedge_search *s, const 
 static inline bool is_on_wall_to_limit(const wedge_search *s, const tl_nav_wedge *wedge, int hand)
 {
     const tl_nav_wedge *first = first_with_limit(s, wedge, hand);
-    if (first == NULL) {
-        return false;
-    }
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(s->navmesh, first->slot, first->polygon, &count);
-    const tl_nav_ring_place way = tl_nav_ring_twin(s->navmesh, first->slot, first->polygon, ring, count, first->edge);
-    step_from holder = { first->parent, way.slot, way.polygon, NULL, 0 };
-    holder.ring = tl_nav_ring_at(s->navmesh, way.slot, way.polygon, &holder.count);
-    const uint32_t before = way.edge > 0 ? way.edge - 1 : holder.count - 1;
-    const uint32_t beside = hand > 0 ? vertex_behind(way.edge, holder.count) : before;
-    const seen_edge wall = see_edge(&holder, beside, wedge->root_x, wedge->root_z);
-    return !tl_nav_ring_is_open(&holder.ring[beside]) && view_of(s, &wall).edge_on && is_root_within(s, &wall);
+    return first != NULL && is_wall_beside(s, first, wedge, hand);
 }
 
 // Where a path may turn that comes along a wedge's limit to a vertex of its edge of entry; 0: nowhere.
@@ -279,14 +288,14 @@ static inline uint64_t turn_at_end(const wedge_search *s, const step_from *from,
     if (turn != 0) {
         return has_walls_on(s, from, vertex, hand > 0 ? wedge->left : wedge->right, hand) ? turn : 0;
     }
-    return is_on_wall_to_limit(s, wedge, hand) ? corner_number(s, from->slot, from->polygon, vertex) : 0;
+    return is_on_wall_to_limit(s, wedge, hand) ? corner_number(from, vertex) : 0;
 }
 
 // The edges that are reached by turning at a vertex of the edge of entry: `hand` is 1 for the left one, -1 for the
 // right one. They lie beyond the wedge's `limit` on that hand, in the part of the ring from `begin` to `end` (counted
 // from the edge of entry).
-static inline void turn_at_limit(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge, int hand,
-                                 uint32_t begin, uint32_t end)
+static TL_ALWAYS_INLINE void turn_at_limit(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge, int hand,
+                                           uint32_t begin, uint32_t end)
 {
     uint32_t vertex = hand > 0 ? wedge->edge : wedge->edge + 1 < from->count ? wedge->edge + 1 : 0;
     tl_nav_direction limit = hand > 0 ? wedge->left : wedge->right;
@@ -401,8 +410,7 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
     const tl_nav_wedge wedge = s->query->wedges[index];
     const wedge_origin root = { wedge.root_x, wedge.root_z, wedge.cost };
     const wedge_view view = make_view(&wedge);
-    step_from from = { index, wedge.slot, wedge.polygon, NULL, 0 };
-    from.ring = tl_nav_ring_at(s->navmesh, wedge.slot, wedge.polygon, &from.count);
+    const step_from from = step_from_polygon(s, index, wedge.slot, wedge.polygon);
     const entry_ends ends = ends_of_entry(&from, &wedge);
     // With a filter a vertex's number says nothing of its walls.
     if (s->in->filter == NULL && s->sight == NULL && is_outrun(s, &wedge, &ends)) {

@@ -17,9 +17,11 @@
 
 #include "math/tolerance.h"
 
+#include <string.h>
+
 typedef struct vertex_fan {
     tl_nav_ring_edge *members[TL_NAV_MAX_FAN];
-    tl_nav_ring_walls *walls[TL_NAV_MAX_FAN]; // of the members
+    tl_nav_ring_walls *walls[TL_NAV_MAX_FAN]; // of the members; NULL: they have none of their own
     uint32_t count;
     double x, z;             // the vertex
     double first_x, first_z; // along the first edge
@@ -36,10 +38,21 @@ static tl_nav_ring_edge *ring_at(tl_navmesh *navmesh, tl_nav_ring_place place, u
     return rings->edges + rings->cells[place.polygon].first;
 }
 
-static tl_nav_ring_walls *walls_of(tl_navmesh *navmesh, tl_nav_ring_place place)
+static tl_nav_ring_walls *own_walls(const tl_nav_rings *rings, const tl_nav_ring_edge *edge)
 {
-    tl_nav_rings *rings = &navmesh->slots[place.slot].rings;
-    return rings->walls + rings->cells[place.polygon].first + place.edge;
+    const uint32_t walls = edge->mark >> TL_NAV_RING_TWIN_BITS;
+    return walls >= TL_NAV_WALLS_FIRST ? &rings->walls[walls] : NULL;
+}
+
+static void begin_fan(vertex_fan *f, const tl_nav_ring_edge *first, const tl_nav_ring_edge *first_end)
+{
+    f->count = 0;
+    f->x = (double)first->x;
+    f->z = (double)first->z;
+    f->first_x = (double)first_end->x - f->x;
+    f->first_z = (double)first_end->z - f->z;
+    f->is_wide = false;
+    f->is_odd = false;
 }
 
 // A fan turns left from its first edge: while it is no wider than a half plane nothing lies on the right.
@@ -77,18 +90,12 @@ static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, vertex_fan 
     uint32_t count = 0;
     tl_nav_ring_edge *ring = ring_at(navmesh, begin, &count);
     const tl_nav_ring_edge *first_end = &ring[begin.edge + 1 < count ? begin.edge + 1 : 0];
-    f->count = 0;
-    f->x = (double)ring[begin.edge].x;
-    f->z = (double)ring[begin.edge].z;
-    f->first_x = (double)first_end->x - f->x;
-    f->first_z = (double)first_end->z - f->z;
-    f->is_wide = false;
-    f->is_odd = false;
+    begin_fan(f, &ring[begin.edge], first_end);
     tl_nav_ring_place at = begin;
     for (;;) {
         tl_nav_note_edit(navmesh, at.slot);
         f->members[f->count] = &ring[at.edge];
-        f->walls[f->count++] = walls_of(navmesh, at);
+        f->walls[f->count++] = own_walls(&navmesh->slots[at.slot].rings, &ring[at.edge]);
         uint32_t before = at.edge > 0 ? at.edge - 1 : count - 1;
         widen_fan(f, &ring[before]);
         f->is_odd = f->is_odd || f->count == TL_NAV_MAX_FAN ||
@@ -104,6 +111,98 @@ static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, vertex_fan 
     }
 }
 
+// ---------------------------------------------------------------------------------------------------------
+// Within one tile.
+
+// An edge of a tile's rings, and the ring.
+typedef struct tile_place {
+    const tl_nav_ring_edge *ring;
+    uint32_t count, polygon, edge;
+} tile_place;
+
+static tile_place tile_place_at(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge)
+{
+    tile_place place = { NULL, 0, polygon, edge };
+    place.ring = tl_nav_ring_of(rings, polygon, &place.count);
+    return place;
+}
+
+// The same edge as the polygon across has it. False: that is none of the tile.
+static bool cross_in_tile(const tl_nav_rings *rings, tile_place *at)
+{
+    const uint32_t to = at->ring[at->edge].to;
+    if (to >= TL_NAV_RING_SEAM) {
+        return false;
+    }
+    *at = tile_place_at(rings, to, tl_nav_inner_twin(rings, at->polygon, at->edge));
+    return true;
+}
+
+static bool is_on_portal(const tl_nav_ring_edge *edge)
+{
+    return edge->to != TL_NAV_RING_WALL || tl_nav_ring_twin_hint(edge) == TL_NAV_RING_ON_PORTAL;
+}
+
+// Where a fan begins in its tile. True: nowhere, the tile's polygons lie all around.
+static bool goes_around(const tl_nav_rings *rings, tile_place *at)
+{
+    const tl_nav_ring_edge *from = &at->ring[at->edge];
+    do {
+        if (!cross_in_tile(rings, at)) {
+            return false;
+        }
+        at->edge = at->edge + 1 < at->count ? at->edge + 1 : 0;
+    } while (&at->ring[at->edge] != from);
+    return true;
+}
+
+// Gives all edges of a tile's part of a fan the same walls. `own`: the next ones of their own; true when they are
+// taken.
+static bool assign_walls(const tl_nav_rings *rings, tile_place at, uint32_t own, uint32_t *walls_of)
+{
+    const bool is_closed = goes_around(rings, &at);
+    const tile_place begin = at;
+    const tl_nav_ring_edge *first = &begin.ring[begin.edge];
+    vertex_fan f;
+    begin_fan(&f, first, &begin.ring[begin.edge + 1 < begin.count ? begin.edge + 1 : 0]);
+    bool is_own = !is_closed && is_on_portal(first);
+    do {
+        walls_of[&at.ring[at.edge] - rings->edges] = own;
+        f.count++;
+        at.edge = at.edge > 0 ? at.edge - 1 : at.count - 1;
+        widen_fan(&f, &at.ring[at.edge]);
+        is_own = is_own || (at.ring[at.edge].to >= TL_NAV_RING_SEAM && is_on_portal(&at.ring[at.edge]));
+    } while (cross_in_tile(rings, &at) && &at.ring[at.edge] != first);
+    // What is too large to be gathered counts as a place to turn at; it is not known to be none.
+    if (is_own || f.count >= TL_NAV_MAX_FAN || (!is_closed && (f.is_wide || f.is_odd))) {
+        return true;
+    }
+    for (at = begin; f.count > 0; f.count--) {
+        walls_of[&at.ring[at.edge] - rings->edges] = is_closed ? TL_NAV_WALLS_NONE : TL_NAV_WALLS_CONVEX;
+        at.edge = at.edge > 0 ? at.edge - 1 : at.count - 1;
+        cross_in_tile(rings, &at);
+    }
+    return false;
+}
+
+uint32_t tl_nav_assign_walls(const tl_nav_rings *rings, uint32_t *walls_of)
+{
+    uint32_t walls = TL_NAV_WALLS_FIRST;
+    memset(walls_of, 0xff, (size_t)rings->cells[rings->polygon_count].first * sizeof *walls_of);
+    for (uint32_t p = 0; p < rings->polygon_count; p++) {
+        const tile_place place = tile_place_at(rings, p, 0);
+        for (uint32_t i = 0; i < place.count; i++) {
+            if (walls_of[&place.ring[i] - rings->edges] == UINT32_MAX) {
+                walls += assign_walls(rings, tile_place_at(rings, p, i), walls, walls_of) ? 1 : 0;
+            }
+        }
+    }
+    return walls;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Over all tiles.
+
 static void number_fan(tl_navmesh *navmesh, tl_nav_ring_place begin)
 {
     vertex_fan f;
@@ -115,8 +214,11 @@ static void number_fan(tl_navmesh *navmesh, tl_nav_ring_place begin)
         walls = known;
     }
     for (uint32_t i = 0; i < f.count; i++) {
+        TL_ASSERT(f.walls[i] != NULL || number == 0);
         f.members[i]->turn = number;
-        *f.walls[i] = walls;
+        if (f.walls[i] != NULL) {
+            *f.walls[i] = walls;
+        }
     }
 }
 
@@ -177,10 +279,10 @@ static void find_seam_twins(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
             }
             const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, ring[k].to);
             if (to.slot == last.slot && to.polygon == last.polygon) {
-                ring[k].twin = last.edge > 4 ? last.edge - 4 : 0;
+                tl_nav_set_ring_twin(&ring[k], last.edge > 4 ? last.edge - 4 : 0);
             }
             last = tl_nav_ring_twin(navmesh, slot, place.polygon, ring, count, k);
-            ring[k].twin = last.edge;
+            tl_nav_set_ring_twin(&ring[k], last.edge);
             // A polygon may reach from side to side: what lies across there keeps its twin where older versions have
             // it. A twin over a seam only says where to look first.
             uint32_t across_count = 0;
@@ -189,7 +291,7 @@ static void find_seam_twins(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
             }
             tl_nav_ring_edge *across = ring_at(navmesh, last, &across_count);
             if (last.edge < across_count && (across[last.edge].to & TL_NAV_RING_SEAM) != 0) {
-                across[last.edge].twin = k;
+                tl_nav_set_ring_twin(&across[last.edge], k);
             }
         }
     }

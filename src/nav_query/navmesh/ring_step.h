@@ -34,8 +34,8 @@ static inline tl_nav_ring_place tl_nav_ring_twin(const tl_navmesh *navmesh, uint
                                                  const tl_nav_ring_edge *ring, uint32_t count, uint32_t edge)
 {
     tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, ring[edge].to);
-    tl_nav_ring_place twin = { to.slot, to.polygon, ring[edge].twin };
-    if ((ring[edge].to & TL_NAV_RING_SEAM) != 0) {
+    tl_nav_ring_place twin = { to.slot, to.polygon, tl_nav_ring_twin_hint(&ring[edge]) };
+    if ((ring[edge].to & TL_NAV_RING_SEAM) != 0 || twin.edge == TL_NAV_RING_FAR_TWIN) {
         // Rings of other tiles change as tiles come and go. A seam's ends have the same bits in both. Where nothing
         // runs back no two edges of a ring start in one place: the search may begin anywhere.
         const tl_nav_ring_edge *end = &ring[edge + 1 < count ? edge + 1 : 0];

@@ -6,6 +6,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "nav_query/navmesh/fans.h"
 #include "nav_query/navmesh/navmesh.h"
 
 #include <string.h>
@@ -21,10 +22,10 @@ typedef struct ring_writer {
     uint64_t edge_count, seam_count;
 } ring_writer;
 
-static void add_ring_edge(ring_writer *writer, tl_vec3 start, uint32_t to)
+static void add_ring_edge(ring_writer *writer, tl_vec3 start, uint32_t to, uint32_t mark)
 {
     if (writer->rings->edges != NULL) {
-        tl_nav_ring_edge edge = { start.x, start.y, start.z, to, 0, 0 };
+        tl_nav_ring_edge edge = { start.x, start.y, start.z, to, 0, mark };
         writer->rings->edges[writer->edge_count] = edge;
     }
     writer->edge_count++;
@@ -43,7 +44,7 @@ static void add_gap(ring_writer *writer, tl_vec3 at, tl_vec3 point, tl_vec3 ahea
 {
     if (at.x != point.x || at.z != point.z) {
         bool forward = tl_dot(tl_sub(point, at), ahead) > 0.0f;
-        add_ring_edge(writer, at, forward ? TL_NAV_RING_WALL : TL_NAV_RING_BACK);
+        add_ring_edge(writer, at, forward ? TL_NAV_RING_WALL : TL_NAV_RING_BACK, TL_NAV_RING_ON_PORTAL);
         writer->rings->has_back = writer->rings->has_back || !forward;
     }
 }
@@ -60,7 +61,7 @@ static void add_seam_edge(ring_writer *writer, tl_vec3 start, tl_vec3 end, const
         const tl_nav_seam_link *link = &side->links[begin + (rising ? i : count - 1 - i)];
         const tl_nav_ring_seam seam = { link->slot, link->polygon };
         add_gap(writer, at, link->right, ahead);
-        add_ring_edge(writer, link->right, add_ring_seam(writer, seam));
+        add_ring_edge(writer, link->right, add_ring_seam(writer, seam), TL_NAV_RING_ON_PORTAL);
         at = link->left;
     }
     add_gap(writer, at, end, ahead);
@@ -74,31 +75,32 @@ static void add_ring(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_
     const uint32_t *links = tl_nav_tile_links(tile, polygon);
     for (uint32_t k = 0; k < count; k++) {
         if (links[k] == TL_NAV_LINK_WALL || (links[k] & TL_NAV_LINK_PORTAL) == 0) {
-            add_ring_edge(writer, corners[k], links[k] == TL_NAV_LINK_WALL ? TL_NAV_RING_WALL : links[k]);
+            add_ring_edge(writer, corners[k], links[k] == TL_NAV_LINK_WALL ? TL_NAV_RING_WALL : links[k], 0);
             continue;
         }
         uint32_t portal = links[k] & ~TL_NAV_LINK_PORTAL;
         uint32_t side = tl_nav_tile_side_of(tile, portal);
         uint32_t at = portal - tl_nav_tile_side_first(tile, side);
         if (sides[side]->first == NULL || sides[side]->first[at] == sides[side]->first[at + 1]) {
-            add_ring_edge(writer, corners[k], TL_NAV_RING_WALL);
+            add_ring_edge(writer, corners[k], TL_NAV_RING_WALL, TL_NAV_RING_ON_PORTAL);
         } else {
             add_seam_edge(writer, corners[k], corners[k + 1 < count ? k + 1 : 0], sides[side], at, side < 2);
         }
     }
 }
 
-// Vertices that a polygon had before keep their turns.
+// Vertices that a polygon had before keep their turns, and their walls: for now by their place among the old ones.
 static void copy_turns(ring_writer *writer, const tl_nav_rings *old, uint32_t polygon)
 {
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_of(old, polygon, &count);
     tl_nav_rings *rings = writer->rings;
     for (uint64_t k = rings->cells[polygon].first; k < writer->edge_count; k++) {
+        tl_nav_ring_edge *edge = &rings->edges[k];
         for (uint32_t i = 0; i < count; i++) {
-            if (is_same_vertex(&ring[i], tl_vec3_make(rings->edges[k].x, 0.0f, rings->edges[k].z))) {
-                rings->edges[k].turn = ring[i].turn;
-                rings->walls[k] = old->walls[old->cells[polygon].first + i];
+            if (is_same_vertex(&ring[i], tl_vec3_make(edge->x, 0.0f, edge->z))) {
+                edge->turn = ring[i].turn;
+                edge->mark = (ring[i].mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) | tl_nav_ring_twin_hint(edge);
             }
         }
     }
@@ -110,7 +112,6 @@ static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t pol
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_of(old, polygon, &count);
     tl_nav_rings *rings = writer->rings;
-    const uint64_t first = writer->edge_count;
     for (uint32_t i = 0; i < count; i++) {
         tl_nav_ring_edge edge = ring[i];
         if (tl_nav_ring_is_open(&edge) && (edge.to & TL_NAV_RING_SEAM) != 0) {
@@ -121,9 +122,6 @@ static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t pol
             rings->edges[writer->edge_count] = edge;
         }
         writer->edge_count++;
-    }
-    if (rings->walls != NULL) {
-        memcpy(rings->walls + first, old->walls + (ring - old->edges), count * sizeof *rings->walls);
     }
 }
 
@@ -147,9 +145,23 @@ static void find_twins(tl_nav_rings *rings, uint32_t polygon)
             k++;
         }
         TL_ASSERT(across[k].to == polygon);
-        ring[i].twin = k;
-        across[k].twin = i;
+        tl_nav_set_ring_twin(&ring[i], k);
+        tl_nav_set_ring_twin(&across[k], i);
     }
+}
+
+uint32_t tl_nav_find_far_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge)
+{
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, polygon, &count);
+    const tl_nav_ring_edge *end = &ring[edge + 1 < count ? edge + 1 : 0];
+    const tl_nav_ring_edge *across = tl_nav_ring_of(rings, ring[edge].to, &count);
+    uint32_t twin = TL_NAV_RING_FAR_TWIN;
+    while (twin + 1 < count &&
+           (across[twin].to != polygon || !is_same_vertex(&across[twin], tl_vec3_make(end->x, 0.0f, end->z)))) {
+        twin++;
+    }
+    return twin;
 }
 
 // Labels the connected components of the tile. `stack` holds polygon_count numbers.
@@ -211,8 +223,6 @@ static void place_arrays(tl_nav_rings *rings, void *block, uint64_t edges, uint6
     rings->block = block;
     rings->edges = (tl_nav_ring_edge *)(void *)at;
     at += edges * sizeof(tl_nav_ring_edge);
-    rings->walls = (tl_nav_ring_walls *)(void *)at;
-    at += edges * sizeof(tl_nav_ring_walls);
     rings->seams = (tl_nav_ring_seam *)(void *)at;
     at += seams * sizeof(tl_nav_ring_seam);
     rings->cells = (tl_nav_ring_cell *)(void *)at;
@@ -227,7 +237,7 @@ static bool allocate_rings(const tl_allocator *allocator, const tl_nav_tile *til
                            tl_nav_rings *rings)
 {
     const uint64_t polygons = tile->polygon_count;
-    uint64_t size = edges * (sizeof(tl_nav_ring_edge) + sizeof(tl_nav_ring_walls)) + seams * sizeof(tl_nav_ring_seam) +
+    uint64_t size = edges * sizeof(tl_nav_ring_edge) + seams * sizeof(tl_nav_ring_seam) +
                     (polygons + 1) * sizeof(tl_nav_ring_cell) + (3 * polygons + tile->node_count) * sizeof(uint32_t);
     void *block = tl_allocate_array(allocator, size, 1);
     if (block == NULL) {
@@ -294,6 +304,59 @@ static void copy_components(const tl_nav_rings *old, uint32_t node_count, tl_nav
     rings->component_count = old->component_count;
 }
 
+// Gives all vertices their walls: those of old rings, where edges name some, and others that are not known yet.
+static tl_result make_walls(const tl_allocator *allocator, const tl_nav_rings *old, tl_nav_rings *rings)
+{
+    const uint64_t edges = rings->cells[rings->polygon_count].first;
+    uint32_t *walls_of = tl_allocate_array(allocator, edges, sizeof *walls_of);
+    if (walls_of == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    rings->walls_count = tl_nav_assign_walls(rings, walls_of);
+    const bool fits = rings->walls_count < TL_NAV_RING_MAX_WALLS;
+    rings->walls = fits ? tl_allocate_array(allocator, rings->walls_count, sizeof *rings->walls) : NULL;
+    if (rings->walls != NULL) {
+        memset(rings->walls, 0, rings->walls_count * sizeof *rings->walls);
+        rings->walls[TL_NAV_WALLS_CONVEX].first_x = 1.0f;
+        for (uint64_t k = 0; k < edges; k++) {
+            const uint32_t before = rings->edges[k].mark >> TL_NAV_RING_TWIN_BITS;
+            if (old != NULL && before >= TL_NAV_WALLS_FIRST && walls_of[k] >= TL_NAV_WALLS_FIRST) {
+                rings->walls[walls_of[k]] = old->walls[before];
+            }
+            rings->edges[k].mark = walls_of[k] << TL_NAV_RING_TWIN_BITS | tl_nav_ring_twin_hint(&rings->edges[k]);
+        }
+    }
+    tl_release_array(allocator, walls_of, edges, sizeof *walls_of);
+    return rings->walls != NULL ? TL_OK : fits ? TL_ERR_MEMORY : TL_ERR_LIMIT;
+}
+
+static tl_result make_rings(const tl_allocator *allocator, const tl_nav_tile *tile,
+                            const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const tl_nav_rings *old,
+                            uint32_t *scratch, tl_nav_rings *rings)
+{
+    ring_writer counted = { rings, 0, 0 };
+    write_rings(&counted, tile, sides, scratch, old);
+    const uint64_t edges = counted.edge_count, seams = counted.seam_count;
+    if (edges > UINT32_MAX || seams >= TL_NAV_RING_BACK - TL_NAV_RING_SEAM) {
+        return TL_ERR_LIMIT;
+    }
+    if (!allocate_rings(allocator, tile, edges, seams, rings)) {
+        return TL_ERR_MEMORY;
+    }
+    rings->polygon_count = tile->polygon_count;
+    fill_rings(tile, sides, scratch, old, rings);
+    TL_ASSERT(rings->cells[tile->polygon_count].first == edges);
+    TL_TRY(make_walls(allocator, old, rings));
+    if (old != NULL) {
+        copy_components(old, tile->node_count, rings);
+    } else {
+        label_components(rings, scratch);
+        label_tree_nodes(tile, rings);
+    }
+    tl_nav_mark_dead_ends(rings, scratch);
+    return TL_OK;
+}
+
 tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile,
                             const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const tl_nav_rings *old,
                             uint32_t changed_side, tl_nav_rings *rings_out)
@@ -306,32 +369,19 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
         return TL_ERR_MEMORY;
     }
     mark_changed(tile, changed_side, old, scratch);
-    ring_writer counted = { &rings, 0, 0 };
-    write_rings(&counted, tile, sides, scratch, old);
-    const uint64_t edges = counted.edge_count, seams = counted.seam_count;
-    const bool fits = edges <= UINT32_MAX && seams < TL_NAV_RING_BACK - TL_NAV_RING_SEAM;
-    if (!fits || !allocate_rings(allocator, tile, edges, seams, &rings)) {
-        tl_release_array(allocator, scratch, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
-        return fits ? TL_ERR_MEMORY : TL_ERR_LIMIT;
-    }
-    rings.polygon_count = tile->polygon_count;
-    memset(rings.walls, 0, edges * sizeof *rings.walls);
-    fill_rings(tile, sides, scratch, old, &rings);
-    TL_ASSERT(rings.cells[tile->polygon_count].first == edges);
-    if (old != NULL) {
-        copy_components(old, tile->node_count, &rings);
-    } else {
-        label_components(&rings, scratch);
-        label_tree_nodes(tile, &rings);
-    }
-    tl_nav_mark_dead_ends(&rings, scratch);
+    const tl_result result = make_rings(allocator, tile, sides, old, scratch, &rings);
     tl_release_array(allocator, scratch, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
+    if (result != TL_OK) {
+        tl_nav_rings_free(allocator, &rings);
+        return result;
+    }
     *rings_out = rings;
     return TL_OK;
 }
 
 void tl_nav_rings_free(const tl_allocator *allocator, tl_nav_rings *rings)
 {
+    tl_release_array(allocator, rings->walls, rings->walls_count, sizeof *rings->walls);
     tl_release_array(allocator, rings->block, rings->block_size, 1);
     memset(rings, 0, sizeof *rings);
 }
@@ -339,13 +389,19 @@ void tl_nav_rings_free(const tl_allocator *allocator, tl_nav_rings *rings)
 tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings)
 {
     void *block = tl_allocate_array(allocator, rings->block_size, 1);
-    if (block == NULL) {
+    tl_nav_ring_walls *walls = tl_allocate_array(allocator, rings->walls_count, sizeof *walls);
+    if (block == NULL || walls == NULL) {
+        tl_release_array(allocator, block, rings->block_size, 1);
+        tl_release_array(allocator, walls, rings->walls_count, sizeof *walls);
         return TL_ERR_MEMORY;
     }
-    const uint64_t edges = (uint64_t)((char *)rings->walls - (char *)rings->edges);
+    const uint64_t edges = (uint64_t)((char *)rings->seams - (char *)rings->edges);
     const uint64_t seams = (uint64_t)((char *)rings->cells - (char *)rings->seams);
     memcpy(block, rings->block, (size_t)rings->block_size);
+    memcpy(walls, rings->walls, rings->walls_count * sizeof *walls);
     tl_release_array(allocator, rings->block, rings->block_size, 1);
+    tl_release_array(allocator, rings->walls, rings->walls_count, sizeof *walls);
+    rings->walls = walls;
     place_arrays(rings, block, edges / sizeof(tl_nav_ring_edge), seams / sizeof(tl_nav_ring_seam),
                  rings->polygon_count);
     return TL_OK;
@@ -358,6 +414,7 @@ void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot)
         if (tl_nav_ring_is_open(edge) && (edge->to & TL_NAV_RING_SEAM) != 0 &&
             rings->seams[edge->to & ~TL_NAV_RING_SEAM].slot == slot) {
             edge->to = TL_NAV_RING_WALL;
+            tl_nav_set_ring_twin(edge, TL_NAV_RING_ON_PORTAL);
         }
     }
 }

@@ -16,13 +16,23 @@
 #define TL_NAV_RING_BACK (UINT32_MAX - 1u) ///< runs back where links of two floors lie over one another: no way
 #define TL_NAV_RING_WALL UINT32_MAX
 
+enum {
+    TL_NAV_RING_TWIN_BITS = 6,                               ///< of tl_nav_ring_edge.mark
+    TL_NAV_RING_FAR_TWIN = (1 << TL_NAV_RING_TWIN_BITS) - 1, ///< no less: the twin is looked for from here on
+};
+/// Instead of a place, of a wall over which other tiles' polygons may come to lie.
+#define TL_NAV_RING_ON_PORTAL 1u
+#define TL_NAV_RING_MAX_WALLS (UINT32_MAX >> TL_NAV_RING_TWIN_BITS) ///< of one tile
+
 /// An edge of a polygon, from where it stands to where the next one does. Seen from inside looking out, it starts at
 /// its right end.
 typedef struct tl_nav_ring_edge {
     float x, y, z;
     uint32_t to;   ///< across: a polygon of the tile, or TL_NAV_RING_...
     uint32_t turn; ///< names the free way around this vertex when a shortest path may turn here, else 0
-    uint32_t twin; ///< the same edge's place in the ring across; over a seam: near which it stands there, if anywhere
+    /// In the low bits the same edge's place in the ring across, or TL_NAV_RING_FAR_TWIN; over a seam: near which it
+    /// stands there, if anywhere. Above them which walls this vertex has.
+    uint32_t mark;
 } tl_nav_ring_edge;
 
 typedef struct tl_nav_ring_seam {
@@ -35,6 +45,11 @@ typedef struct tl_nav_ring_walls {
     float first_x, first_z;
     float last_x, last_z;
 } tl_nav_ring_walls;
+
+// Walls that all vertices share at which no path turns, whatever tiles come and go.
+#define TL_NAV_WALLS_NONE   0u ///< of vertices without
+#define TL_NAV_WALLS_CONVEX 1u ///< of others: that there are some is all that they tell
+#define TL_NAV_WALLS_FIRST  2u ///< of those that belong to one way around a vertex, as far as it leads through the tile
 
 /// Set in a value of tl_nav_rings.node_component: several components, with a bit for each number modulo 31.
 #define TL_NAV_MIXED_COMPONENTS 0x80000000u
@@ -52,14 +67,14 @@ typedef struct tl_nav_ring_cell {
 typedef struct tl_nav_rings {
     tl_nav_ring_cell *cells; ///< [polygon_count + 1]
     tl_nav_ring_edge *edges;
-    tl_nav_ring_walls *walls; ///< by edge: of the vertex where it starts, when its turn is not 0
+    tl_nav_ring_walls *walls; ///< [walls_count]
     tl_nav_ring_seam *seams;
     uint32_t *component;   ///< by polygon: its connected component within the tile, from 0
     uint32_t *island;      ///< by component: a node of the navmesh's islands (islands.c)
     uint32_t *next_member; ///< by polygon: the next one of its component, around
     /// By node of the tile's box tree: the component of all polygons below it, or TL_NAV_MIXED_COMPONENTS | their bits.
     uint32_t *node_component;
-    uint32_t polygon_count, component_count;
+    uint32_t polygon_count, component_count, walls_count;
     bool has_back; ///< some edge is a TL_NAV_RING_BACK
     void *block;   ///< that all arrays stand in
     uint64_t block_size;
@@ -79,6 +94,17 @@ tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings);
 /// Makes walls of all ways to a slot. The cuts in the edges stay.
 void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot);
 
+/// The place of an edge in the ring of the polygon across, which is of the same tile and has more edges than fit a
+/// mark.
+uint32_t tl_nav_find_far_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge);
+
+/// The same of any two polygons of one tile.
+static inline uint32_t tl_nav_inner_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge)
+{
+    const uint32_t twin = rings->edges[rings->cells[polygon].first + edge].mark & TL_NAV_RING_FAR_TWIN;
+    return twin < TL_NAV_RING_FAR_TWIN ? twin : tl_nav_find_far_twin(rings, polygon, edge);
+}
+
 /// Finds the dead ends of a tile. `scratch` holds 2 * polygon_count numbers.
 void tl_nav_mark_dead_ends(tl_nav_rings *rings, uint32_t *scratch);
 
@@ -86,6 +112,23 @@ void tl_nav_mark_dead_ends(tl_nav_rings *rings, uint32_t *scratch);
 static inline bool tl_nav_ring_is_open(const tl_nav_ring_edge *edge)
 {
     return edge->to < TL_NAV_RING_BACK;
+}
+
+static inline void tl_nav_set_ring_twin(tl_nav_ring_edge *edge, uint32_t twin)
+{
+    edge->mark = (edge->mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) |
+                 (twin < TL_NAV_RING_FAR_TWIN ? twin : (uint32_t)TL_NAV_RING_FAR_TWIN);
+}
+
+static inline uint32_t tl_nav_ring_twin_hint(const tl_nav_ring_edge *edge)
+{
+    return edge->mark & TL_NAV_RING_FAR_TWIN;
+}
+
+/// The walls of the vertex where an edge starts. They are those of its fan where its turn is not 0.
+static inline const tl_nav_ring_walls *tl_nav_walls_of(const tl_nav_rings *rings, const tl_nav_ring_edge *edge)
+{
+    return &rings->walls[edge->mark >> TL_NAV_RING_TWIN_BITS];
 }
 
 /// A polygon's ring: edges [0, *count_out).

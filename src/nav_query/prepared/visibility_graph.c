@@ -84,13 +84,10 @@ static void fill_corner_vertex(graph_baker *b, tl_nav_ring_place place)
     if (ring_vertex->turn == 0 || b->graph->vertices[b->vertex_of[ring_vertex->turn]].turn != 0) {
         return;
     }
-    tl_nav_corner_vertex vertex = { ring_vertex->x,
-                                    ring_vertex->y,
-                                    ring_vertex->z,
-                                    ring_vertex->turn,
-                                    0,
-                                    rings->walls[rings->cells[place.polygon].first + place.edge],
-                                    place };
+    tl_nav_corner_vertex vertex = {
+        ring_vertex->x, ring_vertex->y, ring_vertex->z, ring_vertex->turn, 0, *tl_nav_walls_of(rings, ring_vertex),
+        place
+    };
     tl_nav_find_fan(b->navmesh, NULL, &vertex.place);
     b->graph->vertices[b->vertex_of[ring_vertex->turn]] = vertex;
     double x = fabs((double)ring_vertex->x);

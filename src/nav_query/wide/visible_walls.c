@@ -265,9 +265,8 @@ static bool add_winding_end(wall_walk *walk, const tl_nav_ring_place *place, con
 {
     const tl_nav_clearance *clearance = walk->clearance;
     const tl_nav_rings *rings = &clearance->navmesh->slots[place->slot].rings;
-    uint32_t at = rings->cells[place->polygon].first + place->edge;
-    const tl_nav_ring_edge *edge = &rings->edges[at];
-    const tl_nav_ring_walls *walls = &rings->walls[at];
+    const tl_nav_ring_edge *edge = &rings->edges[rings->cells[place->polygon].first + place->edge];
+    const tl_nav_ring_walls *walls = tl_nav_walls_of(rings, edge);
     tl_nav_spot spot = { (double)edge->x, (double)edge->z };
     tl_nav_segment end = { spot, spot };
     tl_nav_ring_place fan = *place;
