@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Edges over a seam know where they stand in the ring across: a tile of many strips beside one large polygon is added
-// without a search through that polygon's ring for each of them. Rings take no more memory than their edges.
+// without a search through that polygon's ring for each of them. Rings take no more memory than their edges, and
+// numbers of 16 bits where those do.
 
 #include "nav_fixture.h"
 
+#include "nav_query/navmesh/area_table.h"
 #include "nav_query/navmesh/ring_step.h"
+
+#include <talus/nav_around.h>
 
 static void seams_know_their_twins(void **state)
 {
@@ -61,7 +65,7 @@ static void rings_have_no_room_to_spare(void **state)
             TEST_CHECK(rings->block_size ==
                        edges * sizeof *rings->edges + seams * sizeof *rings->seams +
                            (polygons + 1) * sizeof *rings->cells +
-                           (3 * polygons + navmesh->slots[slot].tile->node_count) * sizeof(uint32_t));
+                           (2 * polygons + navmesh->slots[slot].tile->node_count) * sizeof(uint16_t));
         }
         tl_navmesh_destroy(navmesh);
     }
@@ -101,10 +105,99 @@ static void far_twins_are_found(void **state)
     }
 }
 
+enum { STRIP_LENGTH = 235, STRIPS = 140, SQUARE = 600 }; // more than TL_NAV_MAX_SHORT_NUMBER squares
+
+// One tile: strips of squares that do not touch one another.
+static tl_nav_tile *make_strips(void)
+{
+    const uint32_t count = STRIP_LENGTH * STRIPS;
+    tl_polygon_mesh mesh;
+    memset(&mesh, 0, sizeof mesh);
+    mesh.vertex_count = 2 * (STRIP_LENGTH + 1) * STRIPS;
+    mesh.polygon_count = count;
+    mesh.index_count = 4 * count;
+    mesh.vertices = calloc(3 * (size_t)mesh.vertex_count, sizeof *mesh.vertices);
+    mesh.first = calloc(count + 1, sizeof *mesh.first);
+    mesh.indices = calloc(4 * count, sizeof *mesh.indices);
+    mesh.neighbours = calloc(4 * count, sizeof *mesh.neighbours);
+    mesh.regions = calloc(count, sizeof *mesh.regions);
+    mesh.areas = calloc(count, sizeof *mesh.areas);
+    mesh.contours = calloc(count, sizeof *mesh.contours);
+    mesh.cell_size = 0.01f;
+    mesh.cell_height = 0.2f;
+    mesh.max_verts_per_poly = 4;
+    for (uint32_t v = 0; v < mesh.vertex_count; v++) {
+        const uint32_t in_strip = v % (2 * (STRIP_LENGTH + 1)), strip = v / (2 * (STRIP_LENGTH + 1));
+        mesh.vertices[3 * v] = (int32_t)(in_strip / 2 * SQUARE);
+        mesh.vertices[3 * v + 2] = (int32_t)((2 * strip + in_strip % 2) * SQUARE);
+    }
+    for (uint32_t p = 0; p < count; p++) {
+        const uint32_t v = 2 * (p + p / STRIP_LENGTH);
+        const uint32_t corners[4] = { v, v + 1, v + 3, v + 2 };
+        const bool begins = p % STRIP_LENGTH == 0, ends = (p + 1) % STRIP_LENGTH == 0;
+        const uint32_t across[4] = { begins ? TL_NO_POLYGON : p - 1, TL_NO_POLYGON, ends ? TL_NO_POLYGON : p + 1,
+                                     TL_NO_POLYGON };
+        memcpy(mesh.indices + 4 * p, corners, sizeof corners);
+        memcpy(mesh.neighbours + 4 * p, across, sizeof across);
+        mesh.first[p + 1] = 4 * (p + 1);
+        mesh.areas[p] = 63;
+    }
+    tl_nav_tile_source source;
+    memset(&source, 0, sizeof source);
+    source.polygons = &mesh;
+    source.agent_height = 2.0f;
+    source.agent_radius = 0.5f;
+    source.agent_max_climb = 0.5f;
+    tl_nav_tile *tile = NULL;
+    TEST_RESULT(tl_nav_tile_encode(&source, NULL, &tile, NULL), TL_OK);
+    void *const arrays[7] = { mesh.vertices, mesh.first, mesh.indices, mesh.neighbours,
+                              mesh.regions,  mesh.areas, mesh.contours };
+    for (int i = 0; i < 7; i++) {
+        free(arrays[i]);
+    }
+    return tile;
+}
+
+// Numbers of polygons and sums of areas that 16 and 32 bits have no room for.
+static void large_tiles_have_wide_numbers(void **state)
+{
+    (void)state;
+    tl_navmesh *navmesh = NULL;
+    TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
+    tl_nav_tile *tile = make_strips();
+    TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
+    const tl_nav_slot *slot = &navmesh->slots[0];
+    TEST_CHECK(slot->rings.is_wide && slot->areas.is_wide && slot->rings.component_count == STRIPS);
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        TEST_CHECK(tl_nav_component_of(&slot->rings, p) == p / STRIP_LENGTH);
+        TEST_CHECK(tl_nav_area_before(slot, p + 1) == 2 * (uint64_t)SQUARE * SQUARE * (p + 1));
+    }
+    test_random random = { 5 };
+    for (uint32_t i = 0; i < 200; i++) {
+        const uint32_t from = test_random_below(&random, tile->polygon_count);
+        const uint32_t at = test_random_below(&random, tile->polygon_count);
+        const tl_vec3 point =
+            tl_vec3_make(6.0f * (float)(at % STRIP_LENGTH) + 3.0f, 0.0f, 12.0f * (float)(at / STRIP_LENGTH) + 3.0f);
+        const uint32_t nearest = from / STRIP_LENGTH * STRIP_LENGTH + at % STRIP_LENGTH;
+        tl_nav_location found;
+        TEST_RESULT(tl_navmesh_find_nearest_reachable(navmesh, NULL, tl_nav_make_ref(navmesh, 0, from), point, &found),
+                    TL_OK);
+        TEST_CHECK(found.polygon == tl_nav_make_ref(navmesh, 0, nearest));
+        const uint64_t numbers[2] = { test_random_u64(&random), test_random_u64(&random) };
+        TEST_RESULT(tl_navmesh_random_point(navmesh, NULL, numbers, &found), TL_OK);
+        uint32_t of_slot = 0, polygon = 0;
+        TEST_CHECK(tl_nav_split_ref(navmesh, found.polygon, &of_slot, &polygon));
+        TEST_CHECK((uint32_t)(found.point.x / 6.0f) == polygon % STRIP_LENGTH);
+        TEST_CHECK((uint32_t)(found.point.z / 12.0f) == polygon / STRIP_LENGTH);
+    }
+    tl_navmesh_destroy(navmesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(seams_know_their_twins),
                                         cmocka_unit_test(rings_have_no_room_to_spare),
-                                        cmocka_unit_test(far_twins_are_found) };
+                                        cmocka_unit_test(far_twins_are_found),
+                                        cmocka_unit_test(large_tiles_have_wide_numbers) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

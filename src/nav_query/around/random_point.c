@@ -20,13 +20,13 @@ static uint32_t find_polygon(const tl_nav_slot *slot, uint64_t *at)
     uint32_t high = slot->tile->polygon_count;
     while (high - low > 1) {
         uint32_t middle = low + (high - low) / 2;
-        if (slot->areas[middle] <= *at) {
+        if (tl_nav_area_before(slot, middle) <= *at) {
             low = middle;
         } else {
             high = middle;
         }
     }
-    *at -= slot->areas[low];
+    *at -= tl_nav_area_before(slot, low);
     return low;
 }
 
@@ -40,7 +40,7 @@ static uint64_t sum_passing(const tl_navmesh *navmesh, const tl_nav_filter *filt
         const tl_nav_slot *slot = &navmesh->slots[s];
         for (uint32_t p = 0; slot->tile != NULL && p < slot->tile->polygon_count; p++) {
             if (tl_nav_passes(filter, slot->tile, p)) {
-                uint64_t area = slot->areas[p + 1] - slot->areas[p];
+                uint64_t area = tl_nav_area_of(slot, p);
                 if (at - sum < area) {
                     *slot_out = s;
                     *polygon_out = p;

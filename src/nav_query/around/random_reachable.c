@@ -15,6 +15,7 @@
 #include "base/min_max.h"
 #include "base/random.h"
 #include "nav_query/around/flood.h"
+#include "nav_query/navmesh/area_table.h"
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/surface.h"
@@ -305,9 +306,8 @@ static draw_region region_of(const tl_nav_flood *flood, const tl_nav_node *node,
 {
     const tl_nav_slot *slot = &flood->navmesh->slots[node->slot];
     const double square = (double)slot->tile->cell_size * (double)slot->tile->cell_size;
-    draw_region r = { false,   -radius,
-                      -radius, radius,
-                      radius,  0.5 * square * (double)(slot->areas[node->polygon + 1] - slot->areas[node->polygon]) };
+    draw_region r = { false,  -radius, -radius,
+                      radius, radius,  0.5 * square * (double)tl_nav_area_of(slot, node->polygon) };
     if (r.area > radius * radius) {
         const tl_vec3 center = flood->zone->center;
         uint32_t count = 0;

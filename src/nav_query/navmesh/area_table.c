@@ -33,28 +33,48 @@ static uint64_t doubled_polygon_area(const tl_nav_tile *tile, uint32_t polygon)
     return sum > 0 ? (uint64_t)sum : 0;
 }
 
-uint64_t *tl_nav_areas_make(const tl_allocator *allocator, const tl_nav_tile *tile)
+static size_t sum_size(const tl_nav_areas *areas)
 {
-    uint64_t *areas = tl_allocate_array(allocator, (uint64_t)tile->polygon_count + 1, sizeof *areas);
-    if (areas != NULL) {
-        areas[0] = 0;
-        for (uint32_t p = 0; p < tile->polygon_count; p++) {
-            areas[p + 1] = areas[p] + doubled_polygon_area(tile, p);
-        }
-    }
-    return areas;
+    return areas->is_wide ? sizeof *areas->sums.wide : sizeof *areas->sums.narrow;
 }
 
-void tl_nav_areas_free(const tl_allocator *allocator, uint64_t *areas, uint32_t polygon_count)
+tl_result tl_nav_areas_make(const tl_allocator *allocator, const tl_nav_tile *tile, tl_nav_areas *areas_out)
 {
-    if (areas != NULL) {
-        tl_release_array(allocator, areas, (uint64_t)polygon_count + 1, sizeof *areas);
+    memset(areas_out, 0, sizeof *areas_out);
+    uint64_t sum = 0;
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        sum += doubled_polygon_area(tile, p);
+    }
+    tl_nav_areas areas;
+    areas.is_wide = sum > UINT32_MAX;
+    areas.sums.wide = tl_allocate_array(allocator, (uint64_t)tile->polygon_count + 1, sum_size(&areas));
+    if (areas.sums.wide == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    sum = 0;
+    for (uint32_t p = 0; p <= tile->polygon_count; p++) {
+        if (areas.is_wide) {
+            areas.sums.wide[p] = sum;
+        } else {
+            areas.sums.narrow[p] = (uint32_t)sum;
+        }
+        sum += p < tile->polygon_count ? doubled_polygon_area(tile, p) : 0;
+    }
+    *areas_out = areas;
+    return TL_OK;
+}
+
+void tl_nav_areas_free(const tl_allocator *allocator, tl_nav_areas *areas, uint32_t polygon_count)
+{
+    if (areas->sums.wide != NULL) {
+        tl_release_array(allocator, areas->sums.wide, (uint64_t)polygon_count + 1, sum_size(areas));
+        memset(areas, 0, sizeof *areas);
     }
 }
 
 static uint64_t slot_area(const tl_nav_slot *slot)
 {
-    return slot->tile != NULL ? slot->areas[slot->tile->polygon_count] : 0;
+    return slot->tile != NULL ? tl_nav_area_before(slot, slot->tile->polygon_count) : 0;
 }
 
 // Entry i + 1 sums the slots i - (i & -i) .. i, as Fenwick has it.

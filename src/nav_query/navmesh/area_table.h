@@ -7,10 +7,20 @@
 
 #include "nav_query/navmesh/navmesh.h"
 
-/// The areas of a tile's polygons, twice, in squares of the lattice: [i] is the sum of those before polygon i, the last
-/// one that of all. Freed with tl_nav_areas_free. NULL: out of memory.
-uint64_t *tl_nav_areas_make(const tl_allocator *allocator, const tl_nav_tile *tile);
-void tl_nav_areas_free(const tl_allocator *allocator, uint64_t *areas, uint32_t polygon_count);
+/// The areas of a tile's polygons, twice, in squares of the lattice. Freed with tl_nav_areas_free. TL_ERR_MEMORY.
+tl_result tl_nav_areas_make(const tl_allocator *allocator, const tl_nav_tile *tile, tl_nav_areas *areas_out);
+void tl_nav_areas_free(const tl_allocator *allocator, tl_nav_areas *areas, uint32_t polygon_count);
+
+/// The sum of those of the polygons before one, which may be polygon_count: of all.
+static inline uint64_t tl_nav_area_before(const tl_nav_slot *slot, uint32_t polygon)
+{
+    return slot->areas.is_wide ? slot->areas.sums.wide[polygon] : slot->areas.sums.narrow[polygon];
+}
+
+static inline uint64_t tl_nav_area_of(const tl_nav_slot *slot, uint32_t polygon)
+{
+    return tl_nav_area_before(slot, polygon + 1) - tl_nav_area_before(slot, polygon);
+}
 
 /// Sums up all slots anew; the table has room for capacity + 1 numbers.
 void tl_nav_area_table_fill(uint64_t *table, uint32_t capacity, const tl_nav_slot *slots, uint32_t slot_count);

@@ -59,7 +59,7 @@ static void join_search_pieces(island_splitter *s, uint32_t piece_a, uint32_t pi
 static void reach_node(island_splitter *s, uint32_t piece, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_rings *rings = &s->navmesh->slots[slot].rings;
-    uint32_t index = rings->island[rings->component[polygon]];
+    uint32_t index = rings->island[tl_nav_component_of(rings, polygon)];
     tl_nav_island_node *node = &s->islands->nodes[index];
     if (node->piece != TL_NAV_NO_ISLAND) {
         join_search_pieces(s, piece, node->piece);
@@ -75,12 +75,12 @@ static void reach_node(island_splitter *s, uint32_t piece, uint32_t slot, uint32
 static void reach_over_seams(island_splitter *s, uint32_t piece, const tl_nav_island_node *node)
 {
     const tl_nav_slot *slot = &s->navmesh->slots[node->slot];
-    uint32_t component = slot->rings.component[node->polygon];
+    uint32_t component = tl_nav_component_of(&slot->rings, node->polygon);
     for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         const tl_nav_side_links *links = &slot->sides[side];
         const tl_nav_portal *portals = tl_nav_tile_portals(slot->tile) + tl_nav_tile_side_first(slot->tile, side);
         for (uint32_t i = 0; links->first != NULL && i < links->portal_count; i++) {
-            if (slot->rings.component[portals[i].polygon] == component) {
+            if (tl_nav_component_of(&slot->rings, portals[i].polygon) == component) {
                 for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
                     reach_node(s, piece, links->links[k].slot, links->links[k].polygon);
                 }
@@ -91,7 +91,7 @@ static void reach_over_seams(island_splitter *s, uint32_t piece, const tl_nav_is
 
 static void reach_over_links(island_splitter *s, uint32_t piece, const tl_nav_island_node *node)
 {
-    const uint32_t *next_member = s->navmesh->slots[node->slot].rings.next_member;
+    const tl_nav_rings *rings = &s->navmesh->slots[node->slot].rings;
     uint32_t polygon = node->polygon;
     do {
         for (uint32_t end = tl_nav_first_anchor(s->navmesh, node->slot, polygon); end != TL_NAV_NO_END;) {
@@ -103,7 +103,7 @@ static void reach_over_links(island_splitter *s, uint32_t piece, const tl_nav_is
             }
             end = own->next;
         }
-        polygon = next_member[polygon];
+        polygon = tl_nav_ring_number(rings, rings->next_member, polygon);
     } while (polygon != node->polygon);
 }
 

@@ -22,7 +22,7 @@
 static uint32_t node_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_rings *rings = &navmesh->slots[slot].rings;
-    return rings->island[rings->component[polygon]];
+    return rings->island[tl_nav_component_of(rings, polygon)];
 }
 
 static uint32_t label_of(const tl_navmesh *navmesh, tl_nav_island_kind kind, uint32_t slot, uint32_t polygon)
@@ -65,7 +65,7 @@ tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
     if (needed <= old->capacity) {
         return TL_OK;
     }
-    const uint64_t capacity = 2 * needed;
+    const uint64_t capacity = needed + needed / 4;
     if (2 * capacity > UINT32_MAX) {
         return TL_ERR_LIMIT;
     }
@@ -178,7 +178,7 @@ static void make_nodes(tl_navmesh *navmesh, uint32_t slot)
     }
     uint32_t made = 0; // components are numbered in the order of their first polygons
     for (uint32_t p = 0; p < rings->polygon_count && made < rings->component_count; p++) {
-        if (rings->component[p] != made) {
+        if (tl_nav_component_of(rings, p) != made) {
             continue;
         }
         uint32_t index = islands->free;

@@ -32,6 +32,15 @@ typedef struct tl_nav_edit {
     int32_t tile_x, tile_z;
 } tl_nav_edit;
 
+/// Sums of the areas of a tile's polygons (area_table.h), of 32 bits where that of all has no more.
+typedef struct tl_nav_areas {
+    union {
+        uint32_t *narrow;
+        uint64_t *wide;
+    } sums; ///< [polygon_count + 1]; NULL: there are none
+    bool is_wide;
+} tl_nav_areas;
+
 typedef struct tl_nav_kept_walls tl_nav_kept_walls; // prepared_walls.h
 
 typedef struct tl_nav_slot {
@@ -48,7 +57,7 @@ typedef struct tl_nav_slot {
     uint32_t anchor_count; ///< ends of off-mesh links on its polygons
     tl_nav_side_links sides[TL_NAV_SIDE_COUNT];
     tl_nav_rings rings;
-    uint64_t *areas;               ///< of the tile's polygons, summed up (area_table.h)
+    tl_nav_areas areas;            ///< of the tile's polygons
     tl_nav_kept_walls *kept_walls; ///< NULL: not prepared, or dropped by an edit
 } tl_nav_slot;
 

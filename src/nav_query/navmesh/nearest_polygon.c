@@ -145,7 +145,7 @@ static uint32_t bits_on_island(const nearest_search *search, const tl_nav_rings 
 {
     uint32_t bits = rings->component_count > MAX_MASKED_COMPONENTS ? UINT32_MAX : 0;
     for (uint32_t i = 0; i < rings->component_count && bits != UINT32_MAX; i++) {
-        bits |= is_component_on_island(search, rings, i) ? tl_nav_component_bit(i) : 0;
+        bits |= is_component_on_island(search, rings, i) ? tl_nav_component_bit(rings, i) : 0;
     }
     return bits & ~TL_NAV_MIXED_COMPONENTS;
 }
@@ -167,7 +167,7 @@ static void search_tile_on_island(nearest_search *search, uint32_t slot)
     uint32_t known = TL_NAV_MIXED_COMPONENTS; // the component that was asked for last
     bool known_is_on = false;
     for (;;) {
-        const uint32_t component = rings->node_component[at.node];
+        const uint32_t component = tl_nav_node_component(rings, at.node);
         bool is_on = at.bound <= search->best;
         if (is_on && (component & TL_NAV_MIXED_COMPONENTS) != 0) {
             is_on = (component & bits) != 0;

@@ -164,28 +164,43 @@ uint32_t tl_nav_find_far_twin(const tl_nav_rings *rings, uint32_t polygon, uint3
     return twin;
 }
 
+static void set_number(const tl_nav_rings *rings, tl_nav_ring_numbers numbers, uint32_t i, uint32_t number)
+{
+    if (rings->is_wide) {
+        numbers.wide[i] = number;
+    } else {
+        numbers.narrow[i] = (uint16_t)number;
+    }
+}
+
+static size_t number_size(const tl_nav_rings *rings)
+{
+    return rings->is_wide ? sizeof *rings->component.wide : sizeof *rings->component.narrow;
+}
+
 // Labels the connected components of the tile. `stack` holds polygon_count numbers.
 static void label_components(tl_nav_rings *rings, uint32_t *stack)
 {
-    memset(rings->component, 0xff, rings->polygon_count * sizeof *rings->component);
+    const uint32_t none = rings->is_wide ? UINT32_MAX : UINT16_MAX;
+    memset(rings->component.narrow, 0xff, rings->polygon_count * number_size(rings));
     for (uint32_t p = 0; p < rings->polygon_count; p++) {
-        if (rings->component[p] != UINT32_MAX) {
+        if (tl_nav_component_of(rings, p) != none) {
             continue;
         }
         uint32_t label = rings->component_count++;
         uint32_t depth = 0;
         stack[depth++] = p;
-        rings->component[p] = label;
-        rings->next_member[p] = p;
+        set_number(rings, rings->component, p, label);
+        set_number(rings, rings->next_member, p, p);
         while (depth > 0) {
             uint32_t count = 0;
             const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, stack[--depth], &count);
             for (uint32_t i = 0; i < count; i++) {
                 uint32_t to = ring[i].to;
-                if (to < TL_NAV_RING_SEAM && rings->component[to] == UINT32_MAX) {
-                    rings->component[to] = label;
-                    rings->next_member[to] = rings->next_member[p];
-                    rings->next_member[p] = to;
+                if (to < TL_NAV_RING_SEAM && tl_nav_component_of(rings, to) == none) {
+                    set_number(rings, rings->component, to, label);
+                    set_number(rings, rings->next_member, to, tl_nav_ring_number(rings, rings->next_member, p));
+                    set_number(rings, rings->next_member, p, to);
                     stack[depth++] = to;
                 }
             }
@@ -193,24 +208,26 @@ static void label_components(tl_nav_rings *rings, uint32_t *stack)
     }
 }
 
-static uint32_t component_bits(uint32_t of_node)
+static uint32_t component_bits(const tl_nav_rings *rings, uint32_t of_node)
 {
-    return (of_node & TL_NAV_MIXED_COMPONENTS) != 0 ? of_node : tl_nav_component_bit(of_node);
+    return (of_node & TL_NAV_MIXED_COMPONENTS) != 0 ? of_node : tl_nav_component_bit(rings, of_node);
 }
 
 // From the leaves up: a node's children stand behind it.
 static void label_tree_nodes(const tl_nav_tile *tile, tl_nav_rings *rings)
 {
     const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
+    const uint32_t mixed = rings->is_wide ? TL_NAV_MIXED_COMPONENTS : TL_NAV_MAX_SHORT_NUMBER + 1u;
     for (uint32_t i = tile->node_count; i > 0; i--) {
         const uint32_t node = i - 1;
         if (nodes[node].polygon != TL_NO_POLYGON) {
-            rings->node_component[node] = rings->component[nodes[node].polygon];
+            set_number(rings, rings->node_component, node, tl_nav_component_of(rings, nodes[node].polygon));
         } else {
-            const uint32_t first = rings->node_component[node + 1];
-            const uint32_t second = rings->node_component[nodes[node + 1].skip];
-            rings->node_component[node] =
-                first == second ? first : TL_NAV_MIXED_COMPONENTS | component_bits(first) | component_bits(second);
+            const uint32_t first = tl_nav_node_component(rings, node + 1);
+            const uint32_t second = tl_nav_node_component(rings, nodes[node + 1].skip);
+            const uint32_t bits = component_bits(rings, first) | component_bits(rings, second);
+            const bool is_one = first == second && (first & TL_NAV_MIXED_COMPONENTS) == 0;
+            set_number(rings, rings->node_component, node, is_one ? first : mixed | (bits & ~TL_NAV_MIXED_COMPONENTS));
         }
     }
 }
@@ -227,10 +244,10 @@ static void place_arrays(tl_nav_rings *rings, void *block, uint64_t edges, uint6
     at += seams * sizeof(tl_nav_ring_seam);
     rings->cells = (tl_nav_ring_cell *)(void *)at;
     at += (polygons + 1) * sizeof(tl_nav_ring_cell);
-    rings->component = (uint32_t *)(void *)at;
-    rings->island = rings->component + polygons;
-    rings->next_member = rings->island + polygons;
-    rings->node_component = rings->next_member + polygons;
+    const size_t size = polygons * number_size(rings);
+    rings->component.wide = (uint32_t *)(void *)at;
+    rings->next_member.wide = (uint32_t *)(void *)(at + size);
+    rings->node_component.wide = (uint32_t *)(void *)(at + 2 * size);
 }
 
 static bool allocate_rings(const tl_allocator *allocator, const tl_nav_tile *tile, uint64_t edges, uint64_t seams,
@@ -238,7 +255,7 @@ static bool allocate_rings(const tl_allocator *allocator, const tl_nav_tile *til
 {
     const uint64_t polygons = tile->polygon_count;
     uint64_t size = edges * sizeof(tl_nav_ring_edge) + seams * sizeof(tl_nav_ring_seam) +
-                    (polygons + 1) * sizeof(tl_nav_ring_cell) + (3 * polygons + tile->node_count) * sizeof(uint32_t);
+                    (polygons + 1) * sizeof(tl_nav_ring_cell) + (2 * polygons + tile->node_count) * number_size(rings);
     void *block = tl_allocate_array(allocator, size, 1);
     if (block == NULL) {
         return false;
@@ -297,11 +314,22 @@ static void fill_rings(const tl_nav_tile *tile, const tl_nav_side_links *sides[T
 // Components do not depend on seams.
 static void copy_components(const tl_nav_rings *old, uint32_t node_count, tl_nav_rings *rings)
 {
-    memcpy(rings->component, old->component, rings->polygon_count * sizeof *rings->component);
-    memcpy(rings->island, old->island, old->component_count * sizeof *rings->island);
-    memcpy(rings->next_member, old->next_member, rings->polygon_count * sizeof *rings->next_member);
-    memcpy(rings->node_component, old->node_component, node_count * sizeof *rings->node_component);
+    const size_t size = rings->polygon_count * number_size(rings);
+    memcpy(rings->component.narrow, old->component.narrow, size);
+    memcpy(rings->next_member.narrow, old->next_member.narrow, size);
+    memcpy(rings->node_component.narrow, old->node_component.narrow, node_count * number_size(rings));
     rings->component_count = old->component_count;
+}
+
+static uint64_t walls_size(const tl_nav_rings *rings)
+{
+    return rings->walls_count * (uint64_t)sizeof *rings->walls + rings->component_count * sizeof *rings->island;
+}
+
+static void place_walls(tl_nav_rings *rings, void *block)
+{
+    rings->walls = (tl_nav_ring_walls *)block;
+    rings->island = (uint32_t *)(void *)(rings->walls + rings->walls_count);
 }
 
 // Gives all vertices their walls: those of old rings, where edges name some, and others that are not known yet.
@@ -314,9 +342,13 @@ static tl_result make_walls(const tl_allocator *allocator, const tl_nav_rings *o
     }
     rings->walls_count = tl_nav_assign_walls(rings, walls_of);
     const bool fits = rings->walls_count < TL_NAV_RING_MAX_WALLS;
-    rings->walls = fits ? tl_allocate_array(allocator, rings->walls_count, sizeof *rings->walls) : NULL;
-    if (rings->walls != NULL) {
-        memset(rings->walls, 0, rings->walls_count * sizeof *rings->walls);
+    void *block = fits ? tl_allocate_array(allocator, walls_size(rings), 1) : NULL;
+    if (block != NULL) {
+        memset(block, 0, (size_t)walls_size(rings));
+        place_walls(rings, block);
+        if (old != NULL) {
+            memcpy(rings->island, old->island, rings->component_count * sizeof *rings->island);
+        }
         rings->walls[TL_NAV_WALLS_CONVEX].first_x = 1.0f;
         for (uint64_t k = 0; k < edges; k++) {
             const uint32_t before = rings->edges[k].mark >> TL_NAV_RING_TWIN_BITS;
@@ -340,13 +372,13 @@ static tl_result make_rings(const tl_allocator *allocator, const tl_nav_tile *ti
     if (edges > UINT32_MAX || seams >= TL_NAV_RING_BACK - TL_NAV_RING_SEAM) {
         return TL_ERR_LIMIT;
     }
+    rings->polygon_count = tile->polygon_count;
+    rings->is_wide = tile->polygon_count > TL_NAV_MAX_SHORT_NUMBER;
     if (!allocate_rings(allocator, tile, edges, seams, rings)) {
         return TL_ERR_MEMORY;
     }
-    rings->polygon_count = tile->polygon_count;
     fill_rings(tile, sides, scratch, old, rings);
     TL_ASSERT(rings->cells[tile->polygon_count].first == edges);
-    TL_TRY(make_walls(allocator, old, rings));
     if (old != NULL) {
         copy_components(old, tile->node_count, rings);
     } else {
@@ -354,7 +386,7 @@ static tl_result make_rings(const tl_allocator *allocator, const tl_nav_tile *ti
         label_tree_nodes(tile, rings);
     }
     tl_nav_mark_dead_ends(rings, scratch);
-    return TL_OK;
+    return make_walls(allocator, old, rings);
 }
 
 tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile,
@@ -381,7 +413,7 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
 
 void tl_nav_rings_free(const tl_allocator *allocator, tl_nav_rings *rings)
 {
-    tl_release_array(allocator, rings->walls, rings->walls_count, sizeof *rings->walls);
+    tl_release_array(allocator, rings->walls, walls_size(rings), 1);
     tl_release_array(allocator, rings->block, rings->block_size, 1);
     memset(rings, 0, sizeof *rings);
 }
@@ -389,19 +421,19 @@ void tl_nav_rings_free(const tl_allocator *allocator, tl_nav_rings *rings)
 tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings)
 {
     void *block = tl_allocate_array(allocator, rings->block_size, 1);
-    tl_nav_ring_walls *walls = tl_allocate_array(allocator, rings->walls_count, sizeof *walls);
+    void *walls = tl_allocate_array(allocator, walls_size(rings), 1);
     if (block == NULL || walls == NULL) {
         tl_release_array(allocator, block, rings->block_size, 1);
-        tl_release_array(allocator, walls, rings->walls_count, sizeof *walls);
+        tl_release_array(allocator, walls, walls_size(rings), 1);
         return TL_ERR_MEMORY;
     }
     const uint64_t edges = (uint64_t)((char *)rings->seams - (char *)rings->edges);
     const uint64_t seams = (uint64_t)((char *)rings->cells - (char *)rings->seams);
     memcpy(block, rings->block, (size_t)rings->block_size);
-    memcpy(walls, rings->walls, rings->walls_count * sizeof *walls);
+    memcpy(walls, rings->walls, (size_t)walls_size(rings));
     tl_release_array(allocator, rings->block, rings->block_size, 1);
-    tl_release_array(allocator, rings->walls, rings->walls_count, sizeof *walls);
-    rings->walls = walls;
+    tl_release_array(allocator, rings->walls, walls_size(rings), 1);
+    place_walls(rings, walls);
     place_arrays(rings, block, edges / sizeof(tl_nav_ring_edge), seams / sizeof(tl_nav_ring_seam),
                  rings->polygon_count);
     return TL_OK;

@@ -51,13 +51,17 @@ typedef struct tl_nav_ring_walls {
 #define TL_NAV_WALLS_CONVEX 1u ///< of others: that there are some is all that they tell
 #define TL_NAV_WALLS_FIRST  2u ///< of those that belong to one way around a vertex, as far as it leads through the tile
 
-/// Set in a value of tl_nav_rings.node_component: several components, with a bit for each number modulo 31.
+/// Set in what tl_nav_node_component gives: several components, with a bit for each number modulo 31, or 15.
 #define TL_NAV_MIXED_COMPONENTS 0x80000000u
 
-static inline uint32_t tl_nav_component_bit(uint32_t component)
-{
-    return (uint32_t)1 << component % 31;
-}
+/// Tiles of more polygons have numbers of 32 bits.
+enum { TL_NAV_MAX_SHORT_NUMBER = 0x7fff };
+
+/// Numbers of polygons or components, of 16 bits in most tiles.
+typedef union tl_nav_ring_numbers {
+    uint16_t *narrow;
+    uint32_t *wide;
+} tl_nav_ring_numbers;
 
 typedef struct tl_nav_ring_cell {
     uint32_t first;    ///< of the polygon's edges; they end where the next cell's begin
@@ -69,14 +73,15 @@ typedef struct tl_nav_rings {
     tl_nav_ring_edge *edges;
     tl_nav_ring_walls *walls; ///< [walls_count]
     tl_nav_ring_seam *seams;
-    uint32_t *component;   ///< by polygon: its connected component within the tile, from 0
-    uint32_t *island;      ///< by component: a node of the navmesh's islands (islands.c)
-    uint32_t *next_member; ///< by polygon: the next one of its component, around
-    /// By node of the tile's box tree: the component of all polygons below it, or TL_NAV_MIXED_COMPONENTS | their bits.
-    uint32_t *node_component;
+    uint32_t *island;                ///< by component: a node of the navmesh's islands (islands.c)
+    tl_nav_ring_numbers component;   ///< by polygon: its connected component within the tile, from 0
+    tl_nav_ring_numbers next_member; ///< by polygon: the next one of its component, around
+    /// By node of the tile's box tree: the component of all polygons below it, or the highest bit and those of theirs.
+    tl_nav_ring_numbers node_component;
     uint32_t polygon_count, component_count, walls_count;
     bool has_back; ///< some edge is a TL_NAV_RING_BACK
-    void *block;   ///< that all arrays stand in
+    bool is_wide;  ///< its numbers have 32 bits
+    void *block;   ///< that all arrays stand in but `walls`, behind which `island` stands
     uint64_t block_size;
 } tl_nav_rings;
 
@@ -107,6 +112,30 @@ static inline uint32_t tl_nav_inner_twin(const tl_nav_rings *rings, uint32_t pol
 
 /// Finds the dead ends of a tile. `scratch` holds 2 * polygon_count numbers.
 void tl_nav_mark_dead_ends(tl_nav_rings *rings, uint32_t *scratch);
+
+static inline uint32_t tl_nav_ring_number(const tl_nav_rings *rings, tl_nav_ring_numbers numbers, uint32_t i)
+{
+    return rings->is_wide ? numbers.wide[i] : numbers.narrow[i];
+}
+
+static inline uint32_t tl_nav_component_of(const tl_nav_rings *rings, uint32_t polygon)
+{
+    return tl_nav_ring_number(rings, rings->component, polygon);
+}
+
+static inline uint32_t tl_nav_component_bit(const tl_nav_rings *rings, uint32_t component)
+{
+    return (uint32_t)1 << component % (rings->is_wide ? 31u : 15u);
+}
+
+/// The component of all polygons below a node of the tile's box tree, or TL_NAV_MIXED_COMPONENTS | their bits.
+static inline uint32_t tl_nav_node_component(const tl_nav_rings *rings, uint32_t node)
+{
+    const uint32_t kept = tl_nav_ring_number(rings, rings->node_component, node);
+    return rings->is_wide || kept <= TL_NAV_MAX_SHORT_NUMBER
+               ? kept
+               : TL_NAV_MIXED_COMPONENTS | (kept & TL_NAV_MAX_SHORT_NUMBER);
+}
 
 /// Whether an edge may be crossed.
 static inline bool tl_nav_ring_is_open(const tl_nav_ring_edge *edge)

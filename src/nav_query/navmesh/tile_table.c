@@ -17,7 +17,7 @@
 
 #include <string.h>
 
-enum { FIRST_TILE_SLOTS = 16, LAST_SALT = 0xffff };
+enum { LAST_SALT = 0xffff };
 
 static const int32_t SIDE_STEP[TL_NAV_SIDE_COUNT][2] = { { -1, 0 }, { 0, 1 }, { 1, 0 }, { 0, -1 }, { 0, 0 } };
 
@@ -55,9 +55,8 @@ static void free_slot_content(tl_navmesh *navmesh, tl_nav_slot *slot)
     }
     // A borrowed tile may be gone by now: its counts are not asked of it.
     tl_nav_drop_changes(slot);
-    tl_nav_areas_free(&navmesh->allocator, slot->areas, slot->rings.polygon_count);
+    tl_nav_areas_free(&navmesh->allocator, &slot->areas, slot->rings.polygon_count);
     tl_nav_rings_free(&navmesh->allocator, &slot->rings);
-    slot->areas = NULL;
     if (slot->keeper != NULL) {
         tl_release_array(&navmesh->allocator, slot->keeper, 0, 1);
         slot->keeper = NULL;
@@ -124,20 +123,25 @@ static void unchain_slot(tl_navmesh *navmesh, uint32_t slot)
     *at = navmesh->slots[slot].next;
 }
 
-// Doubles the room for slots; two buckets a slot.
+// Makes room for a quarter more slots: each has hundreds of bytes, so room to spare would be dear. Two buckets a slot,
+// or more.
 static tl_result grow_slots(tl_navmesh *navmesh)
 {
     if (navmesh->slot_count >= TL_NAV_MAX_TILES) {
         return TL_ERR_LIMIT;
     }
-    uint32_t capacity = navmesh->slot_capacity > 0 ? 2 * navmesh->slot_capacity : FIRST_TILE_SLOTS;
+    const uint32_t capacity = navmesh->slot_capacity == 0 ? 1 : navmesh->slot_capacity + navmesh->slot_capacity / 4 + 3;
+    uint32_t bucket_count = 2;
+    while (bucket_count < 2 * capacity) {
+        bucket_count *= 2;
+    }
     tl_nav_slot *slots = tl_allocate_array(&navmesh->allocator, capacity, sizeof *slots);
-    uint32_t *buckets = tl_allocate_array(&navmesh->allocator, 2 * (uint64_t)capacity, sizeof *buckets);
+    uint32_t *buckets = tl_allocate_array(&navmesh->allocator, bucket_count, sizeof *buckets);
     uint64_t *area_table = tl_allocate_array(&navmesh->allocator, (uint64_t)capacity + 1, sizeof *area_table);
     if (slots == NULL || buckets == NULL || area_table == NULL) {
         tl_release_array(&navmesh->allocator, area_table, (uint64_t)capacity + 1, sizeof *area_table);
         tl_release_array(&navmesh->allocator, slots, capacity, sizeof *slots);
-        tl_release_array(&navmesh->allocator, buckets, 2 * (uint64_t)capacity, sizeof *buckets);
+        tl_release_array(&navmesh->allocator, buckets, bucket_count, sizeof *buckets);
         return TL_ERR_MEMORY;
     }
     memset(slots, 0, capacity * sizeof *slots);
@@ -153,7 +157,7 @@ static tl_result grow_slots(tl_navmesh *navmesh)
     navmesh->slots = slots;
     navmesh->slot_capacity = capacity;
     navmesh->buckets = buckets;
-    navmesh->bucket_count = 2 * capacity;
+    navmesh->bucket_count = bucket_count;
     memset(buckets, 0xff, navmesh->bucket_count * sizeof *buckets);
     tl_nav_touch_all(navmesh->history, TL_NAV_PAGED_SLOTS, capacity);
     tl_nav_touch_all(navmesh->history, TL_NAV_PAGED_BUCKETS, navmesh->bucket_count);
@@ -208,7 +212,7 @@ typedef struct seam_set {
     uint32_t neighbour_count, neighbour_capacity;
     tl_nav_side_links own[TL_NAV_SIDE_COUNT];
     tl_nav_rings rings;
-    uint64_t *areas;
+    tl_nav_areas areas;
     void *keeper; // of an owned tile (tl_nav_slot)
 } seam_set;
 
@@ -231,7 +235,7 @@ static void free_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_
     }
     tl_release_array(&navmesh->allocator, seams->neighbours, seams->neighbour_capacity, sizeof *seams->neighbours);
     tl_nav_rings_free(&navmesh->allocator, &seams->rings);
-    tl_nav_areas_free(&navmesh->allocator, seams->areas, tile->polygon_count);
+    tl_nav_areas_free(&navmesh->allocator, &seams->areas, tile->polygon_count);
 }
 
 // Adds fresh links to those of a side, which may have none yet. Takes the fresh ones over, also on failure.
@@ -329,8 +333,7 @@ static tl_result make_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, 
         result = make_rings(navmesh, tile, seams);
     }
     if (result == TL_OK) {
-        seams->areas = tl_nav_areas_make(&navmesh->allocator, tile);
-        result = seams->areas != NULL ? TL_OK : TL_ERR_MEMORY;
+        result = tl_nav_areas_make(&navmesh->allocator, tile, &seams->areas);
     }
     if (result != TL_OK) {
         free_seams(navmesh, tile, seams);
