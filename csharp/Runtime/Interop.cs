@@ -219,6 +219,16 @@ namespace Talus.Interop
         TL_NAV_AGENT_FIXED = 9,
     }
 
+    public enum tl_nav_formation
+    {
+        TL_NAV_FORMATION_LOOSE = 0,
+        TL_NAV_FORMATION_LINE = 1,
+        TL_NAV_FORMATION_COLUMN = 2,
+        TL_NAV_FORMATION_WEDGE = 3,
+        TL_NAV_FORMATION_RING = 4,
+        TL_NAV_FORMATION_SLOTS = 5,
+    }
+
     public enum tl_detour_refs
     {
         TL_DETOUR_REFS_32 = 0,
@@ -1989,6 +1999,8 @@ namespace Talus.Interop
         public float wall_horizon;
         public tl_host host;
         public uint max_shared_goals;
+        public uint max_groups;
+        public uint max_members;
         public uint cookie;
     }
 
@@ -2020,6 +2032,38 @@ namespace Talus.Interop
         public tl_vec3 goal;
         public float radius;
         public float height;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_formation_slot
+    {
+        public float forward;
+        public float left;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_group_def
+    {
+        public tl_nav_formation formation;
+        public float spacing;
+        public float wait_distance;
+        public float lost_distance;
+        public tl_nav_formation_slot* slots;
+        public byte keep_order;
+        public uint cookie;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_group_state
+    {
+        public tl_nav_formation formation;
+        public uint count;
+        public uint in_place;
+        public uint on_trail;
+        public float lag;
+        public float speed;
+        public tl_vec3 heading;
+        public ulong leader;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -3106,6 +3150,22 @@ namespace Talus.Interop
         public static extern uint tl_nav_crowd_count(tl_nav_crowd* crowd);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern byte tl_nav_crowd_next(tl_nav_crowd* crowd, uint* cursor, ulong* agent_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern byte* tl_nav_formation_name(tl_nav_formation formation);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_nav_group_def tl_default_nav_group_def();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_crowd_add_group(tl_nav_crowd* crowd, tl_nav_group_def* def, ulong* agents, uint count, ulong* group_out, tl_report* report);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_crowd_remove_group(tl_nav_crowd* crowd, ulong group);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_crowd_set_formation(tl_nav_crowd* crowd, ulong group, tl_nav_group_def* def, tl_report* report);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_crowd_group(tl_nav_crowd* crowd, ulong group, tl_nav_group_state* state_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_crowd_members(tl_nav_crowd* crowd, ulong group, ulong* agents_out, uint capacity, uint* count_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern ulong tl_nav_crowd_group_of(tl_nav_crowd* crowd, ulong agent);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_nav_crowd_step(tl_nav_crowd* crowd, tl_navmesh* navmesh, float dt, tl_nav_crowd_step_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -61,7 +61,9 @@ typedef struct tl_nav_crowd_def {
     /// Goals whose paths are found by one search for all that walk there, 0 to 8: those that most agents have, eight at
     /// least. Each takes 56 bytes times max_nodes. Default 4. 0: each agent searches its own path.
     uint32_t max_shared_goals;
-    uint32_t cookie; ///< TL_DEF_COOKIE, set by tl_default_nav_crowd_def
+    uint32_t max_groups;  ///< at a time, 0 to TL_NAV_CROWD_MAX_AGENTS; 88 bytes each. Default 32
+    uint32_t max_members; ///< of all groups together, 0 to TL_NAV_CROWD_MAX_AGENTS; 136 bytes each. Default 256
+    uint32_t cookie;      ///< TL_DEF_COOKIE, set by tl_default_nav_crowd_def
 } tl_nav_crowd_def;
 
 TL_API tl_nav_crowd_def tl_default_nav_crowd_def(void);
@@ -122,12 +124,15 @@ TL_API const char *tl_nav_agent_status_name(tl_nav_agent_status status);
 /// field.
 TL_API tl_result tl_nav_crowd_add(tl_nav_crowd *crowd, const tl_navmesh *navmesh, const tl_nav_agent_def *def,
                                   tl_nav_agent *agent_out, tl_report *report);
-/// Removes an agent. O(paths that wait).
+/// Removes an agent, from its group too: where it led one, the next one leads and takes over its goal. O(paths that
+/// wait, members of groups).
 TL_API tl_result tl_nav_crowd_remove(tl_nav_crowd *crowd, tl_nav_agent agent);
 
 /// Sends an agent to a place on the navmesh; NULL: it stops where it is. It walks its old path until the new one was
 /// searched; asking again while it waits keeps its turn. Setting the goal that it has already changes nothing.
-/// TL_ERR_ARGUMENT: a fixed agent, or a polygon that is no polygon. TL_ERR_NOT_FINITE; TL_ERR_RANGE: above 1e9.
+/// The goal of an agent that leads a group is the group's.
+/// TL_ERR_ARGUMENT: a fixed agent, one that follows in a group, or a polygon that is no polygon. TL_ERR_NOT_FINITE;
+/// TL_ERR_RANGE: above 1e9.
 TL_API tl_result tl_nav_crowd_set_goal(tl_nav_crowd *crowd, tl_nav_agent agent, const tl_nav_location *goal);
 
 /// Where a fixed agent is now, and how fast it moves, metres a second: call it before each step in which it moves.
@@ -142,7 +147,7 @@ typedef struct tl_nav_agent_state {
     tl_vec3 wanted;     ///< metres a second: the velocity that steering asked for, before others were avoided
     tl_nav_ref polygon; ///< under it; on a link where the link lands; TL_NAV_NO_REF for fixed agents
     tl_nav_ref link;    ///< TL_NAV_AGENT_ON_LINK: which; else TL_NAV_NO_REF
-    tl_vec3 goal;       ///< metres; its position when it has none
+    tl_vec3 goal;       ///< metres; its position when it has none. Of one that follows: its slot
     float radius, height;
 } tl_nav_agent_state;
 
@@ -157,6 +162,92 @@ TL_API uint32_t tl_nav_crowd_count(const tl_nav_crowd *crowd);
 /// Iterates over all agents, in an order that adding and removing others does not change. Start with `*cursor` 0; false
 /// at the end. No argument may be NULL.
 TL_API bool tl_nav_crowd_next(const tl_nav_crowd *crowd, uint32_t *cursor, tl_nav_agent *agent_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// Groups: agents that follow a leader, in a formation or loosely.
+//
+//   tl_nav_group_def def = tl_default_nav_group_def();
+//   def.formation = TL_NAV_FORMATION_WEDGE;
+//   tl_nav_crowd_add_group(crowd, &def, agents, 7, &group, NULL);     agents[0] leads
+//   tl_nav_crowd_set_goal(crowd, agents[0], &goal);                   the others follow
+//
+// The leader walks a path of its own, or is fixed: a player. Each of the others has a slot beside or behind it, in a
+// frame that turns with the leader's way. A slot is where a ray along the surface leads from the leader; where a wall
+// cuts that off, as in a doorway, the slot is on the leader's trail instead, and the formation becomes a column until
+// it has room again. The leader walks no faster than the slowest, slower while somebody is behind, and waits for those
+// who are too far behind. Only the leader's path is searched, unless a member has lost sight of slot and trail.
+
+/// A group of a crowd. A name is not used again before 2^32 other groups had its place.
+typedef uint64_t tl_nav_group;
+
+#define TL_NAV_NO_GROUP 0u
+
+/// How the others stand about their leader.
+typedef enum tl_nav_formation {
+    TL_NAV_FORMATION_LOOSE,  ///< wherever they are, but near to it
+    TL_NAV_FORMATION_LINE,   ///< abreast, the leader in the middle
+    TL_NAV_FORMATION_COLUMN, ///< one behind the other, on the leader's trail
+    TL_NAV_FORMATION_WEDGE,  ///< the leader in front, behind it two rows at 45 degrees
+    TL_NAV_FORMATION_RING,   ///< on a circle, the leader in its middle
+    TL_NAV_FORMATION_SLOTS   ///< as the def's slots say
+} tl_nav_formation;
+
+/// "loose", "line", "column", "wedge", "ring", "slots"; "unknown" for other numbers.
+TL_API const char *tl_nav_formation_name(tl_nav_formation formation);
+
+/// A place in the plan of a formation, metres from the leader.
+typedef struct tl_nav_formation_slot {
+    float forward, left;
+} tl_nav_formation_slot;
+
+/// A group. Begin with tl_default_nav_group_def.
+typedef struct tl_nav_group_def {
+    tl_nav_formation formation; ///< default TL_NAV_FORMATION_LOOSE
+    float spacing;              ///< metres, > 0, at most 1000: between neighbours, also in a column. Default 1.2
+    float wait_distance; ///< metres, > 0: the leader stands while somebody is so far from its slot, and slows down from
+                         ///< a quarter of it on. Default 4
+    float lost_distance; ///< metres, > 0: who is farther from its slot is not waited for, nor who is held up for ten
+                         ///< seconds. Default 30
+    const tl_nav_formation_slot *slots; ///< TL_NAV_FORMATION_SLOTS: one for each agent but the leader; else ignored
+    bool keep_order; ///< agent k of the list takes slot k. false: slots are dealt so that the squares of the ways there
+                     ///< have the smallest sum (above 64 followers nearly), which crosses no ways; and anew when the
+                     ///< leader gets a goal to the side or behind
+    uint32_t cookie; ///< TL_DEF_COOKIE, set by tl_default_nav_group_def
+} tl_nav_group_def;
+
+TL_API tl_nav_group_def tl_default_nav_group_def(void);
+
+/// Makes a group of `count` >= 1 agents, of which agents[0] leads; the others lose their goals. NULL def: the default
+/// one. TL_ERR_LIMIT: max_groups or max_members. TL_ERR_STALE: an agent that is none. TL_ERR_ARGUMENT,
+/// TL_ERR_NOT_FINITE: `report` (may be NULL) names the field; "agents": one that is in a group already, or is fixed and
+/// does not lead. O(max_groups + count^3) up to 64 followers, then O(max_groups + count).
+TL_API tl_result tl_nav_crowd_add_group(tl_nav_crowd *crowd, const tl_nav_group_def *def, const tl_nav_agent *agents,
+                                        uint32_t count, tl_nav_group *group_out, tl_report *report);
+/// Lets the agents of a group go: the leader keeps its goal, the others stop. O(members of all groups).
+TL_API tl_result tl_nav_crowd_remove_group(tl_nav_crowd *crowd, tl_nav_group group);
+/// Changes how a group walks; its agents and their leader remain. With slots: as many as it has followers. NULL def:
+/// the default one. Errors as those of tl_nav_crowd_add_group; then nothing is changed.
+TL_API tl_result tl_nav_crowd_set_formation(tl_nav_crowd *crowd, tl_nav_group group, const tl_nav_group_def *def,
+                                            tl_report *report);
+
+/// A group as it is after the last step.
+typedef struct tl_nav_group_state {
+    tl_nav_formation formation;
+    uint32_t count;    ///< of agents, the leader included
+    uint32_t in_place; ///< those no farther than half the spacing from their slots; the leader is
+    uint32_t on_trail; ///< those whose slots are on the leader's trail
+    float lag;         ///< metres: of those who are waited for, the largest distance to a slot
+    float speed;       ///< metres a second: what the leader may walk
+    tl_vec3 heading;   ///< unit, in the plane: where the formation faces
+    tl_nav_agent leader;
+} tl_nav_group_state;
+
+TL_API tl_result tl_nav_crowd_group(const tl_nav_crowd *crowd, tl_nav_group group, tl_nav_group_state *state_out);
+/// The agents of a group by their slots, the leader first. TL_INCOMPLETE: there are more.
+TL_API tl_result tl_nav_crowd_members(const tl_nav_crowd *crowd, tl_nav_group group, tl_nav_agent *agents_out,
+                                      uint32_t capacity, uint32_t *count_out);
+/// The group that an agent is in, or TL_NAV_NO_GROUP: also for an agent that is none. `crowd` must not be NULL.
+TL_API tl_nav_group tl_nav_crowd_group_of(const tl_nav_crowd *crowd, tl_nav_agent agent);
 
 // ---------------------------------------------------------------------------------------------------------
 // Steps.
@@ -185,18 +276,18 @@ TL_API tl_result tl_nav_crowd_step(tl_nav_crowd *crowd, const tl_navmesh *navmes
 // ---------------------------------------------------------------------------------------------------------
 // The state as bytes.
 
-/// Bytes that tl_nav_crowd_save writes: the same for every crowd with the same max_agents and max_path. `crowd` must
-/// not be NULL.
+/// Bytes that tl_nav_crowd_save writes: the same for every crowd with the same max_agents, max_path, max_groups and
+/// max_members. `crowd` must not be NULL.
 TL_API size_t tl_nav_crowd_state_size(const tl_nav_crowd *crowd);
 
 /// Writes the state, `capacity` >= tl_nav_crowd_state_size (TL_ERR_LIMIT). Crowds in the same state give the same
 /// bytes, little-endian on every machine. O(max_agents).
 TL_API tl_result tl_nav_crowd_save(const tl_nav_crowd *crowd, void *bytes_out, size_t capacity);
 
-/// Puts a crowd in a state that was saved, of itself or of another one with the same max_agents and max_path. Safe on
-/// any bytes; on failure the crowd is as it was. TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_TRUNCATED; TL_ERR_ARGUMENT: of a
-/// crowd of another size, or not at a multiple of 8 bytes; TL_ERR_CORRUPT, TL_ERR_NOT_FINITE: `report` (may be NULL)
-/// names the "agent". O(max_agents).
+/// Puts a crowd in a state that was saved, of itself or of another one of the same sizes. Safe on any bytes; on failure
+/// the crowd is as it was. TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_TRUNCATED; TL_ERR_ARGUMENT: of a crowd of another size,
+/// or not at a multiple of 8 bytes; TL_ERR_CORRUPT, TL_ERR_NOT_FINITE: `report` (may be NULL) names the "agent" or the
+/// "group". O(max_agents + max_groups).
 TL_API tl_result tl_nav_crowd_restore(tl_nav_crowd *crowd, const void *bytes, size_t size, tl_report *report);
 
 /// A hash of the bytes that tl_nav_crowd_save would write, to be compared between machines. `crowd` must not be NULL.

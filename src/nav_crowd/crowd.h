@@ -9,6 +9,7 @@
 #define TALUS_SRC_NAV_CROWD_CROWD_H
 
 #include "base/host.h"
+#include "nav_crowd/slot_deal.h"
 
 #include <talus/nav_around.h>
 #include <talus/nav_corridor.h>
@@ -33,7 +34,7 @@ enum {
 
 #define CROWD_NO_PLACE       UINT32_MAX
 #define CROWD_MAGIC          0x44574f52u ///< "ROWD"
-#define CROWD_VERSION        3u
+#define CROWD_VERSION        4u
 
 // Flags of an agent.
 #define CROWD_HAS_GOAL  1u
@@ -61,11 +62,10 @@ enum {
     FIELD(uint32_t, generation, 1)                                                                                     \
     FIELD(uint32_t, status, 1)                                                                                         \
     FIELD(uint32_t, flags, 1)                                                                                          \
-    FIELD(uint32_t, filter, 1)                                                                                         \
+    FIELD(uint32_t, member, 1)     /* its place among the members of groups, and 1; 0: none */                         \
     FIELD(uint32_t, next_free, 1)  /* of a free place; else steps that a link was waited for */                        \
     FIELD(uint32_t, path_count, 1) /* 0: fixed */                                                                      \
-    FIELD(uint32_t, wall_count, 1)                                                                                     \
-    FIELD(uint32_t, queue, 1) /* a ring of places that wait for a path, the oldest at queue_first */                   \
+    FIELD(uint32_t, queue, 1)      /* a ring of places that wait for a path, the oldest at queue_first */              \
     FIELD(float, x, 1)                                                                                                 \
     FIELD(float, y, 1)                                                                                                 \
     FIELD(float, z, 1)                                                                                                 \
@@ -87,7 +87,50 @@ enum {
     FIELD(float, wall_center, 2) /* where the walls were looked for */                                                 \
     FIELD(float, wall_slack, 1)  /* metres that it may be away from there; < 0: look again */                          \
     FIELD(float, stalled, 1)     /* seconds that it has hardly come forward; arrived: metres to the goal */            \
-    FIELD(float, walls, 4 * CROWD_MAX_WALLS) /* start and end in x and z; on a link: crowd_link_run */
+    FIELD(float, walls, 4 * CROWD_MAX_WALLS) /* start and end in x and z; on a link: crowd_link_run */                 \
+    FIELD(uint8_t, filter, 1)                                                                                          \
+    FIELD(uint8_t, wall_count, 1)
+
+/// The fields of the members of groups: those of a group stand one behind the other, by their slots. So does the
+/// leader's trail, a ring of places at the group's spacing: as long as the column of its members.
+#define CROWD_MEMBER_FIELDS(FIELD)                                                                                     \
+    FIELD(uint64_t, trail_polygon, 1)                                                                                  \
+    FIELD(uint64_t, slot_polygon, 1)                                                                                   \
+    FIELD(float, slot, 3) /* its place, as found last: the goal, from the next step on */                              \
+    FIELD(float, trail, 3)                                                                                             \
+    FIELD(uint32_t, member_agent, 1) /* its place among the agents */                                                  \
+    FIELD(uint32_t, member_group, 1)                                                                                   \
+    FIELD(uint32_t, member_flags, 1) /* CROWD_ON_TRAIL and so on */                                                    \
+    FIELD(float, offset, 2)          /* of the slot, forward and left */                                               \
+    FIELD(float, lag, 1)             /* metres from the slot */                                                        \
+    FIELD(float, held, 1)            /* seconds that the slot stays on the trail */
+
+#define CROWD_ON_TRAIL  1u ///< the member's slot is on the leader's trail
+#define CROWD_EARLY     2u ///< and is still behind the member, which waits for it
+#define CROWD_TO_TRAIL  4u ///< the corridor leads to the trail, from where the slot may be in sight
+#define CROWD_FOLLOWING 7u
+
+/// A group of agents. `count` 0: a free place.
+typedef struct crowd_group {
+    uint64_t polygon; ///< under the leader; TL_NAV_NO_REF: it is not on the navmesh
+    float place[3];   ///< of the leader when the step began
+    float velocity[2];
+    float heading[2]; ///< unit
+    float spacing, wait_distance, lost_distance;
+    float speed; ///< metres a second that the leader may walk
+    float lag;   ///< metres: the largest of those who are waited for
+    float range; ///< metres: from the leader to the farthest slot; of a loose group: as far as one may be
+    uint32_t formation;
+    uint32_t flags; ///< CROWD_GROUP_...
+    uint32_t generation;
+    uint32_t first, count;             ///< of the members
+    uint32_t trail_first, trail_count; ///< of the ring, the newest place first
+} crowd_group;
+
+#define CROWD_GROUP_IN_ORDER  1u ///< members keep their slots
+#define CROWD_GROUP_NEW_GOAL  2u ///< slots are dealt anew when it leads elsewhere
+#define CROWD_GROUP_MOVES     4u ///< the leader walks, or wants to
+#define CROWD_GROUP_ALL_FLAGS 7u
 
 /// A goal that many have: their paths come from one tree (crowd_share.c).
 typedef struct crowd_shared_goal {
@@ -104,6 +147,9 @@ typedef struct crowd_head {
     uint64_t step;         ///< steps so far
     uint64_t milliseconds; ///< of all steps, each rounded
     uint32_t max_agents, max_path;
+    uint32_t max_groups, max_members;
+    uint32_t member_count; ///< of all groups
+    uint32_t unused;
     uint32_t used;  ///< places below have been used once
     uint32_t count; ///< agents
     uint32_t free;  ///< head of the chain of free places
@@ -116,7 +162,9 @@ typedef struct crowd_head {
 typedef struct crowd_fields {
 #define CROWD_POINTER(type, name, per) type *name;
     CROWD_FIELDS(CROWD_POINTER)
+    CROWD_MEMBER_FIELDS(CROWD_POINTER)
 #undef CROWD_POINTER
+    crowd_group *groups;
 } crowd_fields;
 
 /// What an agent on a link keeps in place of its walls.
@@ -172,6 +220,7 @@ struct tl_nav_crowd {
     uint32_t worker_count;
     tl_nav_filter filters[TL_NAV_CROWD_FILTER_COUNT];
     crowd_tree trees[CROWD_MAX_SHARED];
+    tl_slot_deal deal; ///< [max_members] scratch
 };
 
 /// A step under way.
@@ -184,14 +233,17 @@ typedef struct crowd_step {
 } crowd_step;
 
 /// Bytes of a state, or 0 when they do not fit a size_t.
-uint64_t tl_crowd_state_bytes(uint32_t max_agents, uint32_t max_path);
+uint64_t tl_crowd_state_bytes(const tl_nav_crowd_def *def);
 /// Where the fields of a state stand.
-crowd_fields tl_crowd_fields_at(void *state, uint32_t max_agents, uint32_t max_path);
+crowd_fields tl_crowd_fields_at(void *state, const tl_nav_crowd_def *def);
 /// Turns a state's words round, on machines of the other byte order.
-void tl_crowd_swap_words(void *state, uint64_t bytes, uint32_t max_agents, uint32_t max_path);
+void tl_crowd_swap_words(void *state, uint64_t bytes, const tl_nav_crowd_def *def);
 
 /// The place of an agent. TL_ERR_STALE.
 tl_result tl_crowd_find(const tl_nav_crowd *crowd, tl_nav_agent agent, uint32_t *place_out);
+/// An agent has no goal any more, and stops; or has another one.
+void tl_crowd_stop(tl_nav_crowd *crowd, uint32_t i);
+void tl_crowd_send(tl_nav_crowd *crowd, uint32_t i, const tl_nav_location *goal);
 /// Puts an agent at the end of the queue for paths, unless it is there.
 void tl_crowd_enqueue(tl_nav_crowd *crowd, uint32_t i);
 /// An agent's corridor, which shares its path. tl_crowd_keep_corridor writes the rest back.
@@ -230,6 +282,22 @@ void tl_crowd_avoid(const crowd_step *step, uint32_t k, float velocity_out[2]);
 /// Moves an agent along the surface.
 void tl_crowd_move(const crowd_step *step, uint32_t i, const float velocity[2], tl_nav_query *query);
 
+/// What a walking agent wants: along its corridor.
+void tl_crowd_walk(const crowd_step *step, uint32_t i);
+/// The same for one that has a straight way to a place that moves itself.
+void tl_crowd_walk_beside(const crowd_step *step, uint32_t i, tl_vec3 place, const float velocity[2]);
+/// It stands.
+void tl_crowd_want_to_stand(const crowd_step *step, uint32_t i);
+
+/// Takes an agent out of its group.
+void tl_crowd_leave_group(tl_nav_crowd *crowd, uint32_t i);
+/// Deals a group's slots among its followers, unless they keep their order.
+void tl_crowd_deal_slots(const tl_nav_crowd *crowd, crowd_group *group);
+/// Before agents move: where each group's leader is, how its formation faces, and how fast it may walk.
+void tl_crowd_lead_groups(const crowd_step *step);
+/// Sends an agent that follows to its slot, and sets what it wants.
+void tl_crowd_follow(const crowd_step *step, uint32_t i, tl_nav_query *query);
+
 /// Moves an agent that is on a link.
 void tl_crowd_follow_link(const crowd_step *step, uint32_t i);
 /// Lets those agents onto their links whose turn it is.
@@ -259,6 +327,28 @@ static inline void tl_crowd_set3(float *items, uint32_t i, tl_vec3 value)
     v[0] = value.x;
     v[1] = value.y;
     v[2] = value.z;
+}
+
+/// The group of an agent, or NULL.
+static inline crowd_group *tl_crowd_group_of(const tl_nav_crowd *crowd, uint32_t i)
+{
+    const uint32_t member = crowd->a.member[i];
+    return member != 0 ? &crowd->a.groups[crowd->a.member_group[member - 1]] : NULL;
+}
+
+/// Whether an agent follows the leader of a group.
+static inline bool tl_crowd_follows(const tl_nav_crowd *crowd, uint32_t i)
+{
+    const crowd_group *group = tl_crowd_group_of(crowd, i);
+    return group != NULL && group->first != crowd->a.member[i] - 1;
+}
+
+/// Where a member's slot is in the plan, metres in x and z from the leader.
+static inline void tl_crowd_plan_slot(const tl_nav_crowd *crowd, const crowd_group *group, uint32_t m, float out[2])
+{
+    const float forward = crowd->a.offset[2 * (size_t)m], left = crowd->a.offset[2 * (size_t)m + 1];
+    out[0] = forward * group->heading[0] + left * group->heading[1];
+    out[1] = forward * group->heading[1] - left * group->heading[0];
 }
 
 /// The direction in the upper half of `flags`, in parts of 127.

@@ -158,7 +158,7 @@ tl_result tl_nav_crowd_add(tl_nav_crowd *crowd, const tl_navmesh *navmesh, const
     uint32_t i = take_place(crowd);
     crowd_fields *a = &crowd->a;
     a->status[i] = def->is_fixed ? TL_NAV_AGENT_FIXED : TL_NAV_AGENT_IDLE;
-    a->filter[i] = def->filter;
+    a->filter[i] = (uint8_t)def->filter;
     a->radius[i] = def->radius;
     a->height[i] = def->height;
     a->max_speed[i] = def->max_speed;
@@ -216,6 +216,7 @@ tl_result tl_nav_crowd_remove(tl_nav_crowd *crowd, tl_nav_agent agent)
     if ((crowd->a.flags[i] & CROWD_IN_QUEUE) != 0) {
         leave_queue(crowd, i);
     }
+    tl_crowd_leave_group(crowd, i);
     // All but its generation is zeroed: states that are the same have the same bytes.
     uint32_t generation = crowd->a.generation[i];
     uint32_t in_queue = crowd->a.queue[i];
@@ -232,6 +233,46 @@ tl_result tl_nav_crowd_remove(tl_nav_crowd *crowd, tl_nav_agent agent)
     return TL_OK;
 }
 
+static bool is_bound(const crowd_fields *a, uint32_t i)
+{
+    return a->status[i] == TL_NAV_AGENT_ON_LINK || a->status[i] == TL_NAV_AGENT_OFF_MESH;
+}
+
+void tl_crowd_stop(tl_nav_crowd *crowd, uint32_t i)
+{
+    crowd_fields *a = &crowd->a;
+    if ((a->flags[i] & CROWD_IN_QUEUE) != 0) {
+        leave_queue(crowd, i);
+    }
+    a->flags[i] = 0;
+    a->goal_polygon[i] = TL_NAV_NO_REF;
+    tl_nav_location here = { a->path[(size_t)i * crowd->def.max_path], tl_crowd_position(crowd, i) };
+    tl_crowd_set3(a->goal, i, here.point);
+    if (!is_bound(a, i)) {
+        a->status[i] = TL_NAV_AGENT_IDLE;
+        a->link[i] = TL_NAV_NO_REF;
+        tl_crowd_reset_corridor(crowd, i, &here);
+    }
+}
+
+void tl_crowd_send(tl_nav_crowd *crowd, uint32_t i, const tl_nav_location *goal)
+{
+    crowd_fields *a = &crowd->a;
+    tl_crowd_set3(a->goal, i, goal->point);
+    a->goal_polygon[i] = goal->polygon;
+    a->flags[i] = (a->flags[i] & CROWD_IN_QUEUE) | CROWD_HAS_GOAL;
+    a->stalled[i] = 0.0f;
+    if (!is_bound(a, i) && a->status[i] != TL_NAV_AGENT_WALKING) {
+        a->status[i] = TL_NAV_AGENT_WAITING;
+        a->link[i] = TL_NAV_NO_REF;
+    }
+    tl_crowd_enqueue(crowd, i);
+    crowd_group *group = tl_crowd_group_of(crowd, i);
+    if (group != NULL) {
+        group->flags |= CROWD_GROUP_NEW_GOAL;
+    }
+}
+
 tl_result tl_nav_crowd_set_goal(tl_nav_crowd *crowd, tl_nav_agent agent, const tl_nav_location *goal)
 {
     uint32_t i = 0;
@@ -239,24 +280,12 @@ tl_result tl_nav_crowd_set_goal(tl_nav_crowd *crowd, tl_nav_agent agent, const t
         return TL_ERR_ARGUMENT;
     }
     TL_TRY(tl_crowd_find(crowd, agent, &i));
-    crowd_fields *a = &crowd->a;
-    if (a->status[i] == TL_NAV_AGENT_FIXED) {
+    const crowd_fields *a = &crowd->a;
+    if (a->status[i] == TL_NAV_AGENT_FIXED || tl_crowd_follows(crowd, i)) {
         return TL_ERR_ARGUMENT;
     }
-    const bool is_bound = a->status[i] == TL_NAV_AGENT_ON_LINK || a->status[i] == TL_NAV_AGENT_OFF_MESH;
     if (goal == NULL) {
-        if ((a->flags[i] & CROWD_IN_QUEUE) != 0) {
-            leave_queue(crowd, i);
-        }
-        a->flags[i] = 0;
-        a->goal_polygon[i] = TL_NAV_NO_REF;
-        tl_nav_location here = { a->path[(size_t)i * crowd->def.max_path], tl_crowd_position(crowd, i) };
-        tl_crowd_set3(a->goal, i, here.point);
-        if (!is_bound) {
-            a->status[i] = TL_NAV_AGENT_IDLE;
-            a->link[i] = TL_NAV_NO_REF;
-            tl_crowd_reset_corridor(crowd, i, &here);
-        }
+        tl_crowd_stop(crowd, i);
         return TL_OK;
     }
     if (!tl_is_finite(goal->point)) {
@@ -269,19 +298,10 @@ tl_result tl_nav_crowd_set_goal(tl_nav_crowd *crowd, tl_nav_agent agent, const t
         return TL_ERR_ARGUMENT;
     }
     tl_vec3 old = tl_crowd_get3(a->goal, i);
-    if ((a->flags[i] & CROWD_HAS_GOAL) != 0 && a->goal_polygon[i] == goal->polygon && old.x == goal->point.x &&
-        old.y == goal->point.y && old.z == goal->point.z) {
-        return TL_OK;
+    if ((a->flags[i] & CROWD_HAS_GOAL) == 0 || a->goal_polygon[i] != goal->polygon || old.x != goal->point.x ||
+        old.y != goal->point.y || old.z != goal->point.z) {
+        tl_crowd_send(crowd, i, goal);
     }
-    tl_crowd_set3(a->goal, i, goal->point);
-    a->goal_polygon[i] = goal->polygon;
-    a->flags[i] = (a->flags[i] & CROWD_IN_QUEUE) | CROWD_HAS_GOAL;
-    a->stalled[i] = 0.0f;
-    if (!is_bound && a->status[i] != TL_NAV_AGENT_WALKING) {
-        a->status[i] = TL_NAV_AGENT_WAITING;
-        a->link[i] = TL_NAV_NO_REF;
-    }
-    tl_crowd_enqueue(crowd, i);
     return TL_OK;
 }
 

@@ -177,6 +177,22 @@ static void part_pair(uint32_t i, uint32_t other, float *x, float *z)
     *z = (1.0f - t * t) * scale;
 }
 
+// What an agent evades of its leader, who evades the rest: a group's leader goes where it will.
+#define LEADER_SHARE 0.9f
+
+// Of two in one group, of which one leads; else `share`.
+static float share_of_leader(const tl_nav_crowd *crowd, uint32_t i, uint32_t other, float share)
+{
+    const crowd_fields *a = &crowd->a;
+    const crowd_group *group = tl_crowd_group_of(crowd, i);
+    if (group == NULL || tl_crowd_group_of(crowd, other) != group) {
+        return share;
+    }
+    return a->member[other] - 1 == group->first ? LEADER_SHARE
+           : a->member[i] - 1 == group->first   ? 1.0f - LEADER_SHARE
+                                                : share;
+}
+
 static tl_half_plane avoid_neighbor(const crowd_step *step, uint32_t k, const crowd_neighbor *neighbor)
 {
     const tl_nav_crowd *crowd = step->crowd;
@@ -188,6 +204,7 @@ static tl_half_plane avoid_neighbor(const crowd_step *step, uint32_t k, const cr
     if (still != 0 && tl_crowd_has_goal_of(crowd, seen->agent[k], seen->agent[n])) {
         share = (seen->kind[k] & CROWD_SEEN_STILL) != 0 ? 1.0f - BEFORE_STILL_SHARE : BEFORE_STILL_SHARE;
     }
+    share = share_of_leader(crowd, seen->agent[k], seen->agent[n], share);
     crowd_disc disc = { seen->x[n] - seen->x[k],
                         seen->z[n] - seen->z[k],
                         velocity[0] - seen->vx[n],

@@ -23,6 +23,8 @@ tl_nav_crowd_def tl_default_nav_crowd_def(void)
     def.agent_horizon = 2.0f;
     def.wall_horizon = 0.25f;
     def.max_shared_goals = 4;
+    def.max_groups = 32;
+    def.max_members = 256;
     def.cookie = TL_DEF_COOKIE;
     return def;
 }
@@ -61,6 +63,12 @@ static tl_result check_crowd_def(const tl_nav_crowd_def *def, tl_report *report)
     }
     if (def->max_shared_goals > CROWD_MAX_SHARED) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "max_shared_goals", "make it 0 to 8");
+    }
+    if (def->max_groups > TL_NAV_CROWD_MAX_AGENTS) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "max_groups", "make it 0 to TL_NAV_CROWD_MAX_AGENTS");
+    }
+    if (def->max_members > TL_NAV_CROWD_MAX_AGENTS) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "max_members", "make it 0 to TL_NAV_CROWD_MAX_AGENTS");
     }
     return TL_OK;
 }
@@ -135,10 +143,41 @@ static void release_trees(tl_nav_crowd *crowd)
     }
 }
 
+static bool allocate_deal(tl_nav_crowd *crowd)
+{
+    const tl_allocator *allocator = &crowd->allocator;
+    tl_slot_deal *deal = &crowd->deal;
+    const uint64_t count = crowd->def.max_members;
+    if (count == 0) {
+        return true;
+    }
+    deal->from = (float *)tl_allocate_array(allocator, 2 * count, sizeof(float));
+    deal->to = (float *)tl_allocate_array(allocator, 2 * count, sizeof(float));
+    deal->taker = (uint32_t *)tl_allocate_array(allocator, count, sizeof(uint32_t));
+    deal->followers = (tl_sort_item *)tl_allocate_array(allocator, count, sizeof(tl_sort_item));
+    deal->slots = (tl_sort_item *)tl_allocate_array(allocator, count, sizeof(tl_sort_item));
+    deal->scratch = (tl_sort_item *)tl_allocate_array(allocator, count, sizeof(tl_sort_item));
+    return deal->from != NULL && deal->to != NULL && deal->taker != NULL && deal->followers != NULL &&
+           deal->slots != NULL && deal->scratch != NULL;
+}
+
+static void release_deal(tl_nav_crowd *crowd)
+{
+    const tl_allocator *allocator = &crowd->allocator;
+    const tl_slot_deal *deal = &crowd->deal;
+    const uint64_t count = crowd->def.max_members;
+    tl_release_array(allocator, deal->from, 2 * count, sizeof(float));
+    tl_release_array(allocator, deal->to, 2 * count, sizeof(float));
+    tl_release_array(allocator, deal->taker, count, sizeof(uint32_t));
+    tl_release_array(allocator, deal->followers, count, sizeof(tl_sort_item));
+    tl_release_array(allocator, deal->slots, count, sizeof(tl_sort_item));
+    tl_release_array(allocator, deal->scratch, count, sizeof(tl_sort_item));
+}
+
 static bool allocate_agents(tl_nav_crowd *crowd)
 {
     const tl_nav_crowd_def *def = &crowd->def;
-    crowd->state_bytes = tl_crowd_state_bytes(def->max_agents, def->max_path);
+    crowd->state_bytes = tl_crowd_state_bytes(def);
     crowd->head =
         crowd->state_bytes > 0 ? (crowd_head *)tl_allocate_array(&crowd->allocator, crowd->state_bytes, 1) : NULL;
     if (crowd->head == NULL) {
@@ -151,7 +190,9 @@ static bool allocate_agents(tl_nav_crowd *crowd)
     crowd->head->max_agents = def->max_agents;
     crowd->head->max_path = def->max_path;
     crowd->head->free = CROWD_NO_PLACE;
-    crowd->a = tl_crowd_fields_at(crowd->head, def->max_agents, def->max_path);
+    crowd->head->max_groups = def->max_groups;
+    crowd->head->max_members = def->max_members;
+    crowd->a = tl_crowd_fields_at(crowd->head, def);
     return true;
 }
 
@@ -195,7 +236,8 @@ tl_result tl_nav_crowd_create(const tl_nav_crowd_def *def, tl_nav_crowd **crowd_
     for (uint32_t i = 0; i < TL_NAV_CROWD_FILTER_COUNT; i++) {
         crowd->filters[i] = tl_default_nav_filter();
     }
-    tl_result result = allocate_agents(crowd) && allocate_step(crowd) && allocate_trees(crowd) ? TL_OK : TL_ERR_MEMORY;
+    const bool good = allocate_agents(crowd) && allocate_step(crowd) && allocate_trees(crowd) && allocate_deal(crowd);
+    tl_result result = good ? TL_OK : TL_ERR_MEMORY;
     result = result == TL_OK ? allocate_queries(crowd) : result;
     if (result != TL_OK) {
         tl_nav_crowd_destroy(crowd);
@@ -217,6 +259,7 @@ void tl_nav_crowd_destroy(tl_nav_crowd *crowd)
     tl_release_array(&crowd->allocator, crowd->head, crowd->state_bytes, 1);
     release_step(crowd);
     release_trees(crowd);
+    release_deal(crowd);
     tl_allocator allocator = crowd->allocator;
     tl_release_array(&allocator, crowd, 1, sizeof *crowd);
 }

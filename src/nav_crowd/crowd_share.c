@@ -22,11 +22,14 @@ enum {
     COUNT_AT = 16,      // paths that are asked for: counted at once
 };
 
-static bool may_share(const crowd_fields *a, uint32_t i)
+// Not those who follow, whose goals are slots that move.
+static bool may_share(const tl_nav_crowd *crowd, uint32_t i)
 {
+    const crowd_fields *a = &crowd->a;
     const uint32_t status = a->status[i];
     return (a->flags[i] & CROWD_HAS_GOAL) != 0 && a->clearance[i] == 0.0f &&
-           (status == TL_NAV_AGENT_WAITING || status == TL_NAV_AGENT_WALKING || status == TL_NAV_AGENT_QUEUED);
+           (status == TL_NAV_AGENT_WAITING || status == TL_NAV_AGENT_WALKING || status == TL_NAV_AGENT_QUEUED) &&
+           !tl_crowd_follows(crowd, i);
 }
 
 static crowd_shared_goal goal_of(const crowd_fields *a, uint32_t i)
@@ -79,7 +82,7 @@ static void count_goals(const tl_nav_crowd *crowd)
     memset(crowd->grid.first, 0xff, (size_t)crowd->grid.cell_count * sizeof *crowd->grid.first);
     for (uint32_t i = 0; i < crowd->head->used; i++) {
         crowd->grid.cell[i] = 0;
-        if (may_share(&crowd->a, i)) {
+        if (may_share(crowd, i)) {
             const crowd_shared_goal goal = goal_of(&crowd->a, i);
             uint32_t *first = find_first(crowd, &goal);
             *first = *first == CROWD_NO_PLACE ? i : *first;
@@ -244,7 +247,7 @@ static uint32_t ask_for_trees(tl_nav_crowd *crowd)
     for (uint32_t k = 0; k < crowd->head->queue_count; k++) {
         const uint32_t i = crowd->a.queue[(crowd->head->queue_first + k) % crowd->head->max_agents];
         crowd->grid.cell[i] = CROWD_NO_PLACE;
-        if (may_share(&crowd->a, i)) {
+        if (may_share(crowd, i)) {
             const crowd_shared_goal goal = goal_of(&crowd->a, i);
             crowd->grid.cell[i] = find_shared(crowd, &goal);
             if (crowd->grid.cell[i] != CROWD_NO_PLACE) {

@@ -28,7 +28,7 @@ tl_result tl_nav_crowd_save(const tl_nav_crowd *crowd, void *bytes_out, size_t c
     }
     memcpy(bytes_out, crowd->head, (size_t)crowd->state_bytes);
     if (TL_BIG_ENDIAN) {
-        tl_crowd_swap_words(bytes_out, crowd->state_bytes, crowd->def.max_agents, crowd->def.max_path);
+        tl_crowd_swap_words(bytes_out, crowd->state_bytes, &crowd->def);
     }
     return TL_OK;
 }
@@ -40,9 +40,9 @@ uint64_t tl_nav_crowd_hash(const tl_nav_crowd *crowd)
         return tl_hash_bytes(crowd->head, (size_t)crowd->state_bytes, 0);
     }
     // Turned round in place, and back: the crowd is one thread's at a time.
-    tl_crowd_swap_words(crowd->head, crowd->state_bytes, crowd->def.max_agents, crowd->def.max_path);
+    tl_crowd_swap_words(crowd->head, crowd->state_bytes, &crowd->def);
     uint64_t hash = tl_hash_bytes(crowd->head, (size_t)crowd->state_bytes, 0);
-    tl_crowd_swap_words(crowd->head, crowd->state_bytes, crowd->def.max_agents, crowd->def.max_path);
+    tl_crowd_swap_words(crowd->head, crowd->state_bytes, &crowd->def);
     return hash;
 }
 
@@ -135,6 +135,66 @@ static bool are_goals_sound(const crowd_head *head)
     return all;
 }
 
+static bool is_member_sound(const crowd_head *head, const crowd_fields *a, uint32_t m)
+{
+    const uint32_t i = a->member_agent[m];
+    return i < head->used && a->status[i] != CROWD_FREE && a->member[i] == m + 1 && a->lag[m] >= 0.0f &&
+           (a->member_flags[m] & ~CROWD_FOLLOWING) == 0 && are_finite(a->offset, m, 2) && are_finite(a->trail, m, 3) &&
+           are_finite(a->slot, m, 3) && are_finite(a->lag, m, 1) && are_finite(a->held, m, 1);
+}
+
+static bool is_group_sound(const crowd_fields *a, const crowd_group *group)
+{
+    const float *const numbers[] = { &group->spacing, &group->wait_distance, &group->lost_distance };
+    bool all = are_finite(group->place, 0, 3) && are_finite(group->velocity, 0, 2) &&
+               are_finite(group->heading, 0, 2) && group->speed >= 0.0f && group->speed <= CROWD_MAX_SIZE &&
+               group->lag >= 0.0f && group->lag <= CROWD_MAX_NUMBER && group->range >= 0.0f &&
+               group->range <= CROWD_MAX_NUMBER && group->formation <= TL_NAV_FORMATION_SLOTS &&
+               (group->flags & ~CROWD_GROUP_ALL_FLAGS) == 0 && group->generation != 0 &&
+               group->trail_first < group->count && group->trail_count <= group->count;
+    for (uint32_t k = 0; k < TL_COUNT_OF(numbers); k++) {
+        all = all && *numbers[k] >= FLT_MIN && *numbers[k] <= CROWD_MAX_SIZE;
+    }
+    for (uint32_t m = group->first + 1; m < group->first + group->count; m++) {
+        all = all && a->status[a->member_agent[m]] != TL_NAV_AGENT_FIXED;
+    }
+    return all;
+}
+
+// The groups divide the members among them, and each member is an agent that says so. `at_out`: the first group that is
+// wrong.
+static bool are_groups_sound(const crowd_head *head, const crowd_fields *a, uint32_t in_groups, uint32_t *at_out)
+{
+    *at_out = 0;
+    if (head->member_count > head->max_members || in_groups != head->member_count) {
+        return false;
+    }
+    for (uint32_t m = 0; m < head->member_count; m++) {
+        if (!is_member_sound(head, a, m) || a->member_group[m] >= head->max_groups) {
+            return false;
+        }
+    }
+    uint64_t members = 0;
+    for (uint32_t g = 0; g < head->max_groups; g++) {
+        const crowd_group *group = &a->groups[g];
+        *at_out = g;
+        if (group->count == 0) {
+            continue;
+        }
+        if (group->count > head->member_count || group->first > head->member_count - group->count ||
+            !is_group_sound(a, group)) {
+            return false;
+        }
+        for (uint32_t m = group->first; m < group->first + group->count; m++) {
+            if (a->member_group[m] != g) {
+                return false;
+            }
+        }
+        members += group->count;
+    }
+    return members == head->member_count;
+}
+
 static tl_result check_state(const tl_nav_crowd *crowd, const crowd_head *head, const crowd_fields *a,
                              tl_report *report)
 {
@@ -143,8 +203,9 @@ static tl_result check_state(const tl_nav_crowd *crowd, const crowd_head *head, 
         head->queue_count > head->count || head->filters_changed > 1 || !are_goals_sound(head)) {
         return tl_report_fail(report, TL_ERR_CORRUPT, "head", 0, advice);
     }
-    uint32_t agents = 0, in_queue = 0;
+    uint32_t agents = 0, in_queue = 0, in_groups = 0, wrong = 0;
     for (uint32_t i = 0; i < head->used; i++) {
+        in_groups += a->member[i] != 0;
         if (a->status[i] == CROWD_FREE) {
             continue;
         }
@@ -156,6 +217,9 @@ static tl_result check_state(const tl_nav_crowd *crowd, const crowd_head *head, 
         }
         agents++;
         in_queue += (a->flags[i] & CROWD_IN_QUEUE) != 0;
+    }
+    if (!are_groups_sound(head, a, in_groups, &wrong)) {
+        return tl_report_fail(report, TL_ERR_CORRUPT, "group", wrong, advice);
     }
     return are_chains_sound(crowd, head, a, agents, in_queue)
                ? TL_OK
@@ -172,7 +236,7 @@ static const crowd_head *host_order(const tl_nav_crowd *crowd, const void *bytes
     *copy_out = tl_allocate_array(&crowd->allocator, crowd->state_bytes, 1);
     if (*copy_out != NULL) {
         memcpy(*copy_out, bytes, (size_t)crowd->state_bytes);
-        tl_crowd_swap_words(*copy_out, crowd->state_bytes, crowd->def.max_agents, crowd->def.max_path);
+        tl_crowd_swap_words(*copy_out, crowd->state_bytes, &crowd->def);
     }
     return (const crowd_head *)*copy_out;
 }
@@ -199,7 +263,9 @@ static tl_result check_outside(const tl_nav_crowd *crowd, const void *bytes, siz
         return TL_ERR_VERSION;
     }
     if (read_saved_word(words + offsetof(crowd_head, max_agents)) != crowd->def.max_agents ||
-        read_saved_word(words + offsetof(crowd_head, max_path)) != crowd->def.max_path) {
+        read_saved_word(words + offsetof(crowd_head, max_path)) != crowd->def.max_path ||
+        read_saved_word(words + offsetof(crowd_head, max_groups)) != crowd->def.max_groups ||
+        read_saved_word(words + offsetof(crowd_head, max_members)) != crowd->def.max_members) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "bytes", "restore the state of a crowd of the same size");
     }
     return size < crowd->state_bytes ? TL_ERR_TRUNCATED : TL_OK;
@@ -219,7 +285,7 @@ tl_result tl_nav_crowd_restore(tl_nav_crowd *crowd, const void *bytes, size_t si
     tl_result result = head->size == crowd->state_bytes ? TL_OK : TL_ERR_CORRUPT;
     if (result == TL_OK) {
         // The fields are read alone: their pointers are those of a state that may change.
-        const crowd_fields a = tl_crowd_fields_at((void *)(uintptr_t)head, crowd->def.max_agents, crowd->def.max_path);
+        const crowd_fields a = tl_crowd_fields_at((void *)(uintptr_t)head, &crowd->def);
         result = check_state(crowd, head, &a, report);
     }
     if (result == TL_OK) {

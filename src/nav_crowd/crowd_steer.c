@@ -7,6 +7,7 @@
 #include "nav_crowd/crowd_neighbors.h"
 
 #include <math.h>
+#include <string.h>
 
 // Room that an agent leaves at a corner, as a share of its radius: those who turn there abreast need not press into it.
 #define CORNER_SHARE 0.5f
@@ -19,6 +20,9 @@
 #define PROGRESS_SHARE 0.25f
 #define RECOVERY       3.0f
 #define MAX_STALLED    30.0f // seconds: more than anybody goes back for (crowd_right_of_way.c)
+
+// One that follows is not held up while it wants to walk slower than this share of its top speed.
+#define BESIDE_SHARE 0.5f
 
 // The corner that the path turns at, `x` and `z` from here, to its left (side 1) or right (-1): moved aside by the room
 // that is left there: the point where a tangent touches the circle around it.
@@ -51,7 +55,7 @@ static void want(const crowd_step *step, uint32_t i, float toward_x, float towar
     a->wanted_z[i] = toward_z * scale;
 }
 
-static void want_to_stand(const crowd_step *step, uint32_t i)
+void tl_crowd_want_to_stand(const crowd_step *step, uint32_t i)
 {
     want(step, i, 0.0f, 0.0f, 0.0f);
 }
@@ -74,7 +78,15 @@ static void arrive(const crowd_step *step, uint32_t i)
         a->status[i] = TL_NAV_AGENT_WAITING;
     }
     a->stalled[i] = 0.0f;
-    want_to_stand(step, i);
+    tl_crowd_want_to_stand(step, i);
+}
+
+// A group's leader walks as its followers can.
+static float top_speed(const tl_nav_crowd *crowd, uint32_t i)
+{
+    const crowd_group *group = tl_crowd_group_of(crowd, i);
+    return group == NULL || tl_crowd_follows(crowd, i) ? crowd->a.max_speed[i]
+                                                       : tl_min_f32(crowd->a.max_speed[i], group->speed);
 }
 
 // How long an agent has hardly come forward: towards where it wants to go now.
@@ -82,7 +94,7 @@ static void note_progress(const crowd_step *step, uint32_t i, float x, float z)
 {
     crowd_fields *a = &step->crowd->a;
     float forward = a->vx[i] * x + a->vz[i] * z;
-    float enough = PROGRESS_SHARE * a->max_speed[i] * sqrtf(x * x + z * z);
+    float enough = PROGRESS_SHARE * top_speed(step->crowd, i) * sqrtf(x * x + z * z);
     float stalled = forward < enough ? a->stalled[i] + step->dt : a->stalled[i] - RECOVERY * step->dt;
     a->stalled[i] = tl_clamp_f32(stalled, 0.0f, MAX_STALLED);
 }
@@ -120,7 +132,7 @@ static bool head_on(const crowd_step *step, uint32_t i)
     if (x * x + z * z <= reach * reach) {
         return false;
     }
-    head_for(step, i, x, z, a->max_speed[i]);
+    head_for(step, i, x, z, top_speed(crowd, i));
     return true;
 }
 
@@ -145,7 +157,7 @@ static void keep_corner(crowd_fields *a, uint32_t i, const tl_nav_corner *corner
     a->corner[2 * (size_t)i + 1] = corner->point.z;
 }
 
-static void walk(const crowd_step *step, uint32_t i)
+void tl_crowd_walk(const crowd_step *step, uint32_t i)
 {
     tl_nav_crowd *crowd = step->crowd;
     crowd_fields *a = &crowd->a;
@@ -158,7 +170,7 @@ static void walk(const crowd_step *step, uint32_t i)
     tl_result result = tl_nav_corridor_corners(&corridor, step->navmesh, corners, 3, &count);
     if ((result != TL_OK && result != TL_INCOMPLETE) || count < 2) {
         a->flags[i] |= CROWD_NEED_PATH;
-        want_to_stand(step, i);
+        tl_crowd_want_to_stand(step, i);
         return;
     }
     if ((a->flags[i] & (CROWD_REACHES | CROWD_PARTIAL | CROWD_IN_QUEUE)) == 0 &&
@@ -170,12 +182,12 @@ static void walk(const crowd_step *step, uint32_t i)
     const tl_nav_corner *next = links_here ? &corners[0] : &corners[1];
     float x = next->point.x - a->x[i], z = next->point.z - a->z[i];
     float distance = sqrtf(x * x + z * z);
-    float speed = a->max_speed[i];
+    float speed = top_speed(crowd, i);
     if ((next->flags & TL_NAV_CORNER_LINK) != 0) {
         if (distance <= LINK_SHARE * a->radius[i]) {
             a->status[i] = TL_NAV_AGENT_QUEUED;
             a->link[i] = next->link;
-            want_to_stand(step, i);
+            tl_crowd_want_to_stand(step, i);
             return;
         }
     } else if ((next->flags & TL_NAV_CORNER_END) != 0) {
@@ -190,6 +202,29 @@ static void walk(const crowd_step *step, uint32_t i)
     head_for(step, i, x, z, speed);
 }
 
+// As fast as the place, and as much faster as it is away, with the brakes of one that comes to a goal.
+void tl_crowd_walk_beside(const crowd_step *step, uint32_t i, tl_vec3 place, const float velocity[2])
+{
+    crowd_fields *a = &step->crowd->a;
+    const float x = place.x - a->x[i], z = place.z - a->z[i];
+    const float distance = sqrtf(x * x + z * z);
+    const float closing = tl_min_f32(sqrtf(BRAKE_SHARE * a->max_acceleration[i] * distance), distance / step->dt);
+    const float rate = distance > 0.0f ? closing / distance : 0.0f;
+    const float toward_x = velocity[0] + rate * x, toward_z = velocity[1] + rate * z;
+    const float speed = tl_min_f32(sqrtf(toward_x * toward_x + toward_z * toward_z), a->max_speed[i]);
+    tl_nav_corner ahead;
+    memset(&ahead, 0, sizeof ahead);
+    ahead.point = tl_vec3_make(a->x[i] + toward_x, a->y[i], a->z[i] + toward_z);
+    keep_corner(a, i, &ahead, &ahead);
+    a->flags[i] &= ~CROWD_CORNER;
+    if (speed < BESIDE_SHARE * a->max_speed[i]) {
+        a->stalled[i] = 0.0f;
+    } else {
+        note_progress(step, i, toward_x, toward_z);
+    }
+    want(step, i, toward_x, toward_z, speed);
+}
+
 // An agent that stands at its link until it may take it; pushed away it walks back.
 static void wait_for_link(const crowd_step *step, uint32_t i)
 {
@@ -197,7 +232,7 @@ static void wait_for_link(const crowd_step *step, uint32_t i)
     a->status[i] = TL_NAV_AGENT_WALKING;
     uint64_t link = a->link[i];
     a->link[i] = TL_NAV_NO_REF;
-    walk(step, i);
+    tl_crowd_walk(step, i);
     bool waits_on = a->status[i] == TL_NAV_AGENT_QUEUED && a->link[i] == link;
     a->next_free[i] = waits_on ? a->next_free[i] + (a->next_free[i] < UINT32_MAX) : 0;
 }
@@ -206,10 +241,10 @@ void tl_crowd_steer(const crowd_step *step, uint32_t i)
 {
     const uint32_t status = step->crowd->a.status[i];
     if (status == TL_NAV_AGENT_WALKING) {
-        walk(step, i);
+        tl_crowd_walk(step, i);
     } else if (status == TL_NAV_AGENT_QUEUED) {
         wait_for_link(step, i);
     } else {
-        want_to_stand(step, i);
+        tl_crowd_want_to_stand(step, i);
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A step: paths, the grid, then each agent by itself; and at the end what agents must agree on.
+// A step: paths, leaders, the grid, then each agent by itself; and at the end what agents must agree on.
 //
 // Agents read their neighbours from a copy that was made when the step began, and write to their own places alone. So
 // the blocks run in any order, on any number of threads, and give the same bytes.
@@ -46,7 +46,11 @@ static void step_block(uint32_t block, uint32_t worker, void *user)
         }
         float velocity[2];
         tl_crowd_look_for_walls(step, i, query);
-        tl_crowd_steer(step, i);
+        if (tl_crowd_follows(crowd, i)) {
+            tl_crowd_follow(step, i, query);
+        } else {
+            tl_crowd_steer(step, i);
+        }
         tl_crowd_avoid(step, k, velocity);
         tl_crowd_move(step, i, velocity, query);
     }
@@ -130,6 +134,7 @@ tl_result tl_nav_crowd_step(tl_nav_crowd *crowd, const tl_navmesh *navmesh, floa
     tl_crowd_share_paths(&step);
     take_work(&step);
     tl_crowd_run_tasks(&step, search_one, step.work_count);
+    tl_crowd_lead_groups(&step);
     tl_crowd_fill_grid(crowd);
     tl_crowd_run_tasks(&step, step_block, tl_block_count(crowd->seen.count, CROWD_BLOCK));
     tl_crowd_grant_links(&step);

@@ -50,5 +50,5 @@ void tl_crowd_look_for_walls(const crowd_step *step, uint32_t i, tl_nav_query *q
         kept[4 * k + 2] = is_there ? walls[k].end.x : 0.0f;
         kept[4 * k + 3] = is_there ? walls[k].end.z : 0.0f;
     }
-    a->wall_count[i] = count;
+    a->wall_count[i] = (uint8_t)count;
 }

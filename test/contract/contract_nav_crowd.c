@@ -67,8 +67,14 @@ static tl_result create(contract_run *run)
         case 7:
             def.wall_horizon = -1.0f;
             break;
-        default:
+        case 8:
             def.max_shared_goals = 9;
+            break;
+        case 9:
+            def.max_groups = TL_NAV_CROWD_MAX_AGENTS + 1;
+            break;
+        default:
+            def.max_members = TL_NAV_CROWD_MAX_AGENTS + 1;
             break;
         }
     }
@@ -283,10 +289,136 @@ static tl_result restore(contract_run *run)
     return result;
 }
 
-static const char *const CROWD_FIELDS[] = {
-    "max_agents",        "max_path",      "max_neighbors", "paths_per_step",   "max_nodes",
-    "neighbor_distance", "agent_horizon", "wall_horizon",  "max_shared_goals", NULL
-};
+// ---------------------------------------------------------------------------------------------------------
+// Groups.
+
+// A group of the walker alone.
+static tl_nav_group begin_group(const contract_run *run, const crowd_call *call)
+{
+    tl_nav_group group = TL_NAV_NO_GROUP;
+    if (run->what == CONTRACT_STALE) {
+        return (uint64_t)9 << 32;
+    }
+    TEST_RESULT(tl_nav_crowd_add_group(call->crowd, NULL, &call->walker, 1, &group, NULL), TL_OK);
+    return group;
+}
+
+static void spoil_group(const contract_run *run, tl_nav_group_def *def)
+{
+    if (run->what == CONTRACT_ZEROED_DEF) {
+        memset(def, 0, sizeof *def);
+    } else if (run->what == CONTRACT_BAD_FIELD) {
+        switch (run->variant) {
+        case 0:
+            def->formation = (tl_nav_formation)6;
+            break;
+        case 1:
+            def->spacing = 0.0f;
+            break;
+        case 2:
+            def->wait_distance = INFINITY;
+            break;
+        case 3:
+            def->lost_distance = 1001.0f;
+            break;
+        default:
+            def->formation = TL_NAV_FORMATION_SLOTS;
+            break;
+        }
+    }
+}
+
+static tl_result add_group(contract_run *run)
+{
+    crowd_call call = begin_crowd(run);
+    tl_nav_group_def def = tl_default_nav_group_def();
+    tl_nav_agent agents[2] = { call.fixed, call.walker }; // a fixed one leads
+    tl_nav_group group = TL_NAV_NO_GROUP;
+    spoil_group(run, &def);
+    const tl_result result =
+        tl_nav_crowd_add_group(CONTRACT_INPUT(run, 0, call.crowd), run->what == CONTRACT_NULL_DEF ? NULL : &def,
+                               CONTRACT_INPUT(run, 1, agents), 2, CONTRACT_OUTPUT(run, 0, &group), run->report);
+    run->is_clear = group == TL_NAV_NO_GROUP;
+    run->answer = group;
+    if (result == TL_OK) {
+        TEST_RESULT(tl_nav_crowd_set_goal(call.crowd, call.walker, NULL), TL_ERR_ARGUMENT); // it follows
+        TEST_RESULT(tl_nav_crowd_remove_group(call.crowd, group), TL_OK);
+        agents[0] = call.walker;
+        agents[1] = call.fixed;
+        TEST_RESULT(tl_nav_crowd_add_group(call.crowd, &def, agents, 2, &group, NULL), TL_ERR_ARGUMENT);
+        TEST_RESULT(tl_nav_crowd_add_group(call.crowd, &def, agents, 0, &group, NULL), TL_ERR_ARGUMENT);
+    }
+    tl_nav_crowd_destroy(call.crowd);
+    return result;
+}
+
+static tl_result remove_group(contract_run *run)
+{
+    crowd_call call = begin_crowd(run);
+    const tl_nav_group group = begin_group(run, &call);
+    const tl_result result = tl_nav_crowd_remove_group(CONTRACT_INPUT(run, 0, call.crowd), group);
+    run->is_clear = true;
+    tl_nav_crowd_destroy(call.crowd);
+    return result;
+}
+
+static tl_result set_formation(contract_run *run)
+{
+    crowd_call call = begin_crowd(run);
+    tl_nav_group_def def = tl_default_nav_group_def();
+    tl_nav_agent agents[2] = { call.fixed, call.walker };
+    tl_nav_group group = (uint64_t)9 << 32;
+    if (run->what != CONTRACT_STALE) {
+        def.formation = TL_NAV_FORMATION_WEDGE;
+        TEST_RESULT(tl_nav_crowd_add_group(call.crowd, &def, agents, 2, &group, NULL), TL_OK);
+        def.formation = TL_NAV_FORMATION_LOOSE;
+    }
+    const uint64_t before = tl_nav_crowd_hash(call.crowd);
+    spoil_group(run, &def);
+    const tl_result result = tl_nav_crowd_set_formation(CONTRACT_INPUT(run, 0, call.crowd), group,
+                                                        run->what == CONTRACT_NULL_DEF ? NULL : &def, run->report);
+    run->is_clear = true;
+    run->answer = tl_nav_crowd_hash(call.crowd);
+    TEST_CHECK(result == TL_OK || run->answer == before);
+    tl_nav_crowd_destroy(call.crowd);
+    return result;
+}
+
+static tl_result group_state(contract_run *run)
+{
+    crowd_call call = begin_crowd(run);
+    const tl_nav_group group = begin_group(run, &call);
+    tl_nav_group_state state;
+    memset(&state, 0, sizeof state);
+    const tl_result result =
+        tl_nav_crowd_group(CONTRACT_INPUT(run, 0, call.crowd), group, CONTRACT_OUTPUT(run, 0, &state));
+    run->is_clear = contract_is_zero(&state, sizeof state);
+    tl_nav_crowd_destroy(call.crowd);
+    return result;
+}
+
+static tl_result members(contract_run *run)
+{
+    crowd_call call = begin_crowd(run);
+    const tl_nav_group group = begin_group(run, &call);
+    tl_nav_agent agents[CONTRACT_CAPACITY];
+    uint32_t count = 0;
+    const tl_result result =
+        tl_nav_crowd_members(CONTRACT_INPUT(run, 0, call.crowd), group, CONTRACT_INPUT(run, 1, agents),
+                             CONTRACT_CAPACITY, CONTRACT_OUTPUT(run, 0, &count));
+    if (result == TL_OK) {
+        TEST_RESULT(tl_nav_crowd_members(call.crowd, group, NULL, 0, &count), TL_INCOMPLETE);
+        TEST_CHECK(count == 1 && agents[0] == call.walker);
+    }
+    run->is_clear = count == 0;
+    tl_nav_crowd_destroy(call.crowd);
+    return result;
+}
+
+static const char *const GROUP_FIELDS[] = { "formation", "spacing", "wait_distance", "lost_distance", "slots", NULL };
+static const char *const CROWD_FIELDS[] = { "max_agents",       "max_path",          "max_neighbors", "paths_per_step",
+                                            "max_nodes",        "neighbor_distance", "agent_horizon", "wall_horizon",
+                                            "max_shared_goals", "max_groups",        "max_members",   NULL };
 static const char *const AGENT_FIELDS[] = { "position",         "reach",           "radius",   "height", "max_speed",
                                             "max_acceleration", "arrive_distance", "priority", "filter", NULL };
 
@@ -321,6 +453,25 @@ const contract_entry CONTRACT_TABLE_nav_crowd[] = {
       3, 1, NULL, corners, NULL },
     { "tl_nav_crowd_count", 0, 0, 0, NULL, NULL, "a number; the caller's crowd: test_crowd_agents.c" },
     { "tl_nav_crowd_next", 0, 0, 0, NULL, NULL, "iterates; the caller's crowd: test_crowd_agents.c" },
+    { "tl_nav_formation_name", 0, 0, 0, NULL, NULL, "a constant text: test_crowd_groups.c" },
+    { "tl_default_nav_group_def", 0, 0, 0, NULL, NULL, "a constant value" },
+    { "tl_nav_crowd_add_group",
+      CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_DEF) | CONTRACT_BIT(ZEROED_DEF) |
+          CONTRACT_BIT(BAD_FIELD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NULL_OUTPUT),
+      2, 1, GROUP_FIELDS, add_group, NULL },
+    { "tl_nav_crowd_remove_group", CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(STALE), 1, 0, NULL,
+      remove_group, NULL },
+    { "tl_nav_crowd_set_formation",
+      CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_DEF) | CONTRACT_BIT(ZEROED_DEF) |
+          CONTRACT_BIT(BAD_FIELD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(STALE),
+      1, 0, GROUP_FIELDS, set_formation, NULL },
+    { "tl_nav_crowd_group",
+      CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NULL_OUTPUT) | CONTRACT_BIT(STALE), 1, 1, NULL,
+      group_state, NULL },
+    { "tl_nav_crowd_members",
+      CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NULL_OUTPUT) | CONTRACT_BIT(STALE), 2, 1, NULL,
+      members, NULL },
+    { "tl_nav_crowd_group_of", 0, 0, 0, NULL, NULL, "a name; the caller's crowd: test_crowd_groups.c" },
     { "tl_nav_crowd_step", CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT), 2, 0, NULL, step, NULL },
     { "tl_nav_crowd_state_size", 0, 0, 0, NULL, NULL, "a number; the caller's crowd: test_crowd_state.c" },
     { "tl_nav_crowd_save", CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NULL_OUTPUT), 1, 1, NULL, save,

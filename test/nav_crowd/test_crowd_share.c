@@ -6,6 +6,8 @@
 #include "crowd_threads.h" // pthread
 #include "crowd_world.h"
 
+#include "nav_crowd/crowd.h"
+
 #include <talus/nav_obstacles.h>
 #include <talus/nav_state.h>
 
@@ -226,7 +228,7 @@ static void test_bytes(void **state)
     // What is no goal is refused.
     uint8_t *bad = bytes;
     TEST_RESULT(tl_nav_crowd_save(crowds[0], bytes, size), TL_OK);
-    memset(bad + 72 + 8, 0xff, sizeof(float)); // no number, in the first shared goal, behind the head's counts
+    memset(bad + offsetof(crowd_head, shared[0].point), 0xff, sizeof(float)); // no number
     TEST_RESULT(tl_nav_crowd_restore(crowds[1], bytes, size, NULL), TL_ERR_CORRUPT);
     free(bytes);
     for (uint32_t c = 0; c < 3; c++) {

@@ -31,6 +31,18 @@ static tl_nav_crowd *make_flows(const tl_navmesh *navmesh, const tl_tasks *tasks
         tl_nav_location goal = crowd_place(navmesh, -x, 0.0f, z);
         crowd_send(crowd, navmesh, agent, x, 0.0f, z, agent.is_fixed ? NULL : &goal);
     }
+    // Two groups, one behind a fixed agent.
+    tl_nav_agent group[6];
+    for (uint32_t g = 0; g < 2; g++) {
+        uint32_t cursor = g == 0 ? 39 : 100;
+        for (uint32_t k = 0; k < 6; k++) {
+            tl_nav_crowd_next(crowd, &cursor, &group[k]);
+        }
+        tl_nav_group_def group_def = tl_default_nav_group_def();
+        group_def.formation = g == 0 ? TL_NAV_FORMATION_WEDGE : TL_NAV_FORMATION_COLUMN;
+        tl_nav_group name;
+        TEST_RESULT(tl_nav_crowd_add_group(crowd, &group_def, group, 6, &name, NULL), TL_OK);
+    }
     return crowd;
 }
 
@@ -100,9 +112,9 @@ static void test_byte_order(void **state)
     uint8_t *bytes = malloc(size), *turned = malloc(size);
     TEST_RESULT(tl_nav_crowd_save(crowd, bytes, size), TL_OK);
     memcpy(turned, bytes, size);
-    tl_crowd_swap_words(turned, size, crowd->def.max_agents, crowd->def.max_path);
+    tl_crowd_swap_words(turned, size, &crowd->def);
     TEST_CHECK(turned[0] == bytes[3] && memcmp(bytes, turned, size) != 0);
-    tl_crowd_swap_words(turned, size, crowd->def.max_agents, crowd->def.max_path);
+    tl_crowd_swap_words(turned, size, &crowd->def);
     TEST_CHECK(memcmp(bytes, turned, size) == 0);
     free(bytes);
     free(turned);
@@ -118,6 +130,7 @@ static void test_hostile(void **state)
     tl_nav_crowd *crowd = make_flows(navmesh, NULL);
     step_many(crowd, navmesh, 5);
     const size_t size = tl_nav_crowd_state_size(crowd);
+    const size_t groups_size = size - (size_t)((uint8_t *)crowd->a.trail_polygon - (uint8_t *)crowd->head);
     uint8_t *bytes = malloc(size), *bad = malloc(size);
     TEST_RESULT(tl_nav_crowd_save(crowd, bytes, size), TL_OK);
     const uint64_t hash = tl_nav_crowd_hash(crowd);
@@ -125,10 +138,11 @@ static void test_hostile(void **state)
     uint32_t refused = 0, taken = 0;
     for (uint32_t round = 0; round < 3000; round++) {
         memcpy(bad, bytes, size);
-        // The head and the first arrays as often as all the rest.
+        // The head and the first arrays as often as all the rest, and so the groups at the end.
         uint32_t reach = round % 3 == 0 ? 128 : (uint32_t)size;
         for (uint32_t k = 0; k < 1 + round % 4; k++) {
             size_t at = test_random_below(&random, reach / 4) * 4;
+            at = round % 5 == 1 ? size - 4 - at * (groups_size - 4) / size / 4 * 4 : at;
             uint32_t word =
                 round % 2 == 0 ? UINT32_MAX >> test_random_below(&random, 32) : (uint32_t)test_random_u64(&random);
             memcpy(bad + at, &word, 4);
@@ -166,7 +180,8 @@ static void test_memory(void **state)
     tl_nav_crowd *crowd = NULL;
     def.max_agents = 10000;
     TEST_RESULT(tl_nav_crowd_create(&def, &crowd, NULL), TL_OK);
-    // The scratch: twelve words of the snapshot, one for the cell, and the grid's cells.
+    // The scratch: twelve words of the snapshot, one for the cell, and the grid's cells. The tables of groups are there
+    // too, but what deals slots is not counted.
     const uint64_t bytes =
         crowd->state_bytes + 4u * (uint64_t)crowd->grid.cell_count + (uint64_t)def.max_agents * (12 + 1) * 4;
     print_message("%u bytes an agent, %u of them saved\n", (unsigned)(bytes / def.max_agents),

@@ -151,6 +151,13 @@ pub const TL_NAV_AGENT_ON_LINK: tl_nav_agent_status = 6;
 pub const TL_NAV_AGENT_OFF_MESH: tl_nav_agent_status = 7;
 pub const TL_NAV_AGENT_GAVE_UP: tl_nav_agent_status = 8;
 pub const TL_NAV_AGENT_FIXED: tl_nav_agent_status = 9;
+pub type tl_nav_formation = c_int;
+pub const TL_NAV_FORMATION_LOOSE: tl_nav_formation = 0;
+pub const TL_NAV_FORMATION_LINE: tl_nav_formation = 1;
+pub const TL_NAV_FORMATION_COLUMN: tl_nav_formation = 2;
+pub const TL_NAV_FORMATION_WEDGE: tl_nav_formation = 3;
+pub const TL_NAV_FORMATION_RING: tl_nav_formation = 4;
+pub const TL_NAV_FORMATION_SLOTS: tl_nav_formation = 5;
 pub type tl_detour_refs = c_int;
 pub const TL_DETOUR_REFS_32: tl_detour_refs = 0;
 pub const TL_DETOUR_REFS_64: tl_detour_refs = 1;
@@ -192,6 +199,7 @@ pub type tl_nav_pass_fn = unsafe extern "C" fn(*const tl_nav_tile, u32, *mut c_v
 pub type tl_nav_cost_fn =
     unsafe extern "C" fn(*const tl_nav_tile, u32, tl_vec3, tl_vec3, f32, *mut c_void) -> f32;
 pub type tl_nav_agent = u64;
+pub type tl_nav_group = u64;
 pub type tl_nav_obstacle_id = u64;
 pub type tl_write_fn = unsafe extern "C" fn(*const c_void, usize, *mut c_void) -> tl_result;
 pub type tl_pack_fetch_fn = unsafe extern "C" fn(u32, *mut *const c_void, *mut c_void) -> tl_result;
@@ -1739,6 +1747,8 @@ pub struct tl_nav_crowd_def {
     pub wall_horizon: f32,
     pub host: tl_host,
     pub max_shared_goals: u32,
+    pub max_groups: u32,
+    pub max_members: u32,
     pub cookie: u32,
 }
 #[repr(C)]
@@ -1768,6 +1778,35 @@ pub struct tl_nav_agent_state {
     pub goal: tl_vec3,
     pub radius: f32,
     pub height: f32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_formation_slot {
+    pub forward: f32,
+    pub left: f32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_group_def {
+    pub formation: tl_nav_formation,
+    pub spacing: f32,
+    pub wait_distance: f32,
+    pub lost_distance: f32,
+    pub slots: *const tl_nav_formation_slot,
+    pub keep_order: bool,
+    pub cookie: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_group_state {
+    pub formation: tl_nav_formation,
+    pub count: u32,
+    pub in_place: u32,
+    pub on_trail: u32,
+    pub lag: f32,
+    pub speed: f32,
+    pub heading: tl_vec3,
+    pub leader: tl_nav_agent,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -3381,6 +3420,36 @@ extern "C" {
         cursor: *mut u32,
         agent_out: *mut tl_nav_agent,
     ) -> bool;
+    pub fn tl_nav_formation_name(formation: tl_nav_formation) -> *const c_char;
+    pub fn tl_default_nav_group_def() -> tl_nav_group_def;
+    pub fn tl_nav_crowd_add_group(
+        crowd: *mut tl_nav_crowd,
+        def: *const tl_nav_group_def,
+        agents: *const tl_nav_agent,
+        count: u32,
+        group_out: *mut tl_nav_group,
+        report: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_remove_group(crowd: *mut tl_nav_crowd, group: tl_nav_group) -> tl_result;
+    pub fn tl_nav_crowd_set_formation(
+        crowd: *mut tl_nav_crowd,
+        group: tl_nav_group,
+        def: *const tl_nav_group_def,
+        report: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_group(
+        crowd: *const tl_nav_crowd,
+        group: tl_nav_group,
+        state_out: *mut tl_nav_group_state,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_members(
+        crowd: *const tl_nav_crowd,
+        group: tl_nav_group,
+        agents_out: *mut tl_nav_agent,
+        capacity: u32,
+        count_out: *mut u32,
+    ) -> tl_result;
+    pub fn tl_nav_crowd_group_of(crowd: *const tl_nav_crowd, agent: tl_nav_agent) -> tl_nav_group;
     pub fn tl_nav_crowd_step(
         crowd: *mut tl_nav_crowd,
         navmesh: *const tl_navmesh,
@@ -5155,7 +5224,7 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_corridor, target), 28);
         assert_eq!(core::mem::offset_of!(tl_nav_corridor, goal), 40);
         assert_eq!(core::mem::offset_of!(tl_nav_corridor, reaches), 52);
-        assert_eq!(core::mem::size_of::<tl_nav_crowd_def>(), 64);
+        assert_eq!(core::mem::size_of::<tl_nav_crowd_def>(), 72);
         assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, max_agents), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, max_path), 4);
         assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, max_neighbors), 8);
@@ -5172,7 +5241,9 @@ mod layout {
             core::mem::offset_of!(tl_nav_crowd_def, max_shared_goals),
             56
         );
-        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, cookie), 60);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, max_groups), 60);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, max_members), 64);
+        assert_eq!(core::mem::offset_of!(tl_nav_crowd_def, cookie), 68);
         assert_eq!(core::mem::size_of::<tl_nav_agent_def>(), 52);
         assert_eq!(core::mem::offset_of!(tl_nav_agent_def, position), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_agent_def, reach), 12);
@@ -5198,6 +5269,26 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_agent_state, goal), 56);
         assert_eq!(core::mem::offset_of!(tl_nav_agent_state, radius), 68);
         assert_eq!(core::mem::offset_of!(tl_nav_agent_state, height), 72);
+        assert_eq!(core::mem::size_of::<tl_nav_formation_slot>(), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_formation_slot, forward), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_formation_slot, left), 4);
+        assert_eq!(core::mem::size_of::<tl_nav_group_def>(), 32);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_def, formation), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_def, spacing), 4);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_def, wait_distance), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_def, lost_distance), 12);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_def, slots), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_def, keep_order), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_def, cookie), 28);
+        assert_eq!(core::mem::size_of::<tl_nav_group_state>(), 48);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_state, formation), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_state, count), 4);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_state, in_place), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_state, on_trail), 12);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_state, lag), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_state, speed), 20);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_state, heading), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_group_state, leader), 40);
         assert_eq!(core::mem::size_of::<tl_nav_crowd_step_report>(), 32);
         assert_eq!(core::mem::offset_of!(tl_nav_crowd_step_report, searched), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_crowd_step_report, waiting), 4);
