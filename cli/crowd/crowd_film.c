@@ -15,6 +15,8 @@ static const char *const group_colors[] = {
     "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"
 };
 
+#define LEADER_RIM 0.5f // of its radius
+
 enum { GROUP_COLORS = sizeof(group_colors) / sizeof(group_colors[0]) };
 
 // Centimetres are enough for the eye. 0 is never "-0".
@@ -87,6 +89,10 @@ static void add_everybody(tl_text *text, const tl_crowd_film *film, const tl_cro
         add_attribute(text, "r", film->radius[who]);
         add_attribute(text, "cx", film->places[who].x);
         add_attribute(text, "cy", film->places[who].z);
+        if (!is_vehicle && scenario->groups[group].is_formed && (who == 0 || film->group_of[who - 1] != group)) {
+            tl_text_add(text, " stroke=\"#222222\""); // the leader
+            add_attribute(text, "stroke-width", LEADER_RIM * film->radius[who]);
+        }
         tl_text_add(text, ">");
         if (moves(film, who)) {
             add_motion(text, film, who, false);

@@ -20,6 +20,7 @@ enum { TRIES_A_PLACE = 64 };
 typedef struct walker {
     tl_nav_agent agent;
     uint32_t group, next_goal;
+    bool follows; // the first of its group
     bool has_set_out, is_done;
     float done_at; // seconds; below 0: has not arrived
 } walker;
@@ -67,6 +68,30 @@ static bool add_walker(crowd_run *run, const tl_crowd_group *group, tl_vec3 plac
     return result == TL_OK;
 }
 
+static bool form_group(crowd_run *run, const tl_crowd_group *group, walker *walkers, tl_exit *exit_out)
+{
+    tl_nav_agent *agents = calloc(group->count, sizeof(*agents));
+    if (agents == NULL) {
+        *exit_out = tl_cli_fail(run->cli, TL_EXIT_MEMORY, "out of memory");
+        return false;
+    }
+    for (uint32_t i = 0; i < group->count; ++i) {
+        agents[i] = walkers[i].agent;
+        walkers[i].follows = i > 0;
+    }
+    tl_nav_group_def form = group->form;
+    form.slots = group->slots;
+    tl_nav_group formed;
+    tl_report report;
+    memset(&report, 0, sizeof(report));
+    const tl_result result = tl_nav_crowd_add_group(run->crowd, &form, agents, group->count, &formed, &report);
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_result(run->cli, "scenario", result, &report);
+    }
+    free(agents);
+    return result == TL_OK;
+}
+
 static bool place_group(crowd_run *run, uint32_t index, walker *walkers, tl_exit *exit_out)
 {
     const tl_crowd_group *group = &run->scenario->groups[index];
@@ -98,8 +123,9 @@ static bool place_group(crowd_run *run, uint32_t index, walker *walkers, tl_exit
         *exit_out =
             tl_cli_fail(run->cli, TL_EXIT_DATA, "groups[%u]: there is room for %u of %u agents around its \"at\"",
                         index, placed, group->count);
+        return false;
     }
-    return placed == group->count;
+    return !group->is_formed || form_group(run, group, walkers, exit_out);
 }
 
 static bool find_goals(crowd_run *run, uint32_t index, tl_exit *exit_out)
@@ -162,6 +188,8 @@ static bool set_up(crowd_run *run, tl_exit *exit_out)
     const tl_crowd_scenario *s = run->scenario;
     tl_nav_crowd_def def = tl_default_nav_crowd_def();
     def.max_agents = s->agent_count + s->vehicle_count;
+    def.max_groups = s->group_count;
+    def.max_members = s->agent_count;
     def.host.tasks = run->cli->host.tasks;
     run->film->who_count = def.max_agents;
     run->goals = calloc(s->group_count, sizeof(*run->goals));
@@ -215,6 +243,22 @@ static bool may_open(const crowd_run *run, float time)
 {
     return run->obstacles != NULL &&
            (time <= run->obstacles->last_change + 2.0f * run->scenario->step || run->waiting > 0);
+}
+
+// One that follows has arrived when it stands in its slot and its leader is done, who is the first of its group.
+static void look_after_follower(const crowd_run *run, walker *who, const walker *leader, float time)
+{
+    tl_nav_agent_state state;
+    tl_nav_crowd_agent(run->crowd, who->agent, &state);
+    who->has_set_out = true;
+    if (leader->is_done && !who->is_done && state.status == TL_NAV_AGENT_ARRIVED) {
+        who->is_done = true;
+        who->done_at = time;
+        run->outcome->arrived++;
+    } else if (leader->is_done && !who->is_done && leader->done_at < 0.0f) {
+        who->is_done = true; // as unreachable as it is for the leader
+        run->outcome->unreachable++;
+    }
 }
 
 // Sends a walker on: at its start, and from each goal to the next.
@@ -318,8 +362,14 @@ static bool step_once(crowd_run *run, float time)
 {
     const tl_crowd_scenario *s = run->scenario;
     bool is_over = true;
+    uint32_t leader = 0;
     for (uint32_t i = 0; i < s->agent_count; ++i) {
-        guide(run, &run->walkers[i], time);
+        if (run->walkers[i].follows) {
+            look_after_follower(run, &run->walkers[i], &run->walkers[leader], time);
+        } else {
+            guide(run, &run->walkers[i], time);
+            leader = i;
+        }
         is_over = is_over && run->walkers[i].is_done;
     }
     for (uint32_t i = 0; i < s->vehicle_count; ++i) {

@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <talus/nav_crowd.h>
 
 enum { SCENARIO_MIB = 64 };
 
@@ -82,10 +81,69 @@ static void take_goals(scenario_reader *r, const tl_json_place *at, tl_crowd_gro
     }
 }
 
+static void take_slots(scenario_reader *r, const tl_json_place *at, tl_crowd_group *group)
+{
+    tl_json_place list;
+    const size_t count = tl_json_list(&r->json, at, "formation", &list);
+    if (r->json.result == TL_OK && count + 1 != group->count) {
+        tl_json_fail(&r->json, TL_ERR_FORMAT, at, "formation", "has not one slot for each agent but the first");
+    }
+    if (r->json.result != TL_OK || count == 0) {
+        return;
+    }
+    group->slots = calloc(count, sizeof(*group->slots));
+    if (group->slots == NULL) {
+        tl_json_fail(&r->json, TL_ERR_MEMORY, at, "formation", "is too long for the memory");
+        return;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const json_t *slot = json_array_get(list.value, i);
+        const json_t *forward = json_array_get(slot, 0), *left = json_array_get(slot, 1);
+        const double f = json_is_number(forward) ? json_number_value(forward) : (double)NAN;
+        const double l = json_is_number(left) ? json_number_value(left) : (double)NAN;
+        if (json_array_size(slot) != 2 || !(fabs(f) <= 1000.0) || !(fabs(l) <= 1000.0)) {
+            const tl_json_place place = { at, "formation", i, NULL };
+            tl_json_fail(&r->json, TL_ERR_FORMAT, &place, NULL, "is no slot; give [forward, left], up to 1000 m");
+            return;
+        }
+        group->slots[i].forward = (float)f;
+        group->slots[i].left = (float)l;
+    }
+}
+
+static void take_formation(scenario_reader *r, const tl_json_place *at, tl_crowd_group *group)
+{
+    const json_t *given = json_object_get(at->value, "formation");
+    group->form = tl_default_nav_group_def();
+    group->form.spacing = 4.0f * group->radius;
+    take_number(r, at, "apart", 0.01, 1000.0, &group->form.spacing);
+    group->is_formed = given != NULL;
+    if (given == NULL) {
+        if (json_object_get(at->value, "apart") != NULL) {
+            tl_json_fail(&r->json, TL_ERR_FORMAT, at, "apart", "is given without a formation");
+        }
+        return;
+    }
+    if (json_is_array(given)) {
+        group->form.formation = TL_NAV_FORMATION_SLOTS;
+        take_slots(r, at, group);
+        return;
+    }
+    const char *name = tl_json_string(&r->json, at, "formation");
+    for (uint32_t k = 0; name != NULL && k < TL_NAV_FORMATION_SLOTS; ++k) {
+        if (strcmp(name, tl_nav_formation_name((tl_nav_formation)k)) == 0) {
+            group->form.formation = (tl_nav_formation)k;
+            return;
+        }
+    }
+    tl_json_fail(&r->json, TL_ERR_FORMAT, at, "formation",
+                 "is none of loose, line, column, wedge and ring, and no list of slots");
+}
+
 static void take_group(scenario_reader *r, const tl_json_place *at, tl_crowd_group *group)
 {
-    static const char *const known[] = { "name",    "count",  "at",     "goals", "start",    "repeat",
-                                         "spacing", "radius", "height", "speed", "priority", NULL };
+    static const char *const known[] = { "name",   "count",  "at",    "goals",    "start",     "repeat", "spacing",
+                                         "radius", "height", "speed", "priority", "formation", "apart",  NULL };
     if (!tl_json_keys_are_known(&r->json, at, known)) {
         return;
     }
@@ -111,6 +169,7 @@ static void take_group(scenario_reader *r, const tl_json_place *at, tl_crowd_gro
     take_number(r, at, "priority", 0.0, 1.0, &group->priority);
     group->spacing = 3.0f * group->radius;
     take_number(r, at, "spacing", 0.01, 1000.0, &group->spacing);
+    take_formation(r, at, group);
 }
 
 static void take_vehicle(scenario_reader *r, const tl_json_place *at, tl_crowd_vehicle *vehicle)
@@ -244,6 +303,7 @@ void tl_crowd_scenario_free(tl_crowd_scenario *scenario)
 {
     for (uint32_t i = 0; i < scenario->group_count; ++i) {
         free(scenario->groups[i].goals);
+        free(scenario->groups[i].slots);
     }
     free(scenario->groups);
     free(scenario->vehicles);

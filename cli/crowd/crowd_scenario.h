@@ -4,11 +4,14 @@
 //
 //   { "seconds": 40, "step": 0.05,
 //     "groups": [ { "name": "west", "count": 40, "at": [4, 0, 20], "goals": [[36, 0, 20]], "start": 2, "repeat": true,
-//                   "spacing": 0.9, "radius": 0.3, "height": 1.8, "speed": 1.4, "priority": 0.5 } ],
+//                   "spacing": 0.9, "radius": 0.3, "height": 1.8, "speed": 1.4, "priority": 0.5,
+//                   "formation": "wedge", "apart": 1.2 } ],
 //     "vehicles": [ { "from": [0, 0, 10], "to": [30, 0, 10], "start": 5, "speed": 4, "radius": 1, "height": 1.5 } ],
 //     "obstacles": [ { "at": [18, 0, 20], "size": [0.4, 2], "turn": 0, "height": 2, "from": 10, "until": 20 } ] }
 //
-// A group stands around "at", and each of its agents walks to all goals, one after the other. A vehicle drives straight
+// A group stands around "at", and each of its agents walks to all goals, one after the other. With a "formation" one of
+// them does, who is nearest to "at", and the others follow it: "loose", "line", "column", "wedge", "ring", or their own
+// slots, [[forward, left], ...]; all in metres, neighbours "apart". A vehicle drives straight
 // and evades nobody. An obstacle stands from one time to another: a door that is shut, a crate, with "radius" a pillar.
 
 #ifndef TALUS_CLI_CROWD_SCENARIO_H
@@ -16,6 +19,7 @@
 
 #include "io/files/io_error.h"
 
+#include <talus/nav_crowd.h>
 #include <talus/pack.h>
 
 typedef struct tl_crowd_group {
@@ -28,6 +32,9 @@ typedef struct tl_crowd_group {
     float start;   ///< seconds: when it sets out
     float spacing; ///< metres between those who stand beside one another at the start
     float radius, height, speed, priority;
+    bool is_formed; ///< the agents follow the first of them
+    tl_nav_group_def form;
+    tl_nav_formation_slot *slots; ///< NULL, or [count - 1]: the form's
 } tl_crowd_group;
 
 typedef struct tl_crowd_vehicle {

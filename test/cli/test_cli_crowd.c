@@ -138,7 +138,7 @@ static void test_obstacles(void **state)
 static void test_examples(void **state)
 {
     (void)state;
-    static const char *const runs[] = { "halls.obj door.json", "halls.obj patrol.json" };
+    static const char *const runs[] = { "halls.obj door.json", "halls.obj patrol.json", "halls.obj formations.json" };
     for (size_t i = 0; i < sizeof(runs) / sizeof(runs[0]); ++i) {
         char level[32], scenario[32], line[1024];
         TEST_CHECK(sscanf(runs[i], "%31s %31s", level, scenario) == 2);
@@ -149,6 +149,34 @@ static void test_examples(void **state)
         TEST_CHECK(cli_number(outcome, "arrived") == cli_number(outcome, "agents"));
         json_decref(outcome);
     }
+}
+
+// Four agents in slots of their own: at the end they stand there, around the first.
+static void test_slots(void **state)
+{
+    (void)state;
+    cli_write_text("slots.json", "{\"groups\": [{\"at\": [4, 0, 20], \"goals\": [[16, 0, 20]], \"count\": 4,"
+                                 "\"formation\": [[-1, 1], [-1, -1], [-2, 0]]}]}");
+    json_t *outcome = cli_json(0, "crowd floor.talus slots.json --json");
+    TEST_CHECK(cli_number(outcome, "arrived") == 4);
+    json_decref(outcome);
+    cli_result lines = cli_expect(0, "crowd floor.talus slots.json -o -");
+    const char *last = lines.out;
+    for (char *line = strtok(lines.out, "\n"); line != NULL; line = strtok(NULL, "\n")) {
+        last = line;
+    }
+    json_t *frame = json_loads(last, 0, NULL);
+    const json_t *places = json_object_get(frame, "places");
+    const json_t *leader = json_array_get(places, 0);
+    double behind = 0.0, beside = 0.0;
+    for (size_t i = 1; i < 4; ++i) {
+        const json_t *place = json_array_get(places, i);
+        behind += json_number_value(json_array_get(leader, 0)) - json_number_value(json_array_get(place, 0));
+        beside += fabs(json_number_value(json_array_get(leader, 2)) - json_number_value(json_array_get(place, 2)));
+    }
+    TEST_CHECK(fabs(behind - 4.0) < 0.4 && fabs(beside - 2.0) < 0.4);
+    json_decref(frame);
+    cli_free(&lines);
 }
 
 static void test_not_all_arrive(void **state)
@@ -183,6 +211,13 @@ static void test_faults(void **state)
         { "{\"groups\": [], \"obstacles\": [{\"at\": [0, 0, 0], \"size\": [1, 1], \"radius\": 1}]}", "beside a size" },
         { "{\"groups\": [], \"obstacles\": [{\"at\": [0, 0, 0], \"radius\": 1, \"from\": 5, \"until\": 5}]}",
           "until is not after from" },
+        { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 0, 9]], \"formation\": \"square\"}]}",
+          "groups[0].formation is none of loose" },
+        { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 0, 9]], \"count\": 3, \"formation\": [[1, 1]]}]}",
+          "groups[0].formation has not one slot" },
+        { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 0, 9]], \"count\": 2, \"formation\": [[1, 2000]]}]}",
+          "groups[0].formation[0] is no slot" },
+        { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 0, 9]], \"apart\": 1}]}", "apart is given without" },
         { "{\"groups\": [", "cut short" },
     };
     for (size_t i = 0; i < sizeof(faults) / sizeof(faults[0]); ++i) {
@@ -202,7 +237,7 @@ int main(void)
         cmocka_unit_test(test_all_arrive), cmocka_unit_test(test_goals_and_vehicles),
         cmocka_unit_test(test_films),      cmocka_unit_test(test_obstacles),
         cmocka_unit_test(test_examples),   cmocka_unit_test(test_not_all_arrive),
-        cmocka_unit_test(test_faults),
+        cmocka_unit_test(test_slots),      cmocka_unit_test(test_faults),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }
