@@ -138,7 +138,7 @@ static bool cross_in_tile(const tl_nav_rings *rings, tile_place *at)
     return true;
 }
 
-static bool is_on_portal(const tl_nav_ring_edge *edge)
+static bool is_ring_portal(const tl_nav_ring_edge *edge)
 {
     return edge->to != TL_NAV_RING_WALL || tl_nav_ring_twin_hint(edge) == TL_NAV_RING_ON_PORTAL;
 }
@@ -165,13 +165,13 @@ static bool assign_walls(const tl_nav_rings *rings, tile_place at, uint32_t own,
     const tl_nav_ring_edge *first = &begin.ring[begin.edge];
     vertex_fan f;
     begin_fan(&f, first, &begin.ring[begin.edge + 1 < begin.count ? begin.edge + 1 : 0]);
-    bool is_own = !is_closed && is_on_portal(first);
+    bool is_own = !is_closed && is_ring_portal(first);
     do {
         walls_of[&at.ring[at.edge] - rings->edges] = own;
         f.count++;
         at.edge = at.edge > 0 ? at.edge - 1 : at.count - 1;
         widen_fan(&f, &at.ring[at.edge]);
-        is_own = is_own || (at.ring[at.edge].to >= TL_NAV_RING_SEAM && is_on_portal(&at.ring[at.edge]));
+        is_own = is_own || (at.ring[at.edge].to >= TL_NAV_RING_SEAM && is_ring_portal(&at.ring[at.edge]));
     } while (cross_in_tile(rings, &at) && &at.ring[at.edge] != first);
     // What is too large to be gathered counts as a place to turn at; it is not known to be none.
     if (is_own || f.count >= TL_NAV_MAX_FAN || (!is_closed && (f.is_wide || f.is_odd))) {

@@ -306,7 +306,7 @@ static tl_result make_links(const tl_navmesh *navmesh, const tl_nav_tile *tile, 
     return TL_OK;
 }
 
-static tl_result make_rings(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_set *seams)
+static tl_result make_tile_rings(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_set *seams)
 {
     const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT];
     for (uint32_t i = 0; i < TL_NAV_SIDE_COUNT; i++) {
@@ -330,7 +330,7 @@ static tl_result make_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, 
     memset(seams, 0, sizeof *seams);
     tl_result result = make_links(navmesh, tile, slot, seams);
     if (result == TL_OK) {
-        result = make_rings(navmesh, tile, seams);
+        result = make_tile_rings(navmesh, tile, seams);
     }
     if (result == TL_OK) {
         result = tl_nav_areas_make(&navmesh->allocator, tile, &seams->areas);
