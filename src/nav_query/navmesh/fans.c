@@ -214,8 +214,9 @@ static void number_fan(tl_navmesh *navmesh, tl_nav_ring_place begin)
         walls = known;
     }
     for (uint32_t i = 0; i < f.count; i++) {
-        TL_ASSERT(f.walls[i] != NULL || number == 0);
-        f.members[i]->turn = number;
+        // Without walls of its own it is no place to turn at; only where tiles do not meet at their portals can others
+        // of the fan be.
+        f.members[i]->turn = f.walls[i] != NULL ? number : 0;
         if (f.walls[i] != NULL) {
             *f.walls[i] = walls;
         }
