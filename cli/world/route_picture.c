@@ -16,14 +16,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    ROUTE_MARGIN = 20,
-    ROUTE_HEAD = 64,
-    ROUTE_FOOT = 48,
-    LEAST_SEAM_PIXELS = 12,
-    LEAST_GATE_PIXELS = 10,
-    TILE_HEAD_BYTES = 256
-};
+enum { ROUTE_MARGIN = 20, ROUTE_HEAD = 64, ROUTE_FOOT = 48, TILE_HEAD_BYTES = 256 };
+
+// Pixels.
+#define LEAST_SEAM 12.0
+#define LEAST_GATE 10.0
 
 _Static_assert(offsetof(tl_nav_tile, bounds) + 24 <= TILE_HEAD_BYTES, "a tile's bounds are in its head");
 
@@ -179,7 +176,7 @@ static void paint_tile(const route_sheet *sheet, const tl_nav_tile *tile)
         cairo_stroke(cairo); // half a pixel over its edges, so that no seam shines through
     }
     const double side = (double)tile->tile_size * (double)tile->cell_size;
-    if (side * sheet->pixels_per_metre >= LEAST_SEAM_PIXELS) {
+    if (side * sheet->pixels_per_metre >= LEAST_SEAM) {
         const double x = (double)tile->origin.x + side * tile->tile_x, z = (double)tile->origin.z + side * tile->tile_z;
         draw_set_colour(cairo, ROUTE_SEAM, 0.18);
         cairo_rectangle(cairo, pixel_of(sheet, 0, x), pixel_of(sheet, 1, z), side * sheet->pixels_per_metre,
@@ -253,7 +250,7 @@ static void paint_way(cairo_t *cairo, const route_sheet *sheet)
     cairo_stroke(cairo);
     double shown = -1e9; // metres along the route
     for (uint32_t i = 1; i < last; i++) {
-        if ((sheet->picture->points[i].length - shown) * sheet->pixels_per_metre >= LEAST_GATE_PIXELS) {
+        if ((sheet->picture->points[i].length - shown) * sheet->pixels_per_metre >= LEAST_GATE) {
             paint_dot(cairo, sheet, i, 2.5, ROUTE_WAY);
             shown = sheet->picture->points[i].length;
         }
@@ -283,7 +280,7 @@ static void paint_route_sheet(cairo_t *cairo, const void *user)
     cairo_paint(cairo);
     paint_way(cairo, sheet);
     cairo_restore(cairo);
-    draw_scale_bar(cairo, sheet->pixels_per_metre, sheet->width, ROUTE_MARGIN + (double)sheet->width,
+    draw_scale_bar(cairo, sheet->pixels_per_metre, sheet->width, (double)ROUTE_MARGIN + (double)sheet->width,
                    (double)ROUTE_HEAD + (double)sheet->height + 28.0);
 }
 

@@ -144,7 +144,7 @@ static bool has_no_volume(tl_result result)
 }
 
 // The hull of what is kept, once more for as long as measuring brings corners back; all of them after some times.
-static tl_result settle(hull_simplifier *s, tl_hull_polygons *exact, double *max_outside)
+static tl_result bring_back(hull_simplifier *s, tl_hull_polygons *exact, double *max_outside)
 {
     tl_quickhull hull;
     bool changed = true;
@@ -196,13 +196,13 @@ tl_result tl_hull_simplify(const tl_vec3 *points, const tl_hull_def *def, tl_are
         TL_TRY(weld_corners(&s));
     }
     if (s.kept_count < count) {
-        TL_TRY(settle(&s, polygons, max_outside));
+        TL_TRY(bring_back(&s, polygons, max_outside));
     }
     bool changed = def->merge_distance > 0.0f;
     for (uint32_t pass = 0; changed && pass < MAX_PASSES; pass++) {
         TL_TRY(leave_out_spare(&s, polygons, &changed));
         if (changed) {
-            TL_TRY(settle(&s, polygons, max_outside));
+            TL_TRY(bring_back(&s, polygons, max_outside));
         }
     }
     return tl_stage_end(&stage);
