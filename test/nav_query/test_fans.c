@@ -193,11 +193,144 @@ static void large_tiles_have_wide_numbers(void **state)
     tl_navmesh_destroy(navmesh);
 }
 
+enum { SIDE = 3, BENDS = 3, SPOTS = BENDS + 1, POINTS = (SIDE + 1) * (SIDE + 1), LINES = 2 * POINTS };
+
+// A square of squares whose sides have further vertices on them, 300 lattice units long: two neighbours share several
+// edges in line.
+typedef struct bent_squares {
+    int32_t vertices[3 * (POINTS + LINES * BENDS)];
+    uint32_t first[SIDE * SIDE + 1], indices[4 * SPOTS * SIDE * SIDE], neighbours[4 * SPOTS * SIDE * SIDE];
+    uint32_t regions[SIDE * SIDE], areas[SIDE * SIDE], contours[SIDE * SIDE];
+} bent_squares;
+
+static uint32_t point_at(uint32_t x, uint32_t z)
+{
+    return z * (SIDE + 1) + x;
+}
+
+// The vertices of the line from a point along x or z.
+static uint32_t bend_at(uint32_t point, bool along_z, uint32_t k)
+{
+    return POINTS + (2 * point + (along_z ? 1 : 0)) * BENDS + k;
+}
+
+static void place_bends(bent_squares *b, test_random *random)
+{
+    for (uint32_t i = 0; i < POINTS; i++) {
+        const int32_t at[2] = { (int32_t)(i % (SIDE + 1)) * 300, (int32_t)(i / (SIDE + 1)) * 300 };
+        b->vertices[3 * i] = at[0];
+        b->vertices[3 * i + 2] = at[1];
+        for (uint32_t line = 0; line < 2; line++) {
+            int32_t along = 0;
+            for (uint32_t k = 0; k < BENDS; k++) {
+                along += 1 + (int32_t)test_random_below(random, k % 2 == 0 ? 4 : 140);
+                int32_t *v = b->vertices + 3 * bend_at(i, line != 0, k);
+                v[0] = at[0] + (line == 0 ? along : 0);
+                v[2] = at[1] + (line != 0 ? along : 0);
+            }
+        }
+    }
+}
+
+static uint32_t square_at(int32_t x, int32_t z)
+{
+    return x >= 0 && z >= 0 && x < SIDE && z < SIDE ? (uint32_t)(z * SIDE + x) : TL_NO_POLYGON;
+}
+
+// One side of a square, from its corner on; `ahead`: along the line, else against it.
+static void add_side(bent_squares *b, uint32_t *at, uint32_t corner, uint32_t line, bool along_z, bool ahead,
+                     uint32_t across)
+{
+    for (uint32_t k = 0; k < SPOTS; k++, ++*at) {
+        b->indices[*at] = k == 0 ? corner : bend_at(line, along_z, ahead ? k - 1 : BENDS - k);
+        b->neighbours[*at] = across;
+    }
+}
+
+static tl_nav_tile *make_bent_squares(test_random *random, tl_vec3 origin)
+{
+    static bent_squares b;
+    memset(&b, 0, sizeof b);
+    place_bends(&b, random);
+    uint32_t at = 0;
+    for (uint32_t p = 0; p < SIDE * SIDE; p++) {
+        const uint32_t x = p % SIDE, z = p / SIDE;
+        const int32_t sx = (int32_t)x, sz = (int32_t)z;
+        b.areas[p] = 63;
+        add_side(&b, &at, point_at(x, z), point_at(x, z), true, true, square_at(sx - 1, sz));
+        add_side(&b, &at, point_at(x, z + 1), point_at(x, z + 1), false, true, square_at(sx, sz + 1));
+        add_side(&b, &at, point_at(x + 1, z + 1), point_at(x + 1, z), true, false, square_at(sx + 1, sz));
+        add_side(&b, &at, point_at(x + 1, z), point_at(x, z), false, false, square_at(sx, sz - 1));
+        b.first[p + 1] = at;
+    }
+    tl_polygon_mesh mesh;
+    memset(&mesh, 0, sizeof mesh);
+    mesh.vertex_count = POINTS + LINES * BENDS;
+    mesh.polygon_count = SIDE * SIDE;
+    mesh.index_count = at;
+    mesh.vertices = b.vertices;
+    mesh.first = b.first;
+    mesh.indices = b.indices;
+    mesh.neighbours = b.neighbours;
+    mesh.regions = b.regions;
+    mesh.areas = b.areas;
+    mesh.contours = b.contours;
+    mesh.cell_size = 0.01f;
+    mesh.cell_height = 0.2f;
+    mesh.max_verts_per_poly = 4 * SPOTS;
+    mesh.bounds.min = mesh.bounds.max = origin;
+    tl_nav_tile_source source;
+    memset(&source, 0, sizeof source);
+    source.polygons = &mesh;
+    source.origin = origin;
+    source.agent_height = 2.0f;
+    source.agent_radius = 0.5f;
+    source.agent_max_climb = 0.5f;
+    tl_nav_tile *tile = NULL;
+    TEST_RESULT(tl_nav_tile_encode(&source, NULL, &tile, NULL), TL_OK);
+    TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
+    return tile;
+}
+
+// Which edge across is the same one is told by its ends. Far from the origin vertices have the same floats, and several
+// edges of one polygon may then name one of the other: going around a vertex need not come back to where it began.
+static void collapsed_vertices_have_walls(void **state)
+{
+    (void)state;
+    const float fars[6] = { 0.0f, 3e5f, 1e6f, 3e6f, 2e7f, -1e9f };
+    test_random random = { 11 };
+    uint32_t astray = 0;
+    for (uint32_t i = 0; i < 600; i++) {
+        tl_navmesh *navmesh = NULL;
+        TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
+        const tl_vec3 origin = tl_vec3_make(fars[i % 6], 0.0f, i % 4 == 0 ? fars[i / 6 % 6] : 0.0f);
+        TEST_RESULT(tl_navmesh_add_tile(navmesh, make_bent_squares(&random, origin), TL_NAV_TILE_OWNED), TL_OK);
+        const tl_nav_rings *rings = &navmesh->slots[0].rings;
+        for (uint32_t p = 0; p < SIDE * SIDE; p++) {
+            uint32_t count = 0;
+            const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, p, &count);
+            for (uint32_t k = 0; k < count; k++) {
+                TEST_CHECK(ring[k].mark >> TL_NAV_RING_TWIN_BITS < rings->walls_count);
+                if (tl_nav_ring_is_open(&ring[k])) {
+                    const uint32_t twin = tl_nav_inner_twin(rings, p, k);
+                    uint32_t across_count = 0;
+                    const tl_nav_ring_edge *across = tl_nav_ring_of(rings, ring[k].to, &across_count);
+                    TEST_CHECK(twin < across_count);
+                    astray += across[twin].to != p || tl_nav_inner_twin(rings, ring[k].to, twin) != k;
+                }
+            }
+        }
+        tl_navmesh_destroy(navmesh);
+    }
+    TEST_CHECK(astray > 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(seams_know_their_twins),
                                         cmocka_unit_test(rings_have_no_room_to_spare),
                                         cmocka_unit_test(far_twins_are_found),
-                                        cmocka_unit_test(large_tiles_have_wide_numbers) };
+                                        cmocka_unit_test(large_tiles_have_wide_numbers),
+                                        cmocka_unit_test(collapsed_vertices_have_walls) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -143,23 +143,26 @@ static bool is_ring_portal(const tl_nav_ring_edge *edge)
     return edge->to != TL_NAV_RING_WALL || tl_nav_ring_twin_hint(edge) == TL_NAV_RING_ON_PORTAL;
 }
 
-// Where a fan begins in its tile. True: nowhere, the tile's polygons lie all around.
+// Goes to where a fan begins in its tile. True: nowhere, the tile's polygons lie all around. A fan of more polygons
+// than are gathered is left where that many have been seen: where far from the origin vertices have the same floats,
+// going around one need not come back.
 static bool goes_around(const tl_nav_rings *rings, tile_place *at)
 {
     const tl_nav_ring_edge *from = &at->ring[at->edge];
-    do {
-        if (!cross_in_tile(rings, at)) {
-            return false;
-        }
+    for (uint32_t i = 1; i < TL_NAV_MAX_FAN && cross_in_tile(rings, at); i++) {
         at->edge = at->edge + 1 < at->count ? at->edge + 1 : 0;
-    } while (&at->ring[at->edge] != from);
-    return true;
+        if (&at->ring[at->edge] == from) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // Gives all edges of a tile's part of a fan the same walls. `own`: the next ones of their own; true when they are
 // taken.
-static bool assign_walls(const tl_nav_rings *rings, tile_place at, uint32_t own, uint32_t *walls_of)
+static bool assign_walls(const tl_nav_rings *rings, tile_place from, uint32_t own, uint32_t *walls_of)
 {
+    tile_place at = from;
     const bool is_closed = goes_around(rings, &at);
     const tile_place begin = at;
     const tl_nav_ring_edge *first = &begin.ring[begin.edge];
@@ -172,9 +175,12 @@ static bool assign_walls(const tl_nav_rings *rings, tile_place at, uint32_t own,
         at.edge = at.edge > 0 ? at.edge - 1 : at.count - 1;
         widen_fan(&f, &at.ring[at.edge]);
         is_own = is_own || (at.ring[at.edge].to >= TL_NAV_RING_SEAM && is_ring_portal(&at.ring[at.edge]));
-    } while (cross_in_tile(rings, &at) && &at.ring[at.edge] != first);
-    // What is too large to be gathered counts as a place to turn at; it is not known to be none.
-    if (is_own || f.count >= TL_NAV_MAX_FAN || (!is_closed && (f.is_wide || f.is_odd))) {
+    } while (f.count < TL_NAV_MAX_FAN && cross_in_tile(rings, &at) && &at.ring[at.edge] != first);
+    // What is too large to be gathered, or is not met on the way back, counts as a place to turn at: it is not known to
+    // be none.
+    uint32_t *const at_from = &walls_of[&from.ring[from.edge] - rings->edges];
+    if (is_own || *at_from != own || f.count == TL_NAV_MAX_FAN || (!is_closed && (f.is_wide || f.is_odd))) {
+        *at_from = own;
         return true;
     }
     for (at = begin; f.count > 0; f.count--) {
