@@ -45,8 +45,6 @@ set(talus_test_thread_pool_needs talus_cli)
 set(talus_test_draw_navmesh_needs talus_cli talus_sample)
 
 set(talus_test_ray_decide_needs talus_peer_gmp)
-set(talus_test_soup_bake_libraries pthread)
-set(talus_test_ray_batch_libraries pthread)
 foreach(stem frame options examples manual bake areas around audit prune ray soup_queries path hull polygonize draw detour bad_input
         links outputs baked_options walkable precision axes streams path_costs view hand_links world ranks routes crowd)
     set(talus_test_cli_${stem}_needs talus_command_path)
@@ -89,9 +87,6 @@ endforeach()
 
 # The same bytes from any order, thread count and compiler.
 set(talus_test_nav_golden_needs talus_sample talus_io)
-foreach(stem nav_golden nav_obstacles_thread nav_links_thread)
-    set(talus_test_${stem}_libraries pthread)
-endforeach()
 
 # Bullet and libccd: convex pairs to compare with, in one table.
 include(${PROJECT_SOURCE_DIR}/cmake/TalusPeerConvex.cmake)

@@ -90,7 +90,7 @@ static tl_result hull_to_halfedge(contract_run *run)
 static tl_result hull_check(contract_run *run)
 {
     const tl_hull *hull = contract_level_get()->hull;
-    void *bytes = aligned_alloc(TL_BLOB_ALIGNMENT, hull->blob.size);
+    void *bytes = test_blob_alloc(hull->blob.size);
     TEST_CHECK(bytes != NULL);
     memcpy(bytes, hull, hull->blob.size);
     if (run->what == CONTRACT_BAD_BYTES) {
@@ -99,14 +99,14 @@ static tl_result hull_check(contract_run *run)
     const tl_result result =
         tl_hull_check(run->what == CONTRACT_NULL_INPUT ? NULL : bytes, hull->blob.size, run->report);
     run->is_clear = true;
-    free(bytes);
+    test_blob_free(bytes);
     return result;
 }
 
 static tl_result hull_validate(contract_run *run)
 {
     const tl_hull *hull = contract_level_get()->hull;
-    tl_hull *copy = aligned_alloc(TL_BLOB_ALIGNMENT, hull->blob.size);
+    tl_hull *copy = test_blob_alloc(hull->blob.size);
     TEST_CHECK(copy != NULL);
     memcpy(copy, hull, hull->blob.size);
     if (run->what == CONTRACT_BAD_BYTES) {
@@ -120,7 +120,7 @@ static tl_result hull_validate(contract_run *run)
                                               hull->vertex_count, run->wants_report ? &validation : NULL);
     run->own_report = validation.base;
     run->is_clear = true;
-    free(copy);
+    test_blob_free(copy);
     return result;
 }
 

@@ -46,7 +46,7 @@ static file_bytes file_room(void)
 {
     tl_pack_item items[MAX_ITEMS];
     const size_t size = (size_t)tl_pack_size(items, level_items(items));
-    file_bytes file = { aligned_alloc(64, size), 0 };
+    file_bytes file = { test_blob_alloc(size), 0 };
     TEST_CHECK(file.bytes != NULL);
     return file;
 }
@@ -69,7 +69,7 @@ static tl_result pack_write(contract_run *run)
                                            null_input && run->variant == 1 ? NULL : append, &file, run->report);
     run->is_clear = file.size == 0;
     run->answer = contract_hash(file.bytes, file.size, 0);
-    free(file.bytes);
+    test_blob_free(file.bytes);
     return result;
 }
 
@@ -99,7 +99,7 @@ static tl_result pack_write_fetched(contract_run *run)
                               null_input && run->variant == 2 ? NULL : append, &file, run->report);
     run->is_clear = file.size == 0;
     run->answer = contract_hash(file.bytes, file.size, 0);
-    free(file.bytes);
+    test_blob_free(file.bytes);
     return result;
 }
 
@@ -124,7 +124,7 @@ static tl_result pack_open(contract_run *run)
                                           run->what == CONTRACT_NULL_OUTPUT ? NULL : &pack, run->report);
     run->is_clear = contract_is_zero(&pack, sizeof pack);
     run->answer = pack.chunk_count;
-    free(file.bytes);
+    test_blob_free(file.bytes);
     return result;
 }
 
@@ -137,7 +137,7 @@ static tl_result pack_index_size(contract_run *run)
                                                 run->what == CONTRACT_NULL_OUTPUT ? NULL : &size, run->report);
     run->is_clear = size == 0;
     run->answer = size;
-    free(file.bytes);
+    test_blob_free(file.bytes);
     return result;
 }
 
@@ -153,7 +153,7 @@ static tl_result pack_index_open(contract_run *run)
                                                 run->what == CONTRACT_NULL_OUTPUT ? NULL : &index, run->report);
     run->is_clear = contract_is_zero(&index, sizeof index);
     run->answer = index.count;
-    free(file.bytes);
+    test_blob_free(file.bytes);
     return result;
 }
 
@@ -171,7 +171,7 @@ static tl_result pack_entry_open(contract_run *run)
         tl_pack_entry_open(null_input && run->variant == 0 ? NULL : entry,
                            null_input && run->variant == 1 ? NULL : file.bytes + entry->offset, run->report);
     run->is_clear = true;
-    free(file.bytes);
+    test_blob_free(file.bytes);
     return result;
 }
 
@@ -187,7 +187,7 @@ static tl_result pack_find(contract_run *run)
                      run->what == CONTRACT_NOT_FOUND ? 7 : 0, run->what == CONTRACT_NULL_OUTPUT ? NULL : &chunk);
     run->is_clear = contract_is_zero(&chunk, sizeof chunk);
     TEST_CHECK(result == TL_OK || run->is_clear);
-    free(file.bytes);
+    test_blob_free(file.bytes);
     return result;
 }
 
@@ -207,7 +207,7 @@ static tl_result pack_load_navmesh(contract_run *run)
     run->answer = navmesh != NULL ? tl_navmesh_link_count(navmesh) : 0;
     TEST_CHECK(result == TL_OK || run->is_clear);
     tl_navmesh_destroy(navmesh);
-    free(file.bytes);
+    test_blob_free(file.bytes);
     return result;
 }
 
@@ -220,7 +220,7 @@ static tl_result pack_to_host_order(contract_run *run)
         tl_pack_to_host_order(run->what == CONTRACT_NULL_INPUT ? NULL : file.bytes, file.size, run->report);
     run->answer = contract_hash(file.bytes, file.size, 0);
     run->is_clear = true;
-    free(file.bytes);
+    test_blob_free(file.bytes);
     return result;
 }
 
@@ -455,7 +455,7 @@ static tl_result pack_load_pruned(contract_run *run)
     run->answer = pruned != NULL ? tl_navmesh_tile_count(pruned) : 0;
     TEST_CHECK(result == TL_OK || run->is_clear);
     tl_navmesh_destroy(pruned);
-    free(file.bytes);
+    test_blob_free(file.bytes);
     return result;
 }
 

@@ -96,13 +96,13 @@ static tl_result check(contract_run *run)
 {
     const tl_soup *soup = contract_level_get()->soup;
     const uint64_t size = tl_soup_size(soup);
-    tl_blob *copy = aligned_alloc(TL_BLOB_ALIGNMENT, size);
+    tl_blob *copy = test_blob_alloc(size);
     TEST_CHECK(copy != NULL);
     memcpy(copy, soup, size);
     copy->magic ^= run->what == CONTRACT_BAD_BYTES;
     const tl_result result = tl_soup_check(INPUT(run, 0, copy), size, run->report);
     run->is_clear = true;
-    free(copy);
+    test_blob_free(copy);
     return result;
 }
 

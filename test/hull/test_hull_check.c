@@ -24,10 +24,10 @@ static void test_prefixes_are_refused(void **state)
         TEST_RESULT(tl_hull_check(hull, hull->blob.size, NULL), TL_OK);
         for (uint64_t size = 0; size < hull->blob.size; size += 4) {
             // A copy of just that size, so that a sanitizer sees any read beyond it.
-            void *copy = aligned_alloc(64, (size + 63) / 64 * 64 + (size == 0 ? 64 : 0));
+            void *copy = test_blob_alloc(size);
             memcpy(copy, hull, size);
             TEST_RESULT(tl_hull_check(copy, size, NULL), TL_ERR_TRUNCATED);
-            free(copy);
+            test_blob_free(copy);
         }
         tl_blob_free(hull);
     }
@@ -45,7 +45,7 @@ static void test_altered_hulls_are_refused_or_harmless(void **state)
         tl_hull *hull;
         TEST_RESULT(tl_hull_bake(points, count, &def, &hull, NULL), TL_OK);
         uint64_t size = hull->blob.size;
-        uint8_t *copy = aligned_alloc(64, size);
+        uint8_t *copy = test_blob_alloc(size);
         for (uint32_t i = 0; i < 60000; i++) {
             memcpy(copy, hull, size);
             // Small numbers find plausible wrong indices, random bytes find the rest.
@@ -76,7 +76,7 @@ static void test_altered_hulls_are_refused_or_harmless(void **state)
                 }
             }
         }
-        free(copy);
+        test_blob_free(copy);
         tl_blob_free(hull);
     }
     // What passes differs in what no answer depends on: sources, the table's choice of a start.

@@ -340,7 +340,7 @@ static void test_changed_bytes_are_found(void **state)
     turn(points, count, any_rotation(&random), tl_vec3_make(0.0f, 1.0f, 0.0f));
     tl_hull *hull = bake(points, count, 0.0f, 1e-5f, NULL);
     TEST_CHECK(hull->merge_distance > 0.0);
-    unsigned char *bytes = aligned_alloc(64, hull->blob.size);
+    unsigned char *bytes = test_blob_alloc(hull->blob.size);
     uint32_t found = 0;
     for (uint32_t i = 0; i < 40 * rounds; i++) {
         memcpy(bytes, hull, hull->blob.size);
@@ -357,7 +357,7 @@ static void test_changed_bytes_are_found(void **state)
         found += result != TL_OK;
     }
     TEST_CHECK(found > 10 * rounds);
-    free(bytes);
+    test_blob_free(bytes);
     tl_blob_free(hull);
 }
 

@@ -82,14 +82,30 @@ static int same_f32(float a, float b)
     return (isnan(a) && isnan(b)) || memcmp(&a, &b, sizeof a) == 0;
 }
 
+// a * b + c, rounded once. The product is exact in double; of the sum's two neighbours the odd one is taken, from which
+// rounding to float cannot go wrong (Boldo and Melquiond 2008). Not all C libraries' fmaf rounds once.
+static float fused(float a, float b, float c)
+{
+    const double product = (double)a * (double)b;
+    double sum = product + (double)c;
+    const double rest = sum - product, error = (product - (sum - rest)) + ((double)c - rest);
+    uint64_t bits;
+    memcpy(&bits, &sum, sizeof bits);
+    if (isfinite(sum) && error != 0.0 && (bits & 1u) == 0) {
+        bits += (error > 0.0) == (sum > 0.0) ? 1u : UINT64_MAX;
+        memcpy(&sum, &bits, sizeof sum);
+    }
+    return (float)sum;
+}
+
 static int keeps_lane_32(const simd_input *in, const simd_output *plain, const simd_output *other, uint32_t lane)
 {
     float x = plain->value.f32[lane], y = other->value.f32[lane];
     switch (plain->promise) {
     case SIMD_FUSED:
-        return same_f32(x, y) || same_f32(fmaf(in->a[lane], in->b[lane], in->c[lane]), y);
+        return same_f32(x, y) || same_f32(fused(in->a[lane], in->b[lane], in->c[lane]), y);
     case SIMD_UNFUSED:
-        return same_f32(x, y) || same_f32(fmaf(-in->a[lane], in->b[lane], in->c[lane]), y);
+        return same_f32(x, y) || same_f32(fused(-in->a[lane], in->b[lane], in->c[lane]), y);
     case SIMD_EQUAL:
         for (uint32_t i = 0; i < plain->size / sizeof x; i++) {
             if (isnan(in->a[i])) {

@@ -99,7 +99,7 @@ static void divide_at_random(const tl_nav_tiles *whole, uint32_t layer_count, te
 {
     memset(out, 0, sizeof *out);
     uint32_t room = whole->tile_count * layer_count;
-    out->tiles = calloc(room, sizeof *out->tiles);
+    tl_nav_tile **tiles = calloc(room, sizeof *tiles);
     for (uint32_t t = 0; t < whole->tile_count; t++) {
         const tl_nav_tile *tile = whole->tiles[t];
         uint32_t *layers = malloc(tile->polygon_count * sizeof *layers);
@@ -109,15 +109,17 @@ static void divide_at_random(const tl_nav_tiles *whole, uint32_t layer_count, te
         tl_nav_tile_stack stack;
         TEST_RESULT(tl_nav_tile_divide(tile, layers, NULL, &stack, NULL), TL_OK);
         for (uint32_t i = 0; i < stack.count; i++) {
-            TEST_CHECK(i == 0 || out->tiles[out->tile_count - 1]->layer < stack.tiles[i]->layer);
-            out->tiles[out->tile_count++] = stack.tiles[i];
+            TEST_CHECK(i == 0 || tiles[out->tile_count - 1]->layer < stack.tiles[i]->layer);
+            tiles[out->tile_count++] = stack.tiles[i];
             stack.tiles[i] = NULL;
         }
         tl_nav_tile_stack_free(&stack);
         free(layers);
     }
-    // As long as their number, which tl_nav_tiles_free rests on.
-    out->tiles = realloc(out->tiles, out->tile_count * sizeof *out->tiles);
+    // As long as their number, and of the standard allocator: tl_nav_tiles_free rests on both.
+    out->tiles = test_blob_alloc(out->tile_count * sizeof *tiles);
+    memcpy(out->tiles, tiles, out->tile_count * sizeof *tiles);
+    free(tiles);
 }
 
 // tile_height < 0: that many layers at random.

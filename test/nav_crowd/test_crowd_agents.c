@@ -237,7 +237,7 @@ static void test_edits(void **state)
     TEST_RESULT(tl_navmesh_resolve(navmesh, middle.polygon, &tile, NULL), TL_OK);
     const int32_t tile_x = tile->tile_x, tile_z = tile->tile_z;
     const uint64_t size = tile->blob.size;
-    tl_nav_tile *copy = aligned_alloc(64, (size_t)size);
+    tl_nav_tile *copy = test_blob_alloc((size_t)size);
     memcpy(copy, tile, (size_t)size);
     const uint64_t edits = tl_navmesh_edit_count(navmesh);
     TEST_RESULT(tl_navmesh_remove_tile(navmesh, tile_x, tile_z), TL_OK);
@@ -272,7 +272,7 @@ static void test_edits(void **state)
     TEST_CHECK(status_after(crowd, navmesh, agent, 400) == TL_NAV_AGENT_ARRIVED);
     tl_nav_crowd_destroy(crowd);
     tl_navmesh_destroy(navmesh);
-    free(copy);
+    test_blob_free(copy);
 }
 
 // Goals so near to one another that not all can be stood on: those who come later stand beside the others, and all

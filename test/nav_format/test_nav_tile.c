@@ -225,7 +225,7 @@ static void test_bit_flips(void **state)
     level.detail = true;
     tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, NULL);
     size_t size = (size_t)tile->blob.size;
-    uint8_t *copy = aligned_alloc(64, size);
+    uint8_t *copy = test_blob_alloc(size);
     memcpy(copy, tile, size);
     uint32_t refused = 0, passed = 0;
     for (size_t bit = 0; bit < 8 * size; bit++) {
@@ -250,7 +250,7 @@ static void test_bit_flips(void **state)
     }
     // Areas, flags, sizes of the agent, and within bounds the detail mesh are free; all else is tied down.
     TEST_CHECK(passed > 100 && refused > 4 * passed);
-    free(copy);
+    test_blob_free(copy);
     tl_blob_free(tile);
 }
 

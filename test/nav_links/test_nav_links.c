@@ -255,7 +255,7 @@ static void test_damage(void **state)
     TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, NULL), TL_OK);
     uint64_t size = links->blob.size;
     TEST_RESULT(tl_nav_links_check(links, size, NULL), TL_OK);
-    uint8_t *bytes = aligned_alloc(TL_BLOB_ALIGNMENT, size);
+    uint8_t *bytes = test_blob_alloc(size);
     for (uint64_t cut = 0; cut < size; cut++) {
         memcpy(bytes, links, size);
         TEST_CHECK(tl_nav_links_check(bytes, cut, NULL) != TL_OK);
@@ -274,7 +274,7 @@ static void test_damage(void **state)
     like.flags = 0;
     TEST_RESULT(tl_nav_links_add(links, &like, level.navmesh), TL_ERR_ARGUMENT);
     TEST_CHECK(tl_navmesh_offmesh_count(level.navmesh) == 0);
-    free(bytes);
+    test_blob_free(bytes);
     tl_blob_free(links);
     free_level(&level);
 }

@@ -28,7 +28,7 @@ static twin make_twin(const tl_navmesh *navmesh)
     for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
         const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
         if (tile != NULL) {
-            void *copy = aligned_alloc(TL_BLOB_ALIGNMENT, tile->blob.size);
+            void *copy = test_blob_alloc(tile->blob.size);
             memcpy(copy, tile, tile->blob.size);
             TEST_RESULT(tl_nav_tile_check(copy, tile->blob.size, NULL), TL_OK);
             TEST_RESULT(tl_navmesh_add_tile(t.navmesh, copy, TL_NAV_TILE_BORROWED), TL_OK);
@@ -43,7 +43,7 @@ static void free_twin(twin *t)
 {
     tl_navmesh_destroy(t->navmesh);
     for (uint32_t i = 0; i < t->count; i++) {
-        free(t->tiles[i]);
+        test_blob_free(t->tiles[i]);
     }
 }
 

@@ -44,13 +44,13 @@ static void test_same_bytes(void **state)
     tl_nav_routes *again = route_file_bake(&with, 4);
     TEST_CHECK(memcmp(one, again, (size_t)one->blob.size) == 0);
     // To the other byte order and back.
-    unsigned char *copy = aligned_alloc(64, (size_t)one->blob.size);
+    unsigned char *copy = test_blob_alloc((size_t)one->blob.size);
     memcpy(copy, one, (size_t)one->blob.size);
     TEST_RESULT(tl_blob_swap(copy, one->blob.size, false, NULL), TL_OK);
     TEST_CHECK(memcmp(copy, one, (size_t)one->blob.size) != 0);
     TEST_RESULT(tl_blob_swap(copy, one->blob.size, true, NULL), TL_OK);
     TEST_CHECK(memcmp(copy, one, (size_t)one->blob.size) == 0);
-    free(copy);
+    test_blob_free(copy);
     tl_nav_routes *const all[] = { one, two, far_one, other, again };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         tl_blob_free(all[i]);
@@ -122,7 +122,7 @@ static void test_damaged_chunk(void **state)
     world_file file = world_file_make(&level, HERE, TL_PACK_AXES_Y_UP);
     tl_nav_routes *routes = route_file_bake(&file, 2);
     const size_t size = (size_t)routes->blob.size;
-    unsigned char *copy = aligned_alloc(64, size);
+    unsigned char *copy = test_blob_alloc(size);
     for (size_t cut = 0; cut < size; cut++) {
         unsigned char *part = malloc(cut + 1);
         memcpy(part, routes, cut);
@@ -136,7 +136,7 @@ static void test_damaged_chunk(void **state)
         refused += tl_nav_routes_check(copy, size, NULL) != TL_OK;
     }
     TEST_CHECK(refused > sizeof *routes - 16); // counts, places, signs; a length may be another one
-    free(copy);
+    test_blob_free(copy);
     tl_blob_free(routes);
     world_file_free(&file);
 }
@@ -174,7 +174,7 @@ static void test_hostile_chunk(void **state)
         world_file file = world_file_make(&level, HERE, TL_PACK_AXES_Y_UP);
         tl_nav_routes *routes = route_file_bake(&file, 2);
         const uint32_t words = (uint32_t)(routes->blob.size / 4);
-        uint32_t *copy = aligned_alloc(64, (size_t)routes->blob.size);
+        uint32_t *copy = test_blob_alloc((size_t)routes->blob.size);
         for (uint32_t round = 0; round < 120; round++) {
             memcpy(copy, routes, (size_t)routes->blob.size);
             const uint32_t changes = 1 + test_random_below(&random, 4);
@@ -196,7 +196,7 @@ static void test_hostile_chunk(void **state)
             }
             world_file_free(&with);
         }
-        free(copy);
+        test_blob_free(copy);
         tl_blob_free(routes);
         world_file_free(&file);
     }

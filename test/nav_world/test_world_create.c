@@ -35,7 +35,7 @@ static world_file rewrite(const world_file *file, const tl_pack_item *extra, boo
     world_file copy, out;
     uint32_t count = 0;
     memset(&out, 0, sizeof out);
-    copy.bytes = aligned_alloc(64, file->size);
+    copy.bytes = test_blob_alloc(file->size);
     memcpy(copy.bytes, file->bytes, file->size);
     TEST_RESULT(tl_pack_to_host_order(copy.bytes, file->size, NULL), TL_OK);
     TEST_RESULT(tl_pack_open(copy.bytes, file->size, &pack, NULL), TL_OK);
@@ -53,7 +53,7 @@ static world_file rewrite(const world_file *file, const tl_pack_item *extra, boo
         items[count++] = *extra;
     }
     TEST_RESULT(tl_pack_write(items, count, NULL, world_file_write, &out, NULL), TL_OK);
-    free(copy.bytes);
+    test_blob_free(copy.bytes);
     return out;
 }
 

@@ -28,7 +28,7 @@ static tl_result sink_write(const void *bytes, size_t size, void *user)
 
 static memory_sink sink_make(size_t capacity)
 {
-    memory_sink sink = { aligned_alloc(64, (capacity + 63) / 64 * 64), 0, capacity, 0 };
+    memory_sink sink = { test_blob_alloc(capacity), 0, capacity, 0 };
     return sink;
 }
 
@@ -67,7 +67,7 @@ static void test_round_trip(void **state)
     TEST_CHECK(chunk.size == 1 && ((const char *)chunk.bytes)[0] == 'l');
     TEST_RESULT(tl_pack_find(&pack, TL_PACK_NAVT, 0, &chunk), TL_NOT_FOUND);
     TEST_CHECK(tl_pack_chunk_at(&pack, 2).id == 1);
-    free(sink.bytes);
+    test_blob_free(sink.bytes);
 }
 
 // The same file from chunks that are fetched one at a time into one place.
@@ -132,8 +132,8 @@ static void test_fetched(void **state)
     entries[3] = entries[0];
     TEST_RESULT(tl_pack_write_fetched(entries, 4, NULL, fetch_words, write_words, &words, &report), TL_ERR_ARGUMENT);
     TEST_CHECK(strcmp(report.element, "chunk") == 0);
-    free(words.sink.bytes);
-    free(whole.bytes);
+    test_blob_free(words.sink.bytes);
+    test_blob_free(whole.bytes);
 }
 
 // The layout is a promise to other programs: some of its bytes, and its hash.
@@ -146,7 +146,7 @@ static void test_layout(void **state)
     static const uint8_t entry[24] = { 'S', 'O', 'U', 'P', 0, 0, 0, 0, 192, 0, 0, 0, 0, 0, 0, 0, 70 };
     TEST_CHECK(memcmp(sink.bytes + 64, entry, sizeof entry) == 0);
     TEST_CHECK(memcmp(sink.bytes + 192, WORDS, 70) == 0);
-    free(sink.bytes);
+    test_blob_free(sink.bytes);
 }
 
 static void test_empty(void **state)
@@ -159,7 +159,7 @@ static void test_empty(void **state)
     TEST_CHECK(pack.chunk_count == 0);
     tl_navmesh *navmesh = NULL;
     TEST_RESULT(tl_pack_load_navmesh(&pack, NULL, &navmesh, NULL), TL_NOT_FOUND);
-    free(sink.bytes);
+    test_blob_free(sink.bytes);
 }
 
 static void test_prefixes(void **state)
@@ -169,22 +169,22 @@ static void test_prefixes(void **state)
     for (size_t size = 0; size < sink.size; size++) {
         // No larger than alignment demands, and filled up with what no file has.
         size_t room = size > 0 ? (size + 63) / 64 * 64 : 64;
-        uint8_t *block = aligned_alloc(64, room);
+        uint8_t *block = test_blob_alloc(room);
         memset(block, 0xa5, room);
         memcpy(block, sink.bytes, size);
         tl_pack pack;
         tl_report report;
         TEST_RESULT(tl_pack_open(block, size, &pack, &report), TL_ERR_TRUNCATED);
         TEST_CHECK(pack.bytes == NULL && report.element != NULL);
-        free(block);
+        test_blob_free(block);
     }
     tl_pack pack;
-    uint8_t *longer = aligned_alloc(64, sink.size + 64);
+    uint8_t *longer = test_blob_alloc(sink.size + 64);
     memset(longer, 0, sink.size + 64);
     memcpy(longer, sink.bytes, sink.size);
     TEST_RESULT(tl_pack_open(longer, sink.size + 64, &pack, NULL), TL_ERR_CORRUPT);
-    free(longer);
-    free(sink.bytes);
+    test_blob_free(longer);
+    test_blob_free(sink.bytes);
 }
 
 static tl_result expected_for(size_t at)
@@ -226,7 +226,7 @@ static void test_altered(void **state)
     tl_pack pack;
     TEST_RESULT(tl_pack_open(sink.bytes, sink.size, &pack, NULL), TL_OK);
     TEST_RESULT(tl_pack_open(sink.bytes + 1, sink.size - 1, &pack, NULL), TL_ERR_ARGUMENT);
-    free(sink.bytes);
+    test_blob_free(sink.bytes);
 }
 
 static void test_bad_items(void **state)
@@ -260,7 +260,7 @@ static void test_bad_items(void **state)
         sink.fail_after = limit;
         TEST_RESULT(tl_pack_write(items, 3, NULL, sink_write, &sink, &report), TL_ERR_IO);
     }
-    free(sink.bytes);
+    test_blob_free(sink.bytes);
 }
 
 static void test_meta(void **state)
@@ -433,7 +433,7 @@ static void test_load_navmesh(void **state)
     TEST_CHECK(tl_navmesh_tile_count(navmesh) == 4);
     TEST_CHECK(tl_navmesh_link_count(navmesh) == 48); // 24 inner edges of a grid of 4 x 4, both ways
     tl_navmesh_destroy(navmesh);
-    free(sink.bytes);
+    test_blob_free(sink.bytes);
 
     tiles[2]->side_end[0]++; // hashes right, content wrong
     sink = write_items(items, 4);
@@ -441,7 +441,7 @@ static void test_load_navmesh(void **state)
     TEST_RESULT(tl_pack_open(sink.bytes, sink.size, &pack, NULL), TL_OK);
     TEST_RESULT(tl_pack_load_navmesh(&pack, NULL, &navmesh, &report), TL_ERR_CORRUPT);
     TEST_CHECK(navmesh == NULL && report.element_index == 2);
-    free(sink.bytes);
+    test_blob_free(sink.bytes);
     for (uint32_t i = 0; i < 4; i++) {
         tl_blob_free(tiles[i]);
     }

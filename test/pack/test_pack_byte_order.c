@@ -47,7 +47,7 @@ typedef tl_result check_fn(const void *bytes, uint64_t size, tl_report *report);
 
 static void *copy_blob(const void *blob, uint64_t size)
 {
-    void *copy = aligned_alloc(64, (size_t)(size + 63) / 64 * 64);
+    void *copy = test_blob_alloc((size_t)size);
     memcpy(copy, blob, (size_t)size);
     return copy;
 }
@@ -66,7 +66,7 @@ static void goes_round(const void *blob, check_fn *check)
     TEST_CHECK(memcmp(copy, blob, (size_t)head.size) == 0);
     TEST_RESULT(check(copy, head.size, NULL), TL_OK);
     TEST_RESULT(tl_blob_swap(copy, 8, true, NULL), TL_ERR_TRUNCATED);
-    free(copy);
+    test_blob_free(copy);
 }
 
 /// Any byte of a foreign head may be wrong: nothing is read or written out of bounds, and the check has the last word.
@@ -83,7 +83,7 @@ static void survives_damage(const void *blob, check_fn *check)
             const tl_result swapped = tl_blob_swap(damaged, size, true, NULL);
             refused += swapped != TL_OK ? 1 : 0;
             check(damaged, size, NULL);
-            free(damaged);
+            test_blob_free(damaged);
         }
     }
     TEST_CHECK(refused >= 8); // the magic's bits at least
@@ -91,9 +91,9 @@ static void survives_damage(const void *blob, check_fn *check)
         uint8_t *part = copy_blob(foreign, shorter);
         (void)tl_blob_swap(part, shorter, true, NULL);
         TEST_CHECK(check(part, shorter, NULL) != TL_OK);
-        free(part);
+        test_blob_free(part);
     }
-    free(foreign);
+    test_blob_free(foreign);
 }
 
 static void go(void *blob, check_fn *check)
@@ -248,8 +248,8 @@ static void test_chunk_types(void **state)
         TEST_RESULT(tl_blob_swap(blob, blobs[i]->size, false, NULL), TL_OK);
         TEST_CHECK(memcmp(chunk, blob, (size_t)blobs[i]->size) == 0);
         TEST_CHECK(memcmp(chunk, blobs[i], (size_t)blobs[i]->size) != 0);
-        free(chunk);
-        free(blob);
+        test_blob_free(chunk);
+        test_blob_free(blob);
     }
     tl_blob_free(pruning);
     tl_navmesh_destroy(navmesh);
@@ -279,7 +279,7 @@ static memory_bytes small_file(void)
     const tl_pack_item items[] = { { TL_PACK_SOUP, 0, soup, tl_soup_size(soup) },
                                    { TL_PACK_HULL, 0, WORDS, sizeof WORDS },
                                    { TL_PACK_TYPE('M', 'I', 'N', 'E'), 0, soup, 64 } };
-    memory_bytes file = { aligned_alloc(64, (size_t)tl_pack_size(items, 3)), 0 };
+    memory_bytes file = { test_blob_alloc((size_t)tl_pack_size(items, 3)), 0 };
     TEST_RESULT(tl_pack_write(items, 3, NULL, append_bytes, &file, NULL), TL_OK);
     tl_blob_free(soup);
     free(level);
@@ -302,8 +302,8 @@ static void test_file(void **state)
     TEST_RESULT(tl_pack_to_host_order(copy, file.size, NULL), TL_OK);
     TEST_RESULT(tl_pack_to_host_order(copy, file.size, NULL), TL_OK);
     TEST_RESULT(tl_pack_open(copy, file.size, &pack, NULL), TL_OK);
-    free(copy);
-    free(file.bytes);
+    test_blob_free(copy);
+    test_blob_free(file.bytes);
 }
 
 // As tl_pack_open: every part of the file is refused by name, and none is believed before its hash.
@@ -322,15 +322,15 @@ static void test_damaged_file(void **state)
         const tl_result result = tl_pack_swap(damaged, file.size, true, NULL);
         TEST_CHECK(result == (padding ? TL_OK : expected));
         TEST_CHECK(result != TL_OK || tl_pack_open(damaged, file.size, &pack, NULL) == TL_ERR_CORRUPT);
-        free(damaged);
+        test_blob_free(damaged);
     }
     for (size_t size = 0; size < file.size; size += 7) {
         uint8_t *part = copy_blob(foreign, size + 1);
         TEST_RESULT(tl_pack_swap(part, size, true, NULL), TL_ERR_TRUNCATED);
-        free(part);
+        test_blob_free(part);
     }
-    free(foreign);
-    free(file.bytes);
+    test_blob_free(foreign);
+    test_blob_free(file.bytes);
 }
 
 static void test_detour_of_both_orders(void **state)
@@ -363,7 +363,7 @@ static void test_detour_of_both_orders(void **state)
         for (uint64_t shorter = 0; shorter < size; shorter += 61) {
             uint8_t *part = copy_blob(bytes, shorter + 1);
             TEST_CHECK(tl_detour_read(part, shorter, NULL, &ours, NULL) != TL_OK);
-            free(part);
+            test_blob_free(part);
         }
         free(bytes);
     }

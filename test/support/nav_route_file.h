@@ -30,7 +30,7 @@ static inline world_file route_file_with(const world_file *file, const void *rou
     tl_pack pack;
     world_file out;
     memset(&out, 0, sizeof out);
-    unsigned char *bytes = (unsigned char *)aligned_alloc(64, (file->size + 63) / 64 * 64);
+    unsigned char *bytes = (unsigned char *)test_blob_alloc(file->size);
     TEST_CHECK(bytes != NULL);
     memcpy(bytes, file->bytes, file->size);
     TEST_RESULT(tl_pack_to_host_order(bytes, file->size, NULL), TL_OK);
@@ -44,7 +44,7 @@ static inline world_file route_file_with(const world_file *file, const void *rou
     const tl_pack_item extra = { TL_PACK_ROUT, 0, routes, size };
     items[pack.chunk_count] = extra;
     TEST_RESULT(tl_pack_write(items, pack.chunk_count + 1, NULL, world_file_write, &out, NULL), TL_OK);
-    free(bytes);
+    test_blob_free(bytes);
     return out;
 }
 

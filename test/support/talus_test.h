@@ -93,6 +93,26 @@ typedef struct test_allocator {
     uint64_t peak_bytes;
 } test_allocator;
 
+/// A block that a blob may lie in; free it with test_blob_free. Windows has such blocks by other functions than malloc's.
+static inline void *test_blob_alloc(size_t size)
+{
+    size_t rounded = (size + TL_BLOB_ALIGNMENT - (size > 0)) / TL_BLOB_ALIGNMENT * TL_BLOB_ALIGNMENT;
+#ifdef _WIN32
+    return _aligned_malloc(rounded, TL_BLOB_ALIGNMENT);
+#else
+    return aligned_alloc(TL_BLOB_ALIGNMENT, rounded);
+#endif
+}
+
+static inline void test_blob_free(void *block)
+{
+#ifdef _WIN32
+    _aligned_free(block);
+#else
+    free(block);
+#endif
+}
+
 static inline void *test_allocate(size_t size, size_t alignment, void *user)
 {
     test_allocator *test = (test_allocator *)user;
@@ -100,7 +120,8 @@ static inline void *test_allocate(size_t size, size_t alignment, void *user)
     if (test->fail_at != 0 && test->calls >= test->fail_at) {
         return NULL;
     }
-    void *block = aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    assert_true(alignment <= TL_BLOB_ALIGNMENT);
+    void *block = test_blob_alloc(size);
     if (block != NULL) {
         test->live_blocks++;
         test->live_bytes += size;
@@ -114,7 +135,7 @@ static inline void test_release(void *block, size_t size, void *user)
     test_allocator *test = (test_allocator *)user;
     test->live_blocks--;
     test->live_bytes -= size;
-    free(block);
+    test_blob_free(block);
 }
 
 static inline void test_allocator_init(test_allocator *test, uint64_t fail_at)
