@@ -43,8 +43,7 @@ static inline tl_nav_heightfield test_random_heightfield(test_random *random, co
     field.cell_height = config->cell_height;
     uint32_t columns = field.width * field.height;
     field.first_span = (uint32_t *)test_blob_alloc((columns + 1) * sizeof(uint32_t));
-    field.spans =
-        (tl_nav_span *)test_blob_alloc((uint64_t)columns * (max_spans + 1) * sizeof(tl_nav_span));
+    field.spans = (tl_nav_span *)test_blob_alloc((uint64_t)columns * (max_spans + 1) * sizeof(tl_nav_span));
     for (uint32_t c = 0; c < columns; c++) {
         field.first_span[c] = field.span_count;
         uint32_t at = test_random_below(random, 3), count = test_random_below(random, max_spans + 1);

@@ -93,7 +93,8 @@ typedef struct test_allocator {
     uint64_t peak_bytes;
 } test_allocator;
 
-/// A block that a blob may lie in; free it with test_blob_free. Windows has such blocks by other functions than malloc's.
+/// A block that a blob may lie in; free it with test_blob_free. Windows has such blocks by other functions than
+/// malloc's.
 static inline void *test_blob_alloc(size_t size)
 {
     size_t rounded = (size + TL_BLOB_ALIGNMENT - (size > 0)) / TL_BLOB_ALIGNMENT * TL_BLOB_ALIGNMENT;
