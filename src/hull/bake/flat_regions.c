@@ -236,12 +236,7 @@ static bool is_on_a_straight_border(const region_grower *g, const uint32_t borde
 tl_result tl_hull_find_spare_vertices(const tl_hull_polygons *fine, const tl_vec3 *points, double distance,
                                       tl_arena *arena, tl_stage *stage, bool *spare)
 {
-    region_grower g;
-    memset(&g, 0, sizeof g);
-    g.fine = fine;
-    g.points = points;
-    g.distance = distance;
-    g.stage = stage;
+    region_grower g = { .fine = fine, .points = points, .distance = distance, .stage = stage };
     TL_TRY(grow_regions(&g, arena));
     // Of each vertex, the borders that start there: how many, and the first two.
     uint32_t *counts = TL_PUSH_ZERO(arena, uint32_t, fine->vertex_count);
@@ -319,13 +314,7 @@ static tl_result number_regions(const region_grower *g, tl_arena *arena, tl_sort
 tl_result tl_hull_merge_flat_regions(const tl_hull_polygons *fine, const tl_vec3 *points, double distance,
                                      tl_arena *arena, tl_stage *stage, tl_hull_polygons *merged_out)
 {
-    region_grower g;
-    memset(&g, 0, sizeof g);
-    g.fine = fine;
-    g.points = points;
-    g.distance = distance;
-    g.keeps_corners = true;
-    g.stage = stage;
+    region_grower g = { .fine = fine, .points = points, .distance = distance, .keeps_corners = true, .stage = stage };
     TL_TRY(grow_regions(&g, arena));
     tl_sort_item *borders = TL_PUSH(arena, tl_sort_item, fine->face_count);
     bool *is_taken = TL_PUSH_ZERO(arena, bool, fine->face_count);

@@ -130,7 +130,7 @@ static tl_result measure_left_out(hull_simplifier *s, tl_quickhull *hull, double
     if (beyond == NULL) {
         return TL_ERR_MEMORY;
     }
-    TL_TRY(tl_quickhull_measure_passive(hull, allowed, beyond, &count, max_outside));
+    TL_TRY(tl_quickhull_measure_left_out(hull, allowed, beyond, &count, max_outside));
     for (uint32_t i = 0; i < count; i++) {
         restore_corner(s, s->order[beyond[i]]);
     }

@@ -48,24 +48,8 @@ static double distance_sq_to_hull(tl_quickhull *hull, uint32_t face, tl_vec3 poi
     return nearest;
 }
 
-void tl_quickhull_report_left_out(tl_quickhull *hull, tl_hull_report *report)
-{
-    double farthest_sq = 0.0;
-    for (uint32_t face = 0; face < hull->face_count; face++) {
-        uint32_t point = hull->conflicts[face].live ? hull->conflicts[face].first : TL_NONE;
-        for (; point != TL_NONE; point = hull->local[point].next) {
-            double bound_sq = distance_sq_to_face(hull, face, tl_vec3d_from(hull->local[point].position));
-            if (bound_sq > farthest_sq) {
-                farthest_sq = tl_max_f64(farthest_sq, distance_sq_to_hull(hull, face, hull->local[point].position));
-            }
-        }
-    }
-    report->points_left_out = hull->waiting;
-    report->max_outside = sqrt(farthest_sq);
-}
-
-tl_result tl_quickhull_measure_passive(tl_quickhull *hull, double allowed, uint32_t *beyond, uint32_t *beyond_count,
-                                       double *max_outside)
+tl_result tl_quickhull_measure_left_out(tl_quickhull *hull, double allowed, uint32_t *beyond, uint32_t *beyond_count,
+                                        double *max_outside)
 {
     double farthest_sq = 0.0;
     *beyond_count = 0;

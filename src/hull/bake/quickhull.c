@@ -266,7 +266,9 @@ tl_result tl_quickhull_build(tl_quickhull *hull, const tl_hull_def *def, tl_hull
     if (report != NULL) {
         report->triangle_count = hull->live_faces;
         report->thickened = *copies_out > 1;
-        tl_quickhull_report_left_out(hull, report);
+        uint32_t beyond_count;
+        report->points_left_out = hull->waiting;
+        TL_TRY(tl_quickhull_measure_left_out(hull, (double)INFINITY, NULL, &beyond_count, &report->max_outside));
     }
     return tl_quickhull_merge_faces(hull, polygons_out);
 }

@@ -176,12 +176,11 @@ void tl_quickhull_flood_visible(tl_quickhull *hull, uint32_t first, tl_vec3 eye)
 // Replaces all that is visible from the face's farthest point by a cone. Leaves `visible` for the refiling.
 tl_result tl_quickhull_add_point(tl_quickhull *hull, uint32_t face);
 
-// left_out.c: the points that are still outside.
-void tl_quickhull_report_left_out(tl_quickhull *hull, tl_hull_report *report);
-// Lists in `beyond` [passive_count] the passive points that lie farther outside than `allowed`, and how far the
-// farthest of the others does. TL_ERR_CANCELLED.
-tl_result tl_quickhull_measure_passive(tl_quickhull *hull, double allowed, uint32_t *beyond, uint32_t *beyond_count,
-                                       double *max_outside);
+// left_out.c: of the points that are still outside, lists in `beyond` those that lie farther out than `allowed`, and
+// measures how far the farthest of the others does. `beyond` holds all of them, and may be NULL where `allowed` is
+// infinite. TL_ERR_CANCELLED.
+tl_result tl_quickhull_measure_left_out(tl_quickhull *hull, double allowed, uint32_t *beyond, uint32_t *beyond_count,
+                                        double *max_outside);
 
 // quickhull.c: the merged hull of points that are all corners; NULL allocator: malloc. Silent.
 tl_result tl_hull_bake_merged(const tl_vec3 *corners, uint32_t count, double distance, const tl_allocator *allocator,
