@@ -39,7 +39,7 @@ static void forget_areas(const char *path)
 {
     size_t size;
     char *text = cli_read_file(path, &size);
-    void *bytes = aligned_alloc(64, (size + 63) / 64 * 64);
+    void *bytes = test_blob_alloc(size);
     memcpy(bytes, text, size);
     free(text);
     tl_pack pack;
@@ -58,7 +58,7 @@ static void forget_areas(const char *path)
     assert_non_null(file);
     TEST_RESULT(tl_pack_write(items, count, NULL, append_to_file, file, NULL), TL_OK);
     fclose(file);
-    free(bytes);
+    test_blob_free(bytes);
 }
 
 static void test_missing_navmesh(void **state)

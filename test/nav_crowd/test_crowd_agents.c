@@ -183,17 +183,7 @@ static void test_wide(void **state)
 static void test_links(void **state)
 {
     (void)state;
-    static test_level level;
-    memset(&level, 0, sizeof level);
-    audit_floor(&level, -10, -6, -1, 6, 0.0f);
-    audit_floor(&level, 1, -6, 10, 6, 0.0f);
-    tl_navmesh *navmesh = crowd_bake(&level, 0);
-    tl_nav_offmesh jump = tl_default_nav_offmesh();
-    tl_nav_ref link;
-    jump.start = tl_vec3_make(-1.4f, 0, 0);
-    jump.end = tl_vec3_make(1.4f, 0, 0);
-    jump.both_ways = true;
-    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &jump, &link, NULL), TL_OK);
+    tl_navmesh *navmesh = crowd_ditch_world(9.0f);
     tl_nav_crowd *crowd = crowd_make(20);
     for (uint32_t i = 0; i < 12; i++) {
         float side = i % 3 == 0 ? -1.0f : 1.0f;

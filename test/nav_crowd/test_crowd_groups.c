@@ -295,17 +295,7 @@ static void test_player(void **state)
 static void test_link(void **state)
 {
     (void)state;
-    static test_level level;
-    memset(&level, 0, sizeof level);
-    audit_floor(&level, -14, -6, -1, 6, 0.0f);
-    audit_floor(&level, 1, -6, 14, 6, 0.0f);
-    tl_navmesh *navmesh = crowd_bake(&level, 0);
-    tl_nav_offmesh jump = tl_default_nav_offmesh();
-    tl_nav_ref link;
-    jump.start = tl_vec3_make(-1.4f, 0, 0);
-    jump.end = tl_vec3_make(1.4f, 0, 0);
-    jump.both_ways = true;
-    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &jump, &link, NULL), TL_OK);
+    tl_navmesh *navmesh = crowd_ditch_world(13.0f);
     const tl_nav_group_def def = formed(TL_NAV_FORMATION_WEDGE);
     group_run run = begin_run(navmesh, &def, 7, -9.0f, 0.0f);
     send_group(&run, 9.0f, 1.0f);

@@ -48,6 +48,23 @@ static inline tl_navmesh *crowd_door_world(float width)
     return crowd_bake(&level, 0);
 }
 
+/// Two floors, `length` metres by 12 each, and between them a ditch of two metres with one link over it, both ways.
+static inline tl_navmesh *crowd_ditch_world(float length)
+{
+    static test_level level;
+    memset(&level, 0, sizeof level);
+    audit_floor(&level, -1.0f - length, -6.0f, -1.0f, 6.0f, 0.0f);
+    audit_floor(&level, 1.0f, -6.0f, 1.0f + length, 6.0f, 0.0f);
+    tl_navmesh *navmesh = crowd_bake(&level, 0);
+    tl_nav_offmesh jump = tl_default_nav_offmesh();
+    tl_nav_ref link;
+    jump.start = tl_vec3_make(-1.4f, 0.0f, 0.0f);
+    jump.end = tl_vec3_make(1.4f, 0.0f, 0.0f);
+    jump.both_ways = true;
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &jump, &link, NULL), TL_OK);
+    return navmesh;
+}
+
 static inline tl_nav_crowd *crowd_make(uint32_t max_agents)
 {
     tl_nav_crowd_def def = tl_default_nav_crowd_def();
