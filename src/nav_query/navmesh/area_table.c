@@ -38,30 +38,36 @@ static size_t sum_size(const tl_nav_areas *areas)
     return areas->is_wide ? sizeof *areas->sums.wide : sizeof *areas->sums.narrow;
 }
 
-tl_result tl_nav_areas_make(const tl_allocator *allocator, const tl_nav_tile *tile, tl_nav_areas *areas_out)
+// False: the sum of all does not fit 32 bits, and the numbers are narrow.
+static bool sum_up_areas(const tl_nav_tile *tile, const tl_nav_areas *areas)
 {
-    memset(areas_out, 0, sizeof *areas_out);
     uint64_t sum = 0;
-    for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        sum += doubled_polygon_area(tile, p);
-    }
-    tl_nav_areas areas;
-    areas.is_wide = sum > UINT32_MAX;
-    areas.sums.wide = tl_allocate_array(allocator, (uint64_t)tile->polygon_count + 1, sum_size(&areas));
-    if (areas.sums.wide == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    sum = 0;
     for (uint32_t p = 0; p <= tile->polygon_count; p++) {
-        if (areas.is_wide) {
-            areas.sums.wide[p] = sum;
+        if (areas->is_wide) {
+            areas->sums.wide[p] = sum;
         } else {
-            areas.sums.narrow[p] = (uint32_t)sum;
+            areas->sums.narrow[p] = (uint32_t)sum;
         }
         sum += p < tile->polygon_count ? doubled_polygon_area(tile, p) : 0;
     }
-    *areas_out = areas;
-    return TL_OK;
+    return areas->is_wide || sum <= UINT32_MAX;
+}
+
+tl_result tl_nav_areas_make(const tl_allocator *allocator, const tl_nav_tile *tile, tl_nav_areas *areas_out)
+{
+    for (int wide = 0; wide < 2; wide++) {
+        areas_out->is_wide = wide > 0;
+        areas_out->sums.wide = tl_allocate_array(allocator, (uint64_t)tile->polygon_count + 1, sum_size(areas_out));
+        if (areas_out->sums.wide == NULL) {
+            break;
+        }
+        if (sum_up_areas(tile, areas_out)) {
+            return TL_OK;
+        }
+        tl_nav_areas_free(allocator, areas_out, tile->polygon_count);
+    }
+    memset(areas_out, 0, sizeof *areas_out);
+    return TL_ERR_MEMORY;
 }
 
 void tl_nav_areas_free(const tl_allocator *allocator, tl_nav_areas *areas, uint32_t polygon_count)

@@ -13,13 +13,11 @@
 #include "nav_query/navmesh/fans.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
-#include "nav_query/navmesh/tile_links.h"
+#include "nav_query/navmesh/tile_seams.h"
 
 #include <string.h>
 
 enum { LAST_SALT = 0xffff };
-
-static const int32_t SIDE_STEP[TL_NAV_SIDE_COUNT][2] = { { -1, 0 }, { 0, 1 }, { 1, 0 }, { 0, -1 }, { 0, 0 } };
 
 tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **navmesh_out)
 {
@@ -197,160 +195,6 @@ static uint64_t count_inner_links(const tl_nav_tile *tile)
     return count;
 }
 
-// A tile around a new one that gets links to it: what becomes of its facing side and its rings.
-typedef struct seam_neighbour {
-    uint32_t slot, side; // the new tile's side
-    uint32_t added;      // links
-    tl_nav_side_links facing;
-    tl_nav_rings rings;
-} seam_neighbour;
-
-// What a new tile brings: links of its sides and of its neighbours' facing ones, its own rings and theirs, areas. All
-// made before anything is changed.
-typedef struct seam_set {
-    seam_neighbour *neighbours; // [capacity]
-    uint32_t neighbour_count, neighbour_capacity;
-    tl_nav_side_links own[TL_NAV_SIDE_COUNT];
-    tl_nav_rings rings;
-    tl_nav_areas areas;
-    void *keeper; // of an owned tile (tl_nav_slot)
-} seam_set;
-
-// Of the tiles that a side faces: the first one's slot; tl_nav_next_slot gives the others. Beyond a cut lies the place
-// itself.
-static uint32_t first_facing(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z, uint32_t side)
-{
-    return tl_nav_find_slot(navmesh, (int64_t)tile_x + SIDE_STEP[side][0], (int64_t)tile_z + SIDE_STEP[side][1]);
-}
-
-static void free_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_set *seams)
-{
-    tl_release_array(&navmesh->allocator, seams->keeper, 0, 1);
-    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
-        tl_nav_free_side(&navmesh->allocator, &seams->own[side]);
-    }
-    for (uint32_t i = 0; i < seams->neighbour_count; i++) {
-        tl_nav_free_side(&navmesh->allocator, &seams->neighbours[i].facing);
-        tl_nav_rings_free(&navmesh->allocator, &seams->neighbours[i].rings);
-    }
-    tl_release_array(&navmesh->allocator, seams->neighbours, seams->neighbour_capacity, sizeof *seams->neighbours);
-    tl_nav_rings_free(&navmesh->allocator, &seams->rings);
-    tl_nav_areas_free(&navmesh->allocator, &seams->areas, tile->polygon_count);
-}
-
-// Adds fresh links to those of a side, which may have none yet. Takes the fresh ones over, also on failure.
-static tl_result extend_side(const tl_allocator *allocator, const tl_nav_side_links *side, tl_nav_side_links *fresh,
-                             tl_nav_side_links *out)
-{
-    if (side->first == NULL) {
-        *out = *fresh;
-        return TL_OK;
-    }
-    const tl_result result = tl_nav_join_sides(allocator, side, fresh, out);
-    tl_nav_free_side(allocator, fresh);
-    return result;
-}
-
-// Links the new tile with one that a side of it faces, if there is anything to link.
-static tl_result make_link(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, uint32_t side,
-                           uint32_t facing_slot, seam_set *seams)
-{
-    const tl_allocator *allocator = &navmesh->allocator;
-    tl_nav_side_links own, facing, joined;
-    const tl_nav_tile_side near = { tile, slot, side };
-    const tl_nav_tile_side far = { navmesh->slots[facing_slot].tile, facing_slot, tl_nav_facing_side(side) };
-    TL_TRY(tl_nav_link_sides(allocator, &near, &far, &own, &facing));
-    if (own.link_count == 0) {
-        return TL_OK;
-    }
-    tl_result result = extend_side(allocator, &seams->own[side], &own, &joined);
-    if (result != TL_OK) {
-        tl_nav_free_side(allocator, &facing);
-        return result;
-    }
-    if (joined.first != own.first) {
-        tl_nav_free_side(allocator, &seams->own[side]);
-    }
-    seams->own[side] = joined;
-    seam_neighbour *neighbour = &seams->neighbours[seams->neighbour_count];
-    memset(neighbour, 0, sizeof *neighbour);
-    neighbour->slot = facing_slot;
-    neighbour->side = side;
-    neighbour->added = facing.link_count;
-    TL_TRY(extend_side(allocator, &navmesh->slots[facing_slot].sides[tl_nav_facing_side(side)], &facing,
-                       &neighbour->facing));
-    seams->neighbour_count++;
-    return TL_OK;
-}
-
-static tl_result make_links(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, seam_set *seams)
-{
-    uint32_t count = 0;
-    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
-        for (uint32_t facing = first_facing(navmesh, tile->tile_x, tile->tile_z, side); facing != TL_NAV_NO_SLOT;
-             facing = tl_nav_next_slot(navmesh, facing)) {
-            count++;
-        }
-    }
-    seams->neighbours = tl_allocate_array(&navmesh->allocator, count, sizeof *seams->neighbours);
-    if (seams->neighbours == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    seams->neighbour_capacity = count;
-    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
-        for (uint32_t facing = first_facing(navmesh, tile->tile_x, tile->tile_z, side); facing != TL_NAV_NO_SLOT;
-             facing = tl_nav_next_slot(navmesh, facing)) {
-            TL_TRY(make_link(navmesh, tile, slot, side, facing, seams));
-        }
-    }
-    return TL_OK;
-}
-
-static tl_result make_tile_rings(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_set *seams)
-{
-    const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT];
-    for (uint32_t i = 0; i < TL_NAV_SIDE_COUNT; i++) {
-        sides[i] = &seams->own[i];
-    }
-    TL_TRY(tl_nav_rings_make(&navmesh->allocator, tile, sides, NULL, 0, &seams->rings));
-    for (uint32_t n = 0; n < seams->neighbour_count; n++) {
-        seam_neighbour *neighbour = &seams->neighbours[n];
-        const tl_nav_slot *slot = &navmesh->slots[neighbour->slot];
-        for (uint32_t i = 0; i < TL_NAV_SIDE_COUNT; i++) {
-            sides[i] = i == tl_nav_facing_side(neighbour->side) ? &neighbour->facing : &slot->sides[i];
-        }
-        TL_TRY(tl_nav_rings_make(&navmesh->allocator, slot->tile, sides, &slot->rings,
-                                 tl_nav_facing_side(neighbour->side), &neighbour->rings));
-    }
-    return TL_OK;
-}
-
-static tl_result make_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, seam_set *seams)
-{
-    memset(seams, 0, sizeof *seams);
-    tl_result result = make_links(navmesh, tile, slot, seams);
-    if (result == TL_OK) {
-        result = make_tile_rings(navmesh, tile, seams);
-    }
-    if (result == TL_OK) {
-        result = tl_nav_areas_make(&navmesh->allocator, tile, &seams->areas);
-    }
-    if (result != TL_OK) {
-        free_seams(navmesh, tile, seams);
-    }
-    return result;
-}
-
-static bool is_remade(const seam_set *seams, uint32_t slot)
-{
-    for (uint32_t n = 0; seams != NULL && n < seams->neighbour_count; n++) {
-        if (seams->neighbours[n].slot == slot) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static tl_result own_rings(tl_navmesh *navmesh, uint32_t slot)
 {
     tl_nav_touch_slot(navmesh, slot);
@@ -360,7 +204,7 @@ static tl_result own_rings(tl_navmesh *navmesh, uint32_t slot)
 
 // Before a tile comes, with these seams, or leaves, NULL: of the tiles around its place, what the change will write to
 // and older versions have is copied. Fans reach as far as the corners of the place.
-static tl_result own_surroundings(tl_navmesh *navmesh, const tl_nav_tile *tile, const seam_set *seams)
+static tl_result own_surroundings(tl_navmesh *navmesh, const tl_nav_tile *tile, const tl_nav_seams *seams)
 {
     const bool all = navmesh->last_fan > UINT32_MAX / 2; // number_fans
     for (uint32_t slot = 0; all && navmesh->history != NULL && slot < navmesh->slot_count; slot++) {
@@ -371,13 +215,13 @@ static tl_result own_surroundings(tl_navmesh *navmesh, const tl_nav_tile *tile, 
     for (int64_t i = 0; navmesh->history != NULL && i < 9; i++) {
         for (uint32_t slot = tl_nav_find_slot(navmesh, tile->tile_x + i % 3 - 1, tile->tile_z + i / 3 - 1);
              slot != TL_NAV_NO_SLOT; slot = tl_nav_next_slot(navmesh, slot)) {
-            if (navmesh->slots[slot].tile != tile && !is_remade(seams, slot)) {
+            if (navmesh->slots[slot].tile != tile && !tl_nav_seams_remake(seams, slot)) {
                 TL_TRY(own_rings(navmesh, slot));
             }
         }
     }
     for (uint32_t side = 0; navmesh->history != NULL && seams == NULL && side < TL_NAV_SIDE_COUNT; side++) {
-        for (uint32_t slot = first_facing(navmesh, tile->tile_x, tile->tile_z, side); slot != TL_NAV_NO_SLOT;
+        for (uint32_t slot = tl_nav_first_facing(navmesh, tile->tile_x, tile->tile_z, side); slot != TL_NAV_NO_SLOT;
              slot = tl_nav_next_slot(navmesh, slot)) {
             tl_nav_side_links *links = &navmesh->slots[slot].sides[tl_nav_facing_side(side)];
             if (navmesh->slots[slot].tile != tile && tl_nav_is_shared(navmesh->history, links->first)) {
@@ -386,30 +230,6 @@ static tl_result own_surroundings(tl_navmesh *navmesh, const tl_nav_tile *tile, 
         }
     }
     return TL_OK;
-}
-
-static void install_seams(tl_navmesh *navmesh, uint32_t slot, seam_set *seams)
-{
-    navmesh->slots[slot].keeper = seams->keeper;
-    navmesh->slots[slot].rings = seams->rings;
-    navmesh->slots[slot].areas = seams->areas;
-    memcpy(navmesh->slots[slot].sides, seams->own, sizeof seams->own);
-    tl_nav_area_table_change(navmesh, slot, 1);
-    tl_nav_note_edit(navmesh, slot);
-    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
-        navmesh->link_count += seams->own[side].link_count;
-    }
-    for (uint32_t n = 0; n < seams->neighbour_count; n++) {
-        seam_neighbour *made = &seams->neighbours[n];
-        tl_nav_slot *neighbour = &navmesh->slots[made->slot];
-        tl_nav_free_side(&navmesh->allocator, &neighbour->sides[tl_nav_facing_side(made->side)]);
-        neighbour->sides[tl_nav_facing_side(made->side)] = made->facing;
-        navmesh->link_count += made->added;
-        tl_nav_rings_free(&navmesh->allocator, &neighbour->rings);
-        neighbour->rings = made->rings;
-        tl_nav_note_edit(navmesh, made->slot);
-    }
-    tl_release_array(&navmesh->allocator, seams->neighbours, seams->neighbour_capacity, sizeof *seams->neighbours);
 }
 
 // Gives numbers to the turning vertices of a slot that is new, or TL_NAV_NO_SLOT, and of the sides that face its place
@@ -429,7 +249,7 @@ static void number_fans(tl_navmesh *navmesh, uint32_t new_slot, int32_t tile_x, 
         tl_nav_number_fans(navmesh, new_slot);
     }
     for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
-        for (uint32_t slot = first_facing(navmesh, tile_x, tile_z, side); slot != TL_NAV_NO_SLOT;
+        for (uint32_t slot = tl_nav_first_facing(navmesh, tile_x, tile_z, side); slot != TL_NAV_NO_SLOT;
              slot = tl_nav_next_slot(navmesh, slot)) {
             if (slot != new_slot && navmesh->slots[slot].last_edit.number >= edit) {
                 tl_nav_number_fans_on_side(navmesh, slot, tl_nav_facing_side(side));
@@ -469,6 +289,36 @@ static void begin_edit(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
     }
 }
 
+// What a tile brings, made before anything is changed.
+typedef struct new_tile {
+    tl_nav_seams seams;
+    tl_nav_areas areas;
+    void *keeper; // of an owned tile (tl_nav_slot)
+} new_tile;
+
+static tl_result make_new_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot,
+                               tl_nav_tile_ownership ownership, new_tile *fresh)
+{
+    memset(fresh, 0, sizeof *fresh);
+    TL_TRY(tl_nav_seams_make(navmesh, tile, slot, &fresh->seams));
+    tl_result result = tl_nav_areas_make(&navmesh->allocator, tile, &fresh->areas);
+    if (result == TL_OK) {
+        result = tl_nav_reserve_islands(navmesh, fresh->seams.rings.component_count);
+    }
+    if (result == TL_OK) {
+        result = own_surroundings(navmesh, tile, &fresh->seams);
+    }
+    if (result == TL_OK && navmesh->history != NULL && ownership == TL_NAV_TILE_OWNED) {
+        fresh->keeper = tl_nav_keep_tile(navmesh->history);
+        result = fresh->keeper != NULL ? TL_OK : TL_ERR_MEMORY;
+    }
+    if (result != TL_OK) {
+        tl_nav_seams_free(navmesh, &fresh->seams);
+        tl_nav_areas_free(&navmesh->allocator, &fresh->areas, tile->polygon_count);
+    }
+    return result;
+}
+
 tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership)
 {
     if (navmesh == NULL || tile == NULL || (navmesh->tile_count > 0 && !same_lattice(navmesh, tile))) {
@@ -478,26 +328,14 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
         return TL_ERR_ARGUMENT;
     }
     uint32_t index = 0;
-    seam_set seams;
+    new_tile fresh;
     TL_TRY(reserve_slot(navmesh, &index));
-    TL_TRY(make_seams(navmesh, tile, index, &seams));
-    tl_result reserved = tl_nav_reserve_islands(navmesh, seams.rings.component_count);
-    if (reserved == TL_OK) {
-        reserved = own_surroundings(navmesh, tile, &seams);
-    }
-    if (reserved == TL_OK && navmesh->history != NULL && ownership == TL_NAV_TILE_OWNED) {
-        seams.keeper = tl_nav_keep_tile(navmesh->history);
-        reserved = seams.keeper != NULL ? TL_OK : TL_ERR_MEMORY;
-    }
-    if (reserved != TL_OK) {
-        free_seams(navmesh, tile, &seams);
-        return reserved;
-    }
+    TL_TRY(make_new_tile(navmesh, tile, index, ownership, &fresh));
 
     begin_edit(navmesh, tile->tile_x, tile->tile_z);
     const uint64_t edit = navmesh->edit.number;
     tl_nav_slot *slot = &navmesh->slots[index];
-    tl_nav_keep(seams.keeper, tile);
+    tl_nav_keep(fresh.keeper, tile);
     if (index == navmesh->free_slots) {
         navmesh->free_slots = slot->next;
     } else {
@@ -508,7 +346,10 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     slot->ownership = ownership;
     slot->inner_links = count_inner_links(tile);
     chain_slot(navmesh, index);
-    install_seams(navmesh, index, &seams);
+    slot->keeper = fresh.keeper;
+    slot->areas = fresh.areas;
+    tl_nav_area_table_change(navmesh, index, 1);
+    tl_nav_seams_install(navmesh, index, &fresh.seams);
     tl_nav_join_islands(navmesh, index);
     number_fans(navmesh, index, tile->tile_x, tile->tile_z, edit);
     note_tile(navmesh, tile);
@@ -524,27 +365,6 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     return TL_OK;
 }
 
-// Takes the links to a slot out of the tiles around it.
-static void unlink_slot(tl_navmesh *navmesh, uint32_t index)
-{
-    const tl_nav_slot *slot = &navmesh->slots[index];
-    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
-        navmesh->link_count -= slot->sides[side].link_count;
-        for (uint32_t facing = first_facing(navmesh, slot->tile->tile_x, slot->tile->tile_z, side);
-             facing != TL_NAV_NO_SLOT; facing = tl_nav_next_slot(navmesh, facing)) {
-            uint32_t dropped = facing == index
-                                   ? 0
-                                   : tl_nav_drop_links(&navmesh->allocator,
-                                                       &navmesh->slots[facing].sides[tl_nav_facing_side(side)], index);
-            if (dropped > 0) {
-                navmesh->link_count -= dropped;
-                tl_nav_rings_close(&navmesh->slots[facing].rings, index);
-                tl_nav_note_edit(navmesh, facing);
-            }
-        }
-    }
-}
-
 static tl_result remove_slot(tl_navmesh *navmesh, uint32_t index)
 {
     tl_nav_slot *slot = &navmesh->slots[index];
@@ -554,7 +374,7 @@ static tl_result remove_slot(tl_navmesh *navmesh, uint32_t index)
     const uint64_t edit = navmesh->edit.number;
     tl_nav_note_edit(navmesh, index);
     tl_nav_leave_islands(navmesh, index);
-    unlink_slot(navmesh, index);
+    tl_nav_unlink_slot(navmesh, index);
     unchain_slot(navmesh, index);
     navmesh->tile_count--;
     navmesh->link_count -= slot->inner_links;
