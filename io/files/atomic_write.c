@@ -67,15 +67,28 @@ static tl_result flush_buffer(tl_atomic_file *file)
     return tl_atomic_sink_write(file->sink, file->buffer, used);
 }
 
+// The sink gets whole buffers, so that no page of a file is written in two parts.
 static tl_result append_to_file(tl_atomic_file *file, const void *bytes, size_t size)
 {
-    if (size > WRITE_BUFFER_BYTES - file->used) {
-        const tl_result result = flush_buffer(file);
-        if (result != TL_OK || size >= WRITE_BUFFER_BYTES) {
-            return result != TL_OK ? result : tl_atomic_sink_write(file->sink, bytes, size);
+    const unsigned char *at = bytes;
+    const size_t room = WRITE_BUFFER_BYTES - file->used;
+    if (size > room) {
+        memcpy(file->buffer + file->used, at, room);
+        file->used = WRITE_BUFFER_BYTES;
+        at += room;
+        size -= room;
+        const size_t whole = size / WRITE_BUFFER_BYTES * WRITE_BUFFER_BYTES;
+        tl_result result = flush_buffer(file);
+        if (result == TL_OK && whole > 0) {
+            result = tl_atomic_sink_write(file->sink, at, whole);
         }
+        if (result != TL_OK) {
+            return result;
+        }
+        at += whole;
+        size -= whole;
     }
-    memcpy(file->buffer + file->used, bytes, size);
+    memcpy(file->buffer + file->used, at, size);
     file->used += size;
     return TL_OK;
 }

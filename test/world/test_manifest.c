@@ -46,6 +46,20 @@ static void everything_is_taken(void **state)
     tl_world_inputs_free(&inputs);
 }
 
+static void files_placed_twice_are_known(void **state)
+{
+    (void)state;
+    tl_world_inputs inputs;
+    tl_io_error error;
+    assert_int_equal(read_text("{ \"inputs\": [ { \"file\": \"a.stl\" }, { \"file\": \"b.stl\" }, { \"file\": "
+                               "\"a.stl\", \"translate\": [1, 0, 0] }, { \"file\": \"c.stl\" } ] }",
+                               &inputs, &error),
+                     TL_OK);
+    TEST_CHECK(inputs.count == 4 && inputs.items[0].is_shared && inputs.items[2].is_shared);
+    TEST_CHECK(!inputs.items[1].is_shared && !inputs.items[3].is_shared);
+    tl_world_inputs_free(&inputs);
+}
+
 static void faults_are_named(void **state)
 {
     (void)state;
@@ -87,6 +101,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(everything_is_taken),
+        cmocka_unit_test(files_placed_twice_are_known),
         cmocka_unit_test(faults_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

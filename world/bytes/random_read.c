@@ -45,6 +45,17 @@ tl_result tl_random_file_read(const tl_random_file *file, const char *path, uint
     return TL_OK;
 }
 
+void tl_random_file_forget(const tl_random_file *file)
+{
+#ifdef POSIX_FADV_DONTNEED
+    if (file->is_open) {
+        (void)posix_fadvise((int)file->handle, 0, 0, POSIX_FADV_DONTNEED);
+    }
+#else
+    (void)file;
+#endif
+}
+
 void tl_random_file_close(tl_random_file *file)
 {
     if (file->is_open) {

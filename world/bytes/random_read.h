@@ -20,6 +20,8 @@ tl_result tl_random_file_open(const char *path, tl_random_file *file_out, tl_io_
 /// Reads exactly `size` bytes at `offset`. TL_ERR_TRUNCATED: the file ends before that. `path` is for messages.
 tl_result tl_random_file_read(const tl_random_file *file, const char *path, uint64_t offset, void *bytes, size_t size,
                               tl_io_error *error_out);
+/// Lets the system use its memory of an open file for something else: it will not be read again soon. A hint.
+void tl_random_file_forget(const tl_random_file *file);
 void tl_random_file_close(tl_random_file *file);
 
 #endif

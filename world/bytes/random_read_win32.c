@@ -55,6 +55,12 @@ tl_result tl_random_file_read(const tl_random_file *file, const char *path, uint
     return TL_OK;
 }
 
+// Windows has no such hint for a file that is open already.
+void tl_random_file_forget(const tl_random_file *file)
+{
+    (void)file;
+}
+
 void tl_random_file_close(tl_random_file *file)
 {
     if (file->is_open) {

@@ -156,10 +156,9 @@ static bool is_manifest(const char *path)
     return length > 5 && strcmp(path + length - 5, ".json") == 0;
 }
 
-tl_result tl_world_inputs_read(const char *path, const tl_world_reading *reading, tl_world_inputs *inputs_out,
-                               tl_io_error *error_out)
+static tl_result list_inputs(const char *path, const tl_world_reading *reading, tl_world_inputs *inputs_out,
+                             tl_io_error *error_out)
 {
-    memset(inputs_out, 0, sizeof *inputs_out);
     tl_file_facts facts;
     if (tl_file_look(path, &facts) && facts.is_folder) {
         return read_folder(path, reading, inputs_out, error_out);
@@ -172,4 +171,36 @@ tl_result tl_world_inputs_read(const char *path, const tl_world_reading *reading
         return out_of_memory(path, error_out);
     }
     return TL_OK;
+}
+
+static int compare_shared(const void *a, const void *b)
+{
+    return compare_paths(*(const tl_world_input *const *)a, *(const tl_world_input *const *)b);
+}
+
+static tl_result mark_shared(const char *path, tl_world_inputs *inputs, tl_io_error *error_out)
+{
+    tl_world_input **sorted = malloc(((size_t)inputs->count + 1) * sizeof *sorted);
+    if (sorted == NULL) {
+        return out_of_memory(path, error_out);
+    }
+    for (uint32_t i = 0; i < inputs->count; i++) {
+        sorted[i] = &inputs->items[i];
+    }
+    qsort(sorted, inputs->count, sizeof *sorted, compare_shared);
+    for (uint32_t i = 1; i < inputs->count; i++) {
+        if (compare_paths(sorted[i - 1], sorted[i]) == 0) {
+            sorted[i - 1]->is_shared = sorted[i]->is_shared = true;
+        }
+    }
+    free(sorted);
+    return TL_OK;
+}
+
+tl_result tl_world_inputs_read(const char *path, const tl_world_reading *reading, tl_world_inputs *inputs_out,
+                               tl_io_error *error_out)
+{
+    memset(inputs_out, 0, sizeof *inputs_out);
+    const tl_result result = list_inputs(path, reading, inputs_out, error_out);
+    return result == TL_OK ? mark_shared(path, inputs_out, error_out) : result;
 }

@@ -27,6 +27,7 @@ typedef struct tl_world_area_rule {
 
 typedef struct tl_world_input {
     char *path;
+    bool is_shared;    ///< other inputs are of the same file
     double matrix[12]; ///< three rows of four
     bool is_placed;    ///< the matrix is not that of a file without one
     tl_up_axis up;

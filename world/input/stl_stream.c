@@ -2,6 +2,10 @@
 //
 // Binary STL, the one common format that can be read in pieces: 50 bytes a triangle and nothing that points elsewhere.
 // So a world of one file may be larger than memory.
+//
+// A file is read once, and then the system is told so. Else the inputs push the store, which is read twice more, out of
+// the system's memory, and each page of both is a new one: a plan of 100 million triangles takes 17.5 s of processor
+// instead of 25.2 s. Flushed parts of the store given up in the same way: no faster.
 
 #include "world/bytes/little_endian.h"
 #include "world/bytes/random_read.h"
@@ -100,6 +104,9 @@ tl_result tl_world_stl_read(const tl_world_input *input, uint64_t first, const t
         result =
             is_binary_stl_file(&stream, &facts) ? stream_triangles(&stream, first, builder, error_out) : TL_NOT_FOUND;
         *count_out = stream.count;
+    }
+    if (result == TL_OK && !input->is_shared) {
+        tl_random_file_forget(&stream.file);
     }
     free(stream.bytes);
     free(stream.corners);
