@@ -4,7 +4,7 @@
 
 #include "nav_fixture.h"
 
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 
 enum { MAX_POLYGONS = 512 };
 

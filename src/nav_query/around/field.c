@@ -6,7 +6,7 @@
 #include "base/assert.h"
 #include "base/radix_sort.h"
 #include "nav_query/around/flood.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/search/query_memory.h"
 

@@ -7,7 +7,7 @@
 #include "nav_query/around/flood.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
 
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/plan.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/navmesh/surface.h"

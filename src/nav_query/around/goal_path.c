@@ -10,7 +10,7 @@
 
 #include "base/assert.h"
 #include "math/tolerance.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/navmesh/surface.h"

@@ -18,7 +18,7 @@
 #include "base/assert.h"
 #include "base/min_max.h"
 #include "base/radix_sort.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/navmesh/surface.h"

@@ -3,7 +3,7 @@
 // All polygons that overlap a zone: found by the BVHs of the tiles around it, then tested exactly.
 
 #include "base/assert.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/tile_walk.h"
 #include "nav_query/plane/zone.h"
 

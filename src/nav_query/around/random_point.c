@@ -6,8 +6,8 @@
 // Detour picks each tile with the same probability, however much floor is in it, and sums up its areas for every point.
 // Here integer sums are kept (area_table.c), so the distribution is exactly uniform.
 
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/area_table.h"
-#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/plane/point_of_random.h"
 

@@ -9,7 +9,7 @@
 #include "base/assert.h"
 #include "base/min_max.h"
 #include "nav_query/corridor/corridor_path.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/path/funnel.h"
 #include "nav_query/search/portal_between.h"
 

@@ -9,7 +9,7 @@
 #include "base/assert.h"
 #include "math/tolerance.h"
 #include "nav_query/corridor/corridor_path.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/path/funnel.h"
 
 // How far a look goes. Stack: 12 KB for points, 2 KB for corners.

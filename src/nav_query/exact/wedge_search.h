@@ -7,7 +7,7 @@
 
 #include "math/tolerance.h"
 #include "nav_query/exact/wedge_sight.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/search/open_items.h"
 #include "nav_query/search/root_table.h"

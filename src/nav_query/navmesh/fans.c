@@ -12,7 +12,7 @@
 #include "nav_query/navmesh/fans.h"
 
 #include "base/assert.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 
 #include "math/tolerance.h"

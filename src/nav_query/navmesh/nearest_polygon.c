@@ -8,7 +8,7 @@
 // without them, or with both children's boxes held against the search's at once, it takes 6 to 18% longer.
 
 #include "base/min_max.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
 #include "nav_query/navmesh/surface.h"

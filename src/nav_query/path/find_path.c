@@ -13,7 +13,7 @@
 // Raphael, A Formal Basis for the Heuristic Determination of Minimum Cost Paths, 1968.
 
 #include "base/assert.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
 #include "nav_query/navmesh/ring_step.h"

@@ -4,7 +4,7 @@
 // corners too; else by A* and the funnel.
 
 #include "base/assert.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/path/path_run.h"
 
 #include <string.h>

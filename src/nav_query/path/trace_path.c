@@ -6,7 +6,7 @@
 // the portal's needs no search. A portal that contains a corner is crossed there.
 
 #include "base/assert.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/offmesh.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/path/funnel.h"

@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_NAV_QUERY_LOCAL_SEARCH_H
 #define TALUS_SRC_NAV_QUERY_LOCAL_SEARCH_H
 
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/search/root_table.h"
 

@@ -18,7 +18,7 @@
 
 #include "base/assert.h"
 #include "base/min_max.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/search/local_search.h"
 
 #include <string.h>

@@ -5,7 +5,7 @@
 #include "nav_query/wide/walls_near_shape.h"
 #include "nav_query/wide/wall_cell.h"
 
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/search/local_search.h"
 

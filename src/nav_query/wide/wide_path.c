@@ -8,7 +8,7 @@
 
 #include "base/assert.h"
 #include "nav_query/exact/shortest_search.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/surface.h"
 
 #include <string.h>

@@ -8,7 +8,7 @@
 // circle nearest to the place, or where it meets the border of another wall. Each of them that is free is a candidate;
 // the nearest is taken.
 
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/search/query_memory.h"

@@ -13,7 +13,7 @@
 #include "nav_query/wide/free_pieces.h"
 
 #include "base/min_max.h"
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/plane/crossing.h"
 

@@ -2,7 +2,7 @@
 //
 // Filters: which polygons count, and what a metre in them costs.
 
-#include "nav_query/navmesh/nav_filter.h"
+#include "nav_query/filter/nav_filter.h"
 
 #include "base/exact_floats.h"
 
