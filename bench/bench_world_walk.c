@@ -58,18 +58,6 @@ static tl_result read_disk(uint64_t offset, void *bytes, size_t size, void *user
     return tl_world_reader_read(offset, bytes, size, &disk->reader);
 }
 
-static tl_nav_world *open_walked(walk_disk *disk, uint64_t budget, double frame_reach)
-{
-    tl_nav_world_def def = tl_default_nav_world_def();
-    tl_nav_world *world = NULL;
-    def.read = read_disk;
-    def.user = disk;
-    def.budget = budget;
-    def.frame_reach = frame_reach;
-    must(tl_nav_world_create(&def, &world, NULL) == TL_OK, "the file is no world");
-    return world;
-}
-
 // All tiles, in one frame of reference with its origin at the middle.
 static void load_whole(tl_nav_world *world, const double middle[3])
 {
@@ -214,8 +202,9 @@ int main(int argc, char **argv)
     must(tl_world_reader_open(options.file, &disk.reader, &error) == TL_OK, "cannot open the file");
     disk.frames_thread = pthread_self();
     disk.pause.tv_nsec = (long)(options.read_ms * 1e6);
-    walk.part = open_walked(&disk, (uint64_t)(options.budget * 1048576.0), 4096.0);
-    walk.whole = open_walked(&disk, (uint64_t)1 << 40, 1e9);
+    walk.part = walk_open(read_disk, &disk, (uint64_t)(options.budget * 1048576.0), 4096.0);
+    walk.whole = walk_open(read_disk, &disk, (uint64_t)1 << 40, 1e9);
+    must(walk.part != NULL && walk.whole != NULL, "the file is no world");
     must(tl_nav_query_create(NULL, &walk.query, NULL) == TL_OK, "out of memory");
     load_whole(walk.whole, walk.at);
     find_limits(walk.whole, &walk);

@@ -2887,6 +2887,8 @@ namespace Talus.Interop
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_navmesh_create(tl_allocator* allocator, tl_navmesh** navmesh_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_navmesh_reserve_tiles(tl_navmesh* navmesh, uint count);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern void tl_navmesh_destroy(tl_navmesh* navmesh);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_navmesh_add_tile(tl_navmesh* navmesh, tl_nav_tile* tile, tl_nav_tile_ownership ownership);

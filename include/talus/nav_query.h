@@ -45,6 +45,12 @@ typedef enum tl_nav_tile_ownership {
 
 /// Creates an empty navmesh. `allocator` is copied; NULL: malloc. TL_ERR_ARGUMENT, TL_ERR_MEMORY.
 TL_API tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **navmesh_out);
+
+/// Reserves memory for `count` more tiles of one connected component each, so that adding them copies no table of all
+/// tiles: else now and then one that is added takes time in proportion to those that are there. No query may run
+/// meanwhile. TL_ERR_LIMIT (TL_NAV_MAX_TILES), TL_ERR_MEMORY.
+TL_API tl_result tl_navmesh_reserve_tiles(tl_navmesh *navmesh, uint32_t count);
+
 /// Frees the table and the tiles it owns. NULL: nothing happens.
 TL_API void tl_navmesh_destroy(tl_navmesh *navmesh);
 

@@ -13,6 +13,9 @@
 
 #define TL_NAV_WORLD_NO_PLACE UINT32_MAX
 
+/// What a tile in memory takes with all that the navmesh keeps for it, in its bytes in the file: hardly less than this.
+#define TL_NAV_WORLD_LEAST_RATIO 1.3
+
 /// Inner points of a tile's surface lie on such parts of a cell, where the bake puts them.
 #define TL_NAV_WORLD_STEPS_A_CELL 512
 

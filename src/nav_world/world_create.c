@@ -254,6 +254,19 @@ static void gather_places(tl_nav_world *world)
     }
 }
 
+// The navmesh, with tables for the tiles that the budget will hold: one that had to grow would be copied in a frame.
+static tl_result create_navmesh(tl_nav_world *world)
+{
+    double file_bytes = 0.0;
+    for (uint32_t i = 0; i < world->place_count; i++) {
+        file_bytes += (double)world->places[i].file_bytes;
+    }
+    const double share = (double)world->purse.limit / (TL_NAV_WORLD_LEAST_RATIO * file_bytes);
+    const uint32_t tiles = share < 1.0 ? (uint32_t)(share * (double)world->tile_count) : world->tile_count;
+    TL_TRY(tl_navmesh_create(&world->budgeted, &world->navmesh));
+    return tl_navmesh_reserve_tiles(world->navmesh, tiles);
+}
+
 static tl_result open_world(tl_nav_world *world, bool bare, tl_report *report)
 {
     TL_TRY(read_index(world, report));
@@ -286,7 +299,7 @@ static tl_result open_world(tl_nav_world *world, bool bare, tl_report *report)
     if (!bare) {
         TL_TRY(tl_nav_world_open_routes(world, report));
     }
-    return tl_navmesh_create(&world->budgeted, &world->navmesh) == TL_OK ? TL_OK : tl_nav_world_no_memory(report);
+    return create_navmesh(world) == TL_OK ? TL_OK : tl_nav_world_no_memory(report);
 }
 
 tl_result tl_nav_world_create(const tl_nav_world_def *def, tl_nav_world **world_out, tl_report *report)

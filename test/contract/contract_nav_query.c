@@ -43,6 +43,18 @@ static tl_result destroy(contract_run *run)
     return TL_OK;
 }
 
+static tl_result reserve_tiles(contract_run *run)
+{
+    tl_navmesh *navmesh = NULL;
+    tl_result result = make_navmesh(run, &navmesh);
+    run->is_clear = true;
+    if (result == TL_OK) {
+        result = tl_navmesh_reserve_tiles(CONTRACT_INPUT(run, 0, navmesh), 100);
+    }
+    tl_navmesh_destroy(navmesh);
+    return result;
+}
+
 static tl_result add_tile(contract_run *run)
 {
     const contract_level *level = contract_level_get();
@@ -418,6 +430,7 @@ static const char *const QUERY_FIELDS[] = { "max_nodes", NULL };
 const contract_entry CONTRACT_TABLE_nav_query[] = {
     { "tl_navmesh_create", GOOD | CONTRACT_BIT(NULL_DEF) | OUTPUT | NO_MEMORY, 0, 1, NULL, create, NULL },
     { "tl_navmesh_destroy", CONTRACT_BIT(NULL_FREE), 0, 0, NULL, destroy, NULL },
+    { "tl_navmesh_reserve_tiles", GOOD | INPUT | NO_MEMORY, 1, 0, NULL, reserve_tiles, NULL },
     { "tl_navmesh_add_tile", GOOD | INPUT | NO_MEMORY, 2, 0, NULL, add_tile, NULL },
     { "tl_navmesh_add_tiles", GOOD | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(BAD_BYTES) | INPUT | NO_MEMORY, 2, 0,
       NULL, add_tiles, NULL },

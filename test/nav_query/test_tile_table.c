@@ -392,6 +392,34 @@ static void test_add_tiles(void **state)
     tl_navmesh_destroy(navmesh);
 }
 
+// With room reserved no table of all tiles is made anew: no block is as large as one.
+static void test_reserved_tiles(void **state)
+{
+    (void)state;
+    enum { SIDE = 12, TILES = SIDE * SIDE, LEAST_TABLE = TILES * 100 };
+    for (uint32_t reserves = 0; reserves < 2; reserves++) {
+        const char *const rows[] = { "0" };
+        const fixture_level level = fixture_make(rows, 1);
+        test_allocator memory;
+        test_allocator_init(&memory, 0);
+        tl_navmesh *navmesh = NULL;
+        TEST_RESULT(tl_navmesh_create(&memory.allocator, &navmesh), TL_OK);
+        TEST_RESULT(tl_navmesh_reserve_tiles(navmesh, reserves > 0 ? TILES : 0), TL_OK);
+        memory.largest = 0;
+        for (int32_t i = 0; i < TILES; i++) {
+            tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, NULL);
+            tile->tile_x = i % SIDE;
+            tile->tile_z = i / SIDE;
+            TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
+        }
+        TEST_CHECK((memory.largest < LEAST_TABLE) == (reserves > 0));
+        TEST_RESULT(tl_navmesh_reserve_tiles(navmesh, TL_NAV_MAX_TILES - TILES + 1), TL_ERR_LIMIT);
+        TEST_CHECK(tl_navmesh_tile_count(navmesh) == TILES);
+        tl_navmesh_destroy(navmesh);
+        TEST_CHECK(memory.live_blocks == 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -403,6 +431,7 @@ int main(void)
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_salts_run_out),
         cmocka_unit_test(test_add_tiles),
+        cmocka_unit_test(test_reserved_tiles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

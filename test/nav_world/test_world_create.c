@@ -215,12 +215,48 @@ static void test_memory_fails(void **state)
     world_file_free(&file);
 }
 
+// Tables are made when the world is opened, for all tiles that the budget will hold: no later one is copied in a frame.
+static void test_tables_do_not_grow(void **state)
+{
+    (void)state;
+    static const char row[] = "000000000000000000000000000000000000000000000000";
+    const char *rows[sizeof row - 1];
+    for (size_t i = 0; i < sizeof row - 1; i++) {
+        rows[i] = row;
+    }
+    fixture_level level = fixture_make(rows, sizeof row - 1);
+    level.tile_cells = 3;
+    world_file file = world_file_make(&level, HERE, TL_PACK_AXES_Y_UP);
+    const tl_nav_world_interest all = world_interest(HERE, 0, 0, 1e6);
+    uint32_t most = 0;
+    for (uint64_t budget = 128 << 10; budget <= 8 << 20; budget *= 4) {
+        test_allocator memory;
+        tl_nav_world_def def = tl_default_nav_world_def();
+        tl_nav_world *world = NULL;
+        test_allocator_init(&memory, 0);
+        def.read = world_file_read;
+        def.user = &file;
+        def.budget = budget;
+        def.allocator = &memory.allocator;
+        TEST_RESULT(tl_nav_world_create(&def, &world, NULL), TL_OK);
+        memory.largest = 0;
+        world_settle(world, &all, 1);
+        const tl_nav_world_state now = world_state(world);
+        TEST_CHECK(now.loaded > 4 && now.peak_bytes <= budget);
+        TEST_CHECK(memory.largest < 100 * (uint64_t)now.loaded || now.loaded < 100);
+        most = now.loaded > most ? now.loaded : most;
+        tl_nav_world_destroy(world);
+    }
+    TEST_CHECK(most > 200);
+    world_file_free(&file);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_refused_by_name), cmocka_unit_test(test_damaged_index),
         cmocka_unit_test(test_damaged_tiles),   cmocka_unit_test(test_reads_that_say_no),
-        cmocka_unit_test(test_memory_fails),
+        cmocka_unit_test(test_memory_fails),    cmocka_unit_test(test_tables_do_not_grow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,18 +43,6 @@ static tl_result slow_read(uint64_t offset, void *bytes, size_t size, void *user
     return world_file_read(offset, bytes, size, disk->file);
 }
 
-static tl_nav_world *open_slowly(slow_disk *disk, uint64_t budget, double frame_reach)
-{
-    tl_nav_world_def def = tl_default_nav_world_def();
-    tl_nav_world *world = NULL;
-    def.read = slow_read;
-    def.user = disk;
-    def.budget = budget;
-    def.frame_reach = frame_reach;
-    TEST_RESULT(tl_nav_world_create(&def, &world, NULL), TL_OK);
-    return world;
-}
-
 static double walk_metres = 400.0;
 
 // Frames until so many metres are walked.
@@ -95,7 +83,7 @@ static void test_walk(void **state)
         const double edge = (double)level.width * (double)FIXTURE_STEP * (double)level.cell_size;
         const uint64_t budget = (uint64_t)768 << 10;
         walk.whole = world_open(&file, (uint64_t)256 << 20, 1e9);
-        walk.part = open_slowly(&disk, budget, 64.0);
+        walk.part = walk_open(slow_read, &disk, budget, 64.0);
         walk.query = query;
         walk.extents = tl_vec3_make(3, 60, 3);
         walk.reach = 80.0;

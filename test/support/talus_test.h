@@ -91,6 +91,7 @@ typedef struct test_allocator {
     uint64_t live_blocks;
     uint64_t live_bytes;
     uint64_t peak_bytes;
+    uint64_t largest; ///< bytes of any block so far; may be set to 0
 } test_allocator;
 
 /// A block that a blob may lie in; free it with test_blob_free. Windows has such blocks by other functions than
@@ -127,6 +128,7 @@ static inline void *test_allocate(size_t size, size_t alignment, void *user)
         test->live_blocks++;
         test->live_bytes += size;
         test->peak_bytes = test->live_bytes > test->peak_bytes ? test->live_bytes : test->peak_bytes;
+        test->largest = size > test->largest ? size : test->largest;
     }
     return block;
 }
@@ -141,7 +143,7 @@ static inline void test_release(void *block, size_t size, void *user)
 
 static inline void test_allocator_init(test_allocator *test, uint64_t fail_at)
 {
-    test_allocator zero = { { test_allocate, test_release, NULL }, 0, 0, 0, 0, 0 };
+    test_allocator zero = { { test_allocate, test_release, NULL }, 0, 0, 0, 0, 0, 0 };
     *test = zero;
     test->allocator.user = test;
     test->fail_at = fail_at;

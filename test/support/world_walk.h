@@ -13,6 +13,19 @@
 #include <string.h>
 #include <talus/nav_world.h>
 
+/// A world over what `read` reads, under a budget; NULL: refused.
+static inline tl_nav_world *walk_open(tl_nav_world_read_fn *read, void *user, uint64_t budget, double frame_reach)
+{
+    tl_nav_world_def def = tl_default_nav_world_def();
+    tl_nav_world *world = NULL;
+    def.read = read;
+    def.user = user;
+    def.budget = budget;
+    def.frame_reach = frame_reach;
+    (void)tl_nav_world_create(&def, &world, NULL);
+    return world;
+}
+
 // ---------------------------------------------------------------------------------------------------------
 // Loads on a thread.
 

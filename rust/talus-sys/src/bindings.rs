@@ -2796,6 +2796,7 @@ extern "C" {
         allocator: *const tl_allocator,
         navmesh_out: *mut *mut tl_navmesh,
     ) -> tl_result;
+    pub fn tl_navmesh_reserve_tiles(navmesh: *mut tl_navmesh, count: u32) -> tl_result;
     pub fn tl_navmesh_destroy(navmesh: *mut tl_navmesh);
     pub fn tl_navmesh_add_tile(
         navmesh: *mut tl_navmesh,

@@ -121,14 +121,9 @@ static void unchain_slot(tl_navmesh *navmesh, uint32_t slot)
     *at = navmesh->slots[slot].next;
 }
 
-// Makes room for a quarter more slots: each has hundreds of bytes, so room to spare would be dear. Two buckets a slot,
-// or more.
-static tl_result grow_slots(tl_navmesh *navmesh)
+// Makes room for so many slots, and two buckets a slot, or more.
+static tl_result grow_slots(tl_navmesh *navmesh, uint32_t capacity)
 {
-    if (navmesh->slot_count >= TL_NAV_MAX_TILES) {
-        return TL_ERR_LIMIT;
-    }
-    const uint32_t capacity = navmesh->slot_capacity == 0 ? 1 : navmesh->slot_capacity + navmesh->slot_capacity / 4 + 3;
     uint32_t bucket_count = 2;
     while (bucket_count < 2 * capacity) {
         bucket_count *= 2;
@@ -168,11 +163,29 @@ static tl_result grow_slots(tl_navmesh *navmesh)
     return TL_OK;
 }
 
-// The slot that the next tile will get.
+tl_result tl_navmesh_reserve_tiles(tl_navmesh *navmesh, uint32_t count)
+{
+    if (navmesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (count > TL_NAV_MAX_TILES - navmesh->slot_count) {
+        return TL_ERR_LIMIT;
+    }
+    if (navmesh->slot_count + count > navmesh->slot_capacity) {
+        TL_TRY(grow_slots(navmesh, navmesh->slot_count + count));
+    }
+    return tl_nav_reserve_islands(navmesh, count);
+}
+
+// The slot that the next tile will get. Where there is none the table grows by a quarter: each slot has hundreds of
+// bytes, so room to spare would be dear.
 static tl_result reserve_slot(tl_navmesh *navmesh, uint32_t *slot_out)
 {
     if (navmesh->free_slots == TL_NAV_NO_SLOT && navmesh->slot_count == navmesh->slot_capacity) {
-        TL_TRY(grow_slots(navmesh));
+        if (navmesh->slot_count >= TL_NAV_MAX_TILES) {
+            return TL_ERR_LIMIT;
+        }
+        TL_TRY(grow_slots(navmesh, navmesh->slot_count + (navmesh->slot_count > 0 ? navmesh->slot_count / 4 + 3 : 1)));
     }
     *slot_out = navmesh->free_slots != TL_NAV_NO_SLOT ? navmesh->free_slots : navmesh->slot_count;
     return TL_OK;
