@@ -138,10 +138,9 @@ typedef struct world_walk {
 
 /// How far lengths may differ over two frames: each corner is rounded in both, by 2^-24 of the distance from its
 /// frame's origin along each axis.
-static inline double walk_rounding(const tl_nav_location *a, const tl_nav_location *b, uint32_t corners)
+static inline double walk_rounding(tl_vec3 a, tl_vec3 b, uint32_t corners)
 {
-    const double reach = fmax(fmax(fabs((double)a->point.x), fabs((double)a->point.z)),
-                              fmax(fabs((double)b->point.x), fabs((double)b->point.z)));
+    const double reach = fmax(fmax(fabs((double)a.x), fabs((double)a.z)), fmax(fabs((double)b.x), fabs((double)b.z)));
     return 1e-4 + 0x1p-21 * reach * (double)(corners + 2);
 }
 
@@ -150,17 +149,64 @@ static inline double walk_distance(const double a[3], const double b[3])
     return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
 }
 
-/// The nearest point in both. False: there is none, or it is open, which was counted.
+/// Between what the measure of find_nearest may be for a place that is off by `rounding`: it jumps where a floor is
+/// agent_max_climb overhead.
+static inline void walk_measure(const tl_nav_world *world, const tl_nav_location *found, const double point[3],
+                                double rounding, double range_out[2])
+{
+    const tl_nav_tile *tile = NULL;
+    double at[3];
+    (void)tl_navmesh_resolve(tl_nav_world_navmesh(world), found->polygon, &tile, NULL);
+    tl_nav_world_place_out(world, found->point, at);
+    for (int i = 0; i < 2; i++) {
+        const double slack = i == 0 ? -rounding : rounding;
+        const double up = at[1] - point[1] + slack > (double)tile->agent_max_climb ? (double)tile->agent_height : 0.0;
+        const double lifted[3] = { at[0], at[1] + up, at[2] };
+        range_out[i] = walk_distance(lifted, point) + slack;
+    }
+}
+
+/// The place of the part in the whole: the same polygon of the same tile. False: it has none.
+static inline bool walk_same_place(const world_walk *w, const tl_nav_location *in_part, tl_nav_location *in_whole)
+{
+    const tl_navmesh *part = tl_nav_world_navmesh(w->part), *whole = tl_nav_world_navmesh(w->whole);
+    const tl_vec3 zero = { 0.0f, 0.0f, 0.0f };
+    const tl_nav_tile *tile = NULL;
+    double a[3], b[3];
+    uint32_t polygon = 0, slot = 0;
+    if (tl_navmesh_resolve(part, in_part->polygon, &tile, &polygon) != TL_OK) {
+        return false;
+    }
+    tl_nav_world_place_out(w->part, zero, a);
+    tl_nav_world_place_out(w->whole, zero, b);
+    const double side = (double)tile->tile_size * (double)tile->cell_size;
+    const tl_nav_tile *same = tl_navmesh_find_layer(whole, tile->tile_x + (int32_t)lround((a[0] - b[0]) / side),
+                                                    tile->layer, tile->tile_z + (int32_t)lround((a[2] - b[2]) / side));
+    while (same != NULL && tl_navmesh_slot_tile(whole, slot) != same) {
+        slot++;
+    }
+    tl_nav_world_place_out(w->part, in_part->point, a);
+    in_whole->polygon = same != NULL ? tl_navmesh_polygon_ref(whole, slot, polygon) : TL_NAV_NO_REF;
+    return tl_navmesh_closest_point(whole, in_whole->polygon, tl_nav_world_place_in(w->whole, a), &in_whole->point,
+                                    NULL) == TL_OK;
+}
+
+/// The nearest place in the part, which none of the whole may beat: by more than rounding, which may also move places
+/// into the box and out of it. And that place in the whole. False: there is none, or it is open, which was counted.
 static inline bool walk_find(world_walk *w, const double point[3], tl_nav_location found[2])
 {
-    double a[3], b[3];
+    tl_nav_location least, most;
+    const double r = walk_rounding(tl_nav_world_place_in(w->part, point), tl_nav_world_place_in(w->whole, point), 1);
+    const tl_vec3 by = tl_vec3_make((float)r, (float)r, (float)r);
     const tl_result result = tl_nav_world_find_nearest(w->part, NULL, point, w->extents, &found[0]);
-    const tl_result truth = tl_nav_world_find_nearest(w->whole, NULL, point, w->extents, &found[1]);
+    const tl_result in_less = tl_nav_world_find_nearest(w->whole, NULL, point, tl_sub(w->extents, by), &least);
+    const tl_result in_more = tl_nav_world_find_nearest(w->whole, NULL, point, tl_add(w->extents, by), &most);
     if (result == TL_NOT_LOADED) {
         w->open++;
         return false;
     }
-    if (result != truth || (truth != TL_OK && truth != TL_NOT_FOUND)) {
+    if ((result != TL_OK && result != TL_NOT_FOUND) || (result == TL_NOT_FOUND && in_less != TL_NOT_FOUND) ||
+        (result == TL_OK && (in_more != TL_OK || !walk_same_place(w, &found[0], &found[1])))) {
         w->wrong++;
         return false;
     }
@@ -168,9 +214,14 @@ static inline bool walk_find(world_walk *w, const double point[3], tl_nav_locati
         w->nowhere++;
         return false;
     }
-    tl_nav_world_place_out(w->part, found[0].point, a);
-    tl_nav_world_place_out(w->whole, found[1].point, b);
-    w->wrong += fabs(walk_distance(a, point) - walk_distance(b, point)) > walk_rounding(&found[0], &found[1], 1);
+    double measure[2], of_least[2], of_most[2];
+    walk_measure(w->part, &found[0], point, r, measure);
+    walk_measure(w->whole, &most, point, r, of_most);
+    w->wrong += of_most[0] > measure[1];
+    if (in_less == TL_OK) {
+        walk_measure(w->whole, &least, point, r, of_least);
+        w->wrong += measure[0] > of_least[1];
+    }
     return true;
 }
 
@@ -188,7 +239,7 @@ static inline bool walk_ask(world_walk *w, const double goal[3])
     const tl_result whole = tl_nav_world_find_path(w->whole, w->query, &in_whole, NULL, &truth);
     const tl_result result = tl_nav_world_find_path(w->part, w->query, &in_part, &buffers, &path);
     const bool is_way = truth.status == TL_NAV_PATH_COMPLETE;
-    const double rounding = walk_rounding(&from[0], &from[1], truth.corner_count);
+    const double rounding = walk_rounding(from[0].point, from[1].point, truth.corner_count);
     w->paths++;
     if (whole != TL_OK) {
         w->wrong++;
@@ -227,7 +278,6 @@ static inline void walk_choose(world_walk *w)
     for (uint32_t tries = 0; tries < 16; tries++) {
         const double angle = w->heading + walk_between(w, -0.2, 0.2) * pi * (1.0 + 0.3 * tries);
         const double far = walk_between(w, 0.3, 1.0) * w->reach;
-        // Of random height: the measure of find_nearest jumps agent_max_climb under a floor, and heights are rounded.
         const double goal[3] = { w->at[0] + far * cos(angle), w->at[1] + walk_between(w, -1.0, 1.0),
                                  w->at[2] + far * sin(angle) };
         if (goal[0] > w->low[0] && goal[0] < w->high[0] && goal[2] > w->low[1] && goal[2] < w->high[1] &&
