@@ -27,7 +27,7 @@ endif()
 set(talus_test_hash_needs talus_peer_xxhash)
 
 # The io library's tests.
-foreach(stem import_process gltf_parser gltf_reader import_formats sibling_file atomic_write file_map format_float mesh_import name_table obj_reader obj_write parse_float
+foreach(stem guarded_child import_process gltf_parser gltf_reader import_formats sibling_file atomic_write file_map format_float mesh_import name_table obj_reader obj_write parse_float
         point_cloud split_polygon contour_text polygon_levels area_marks)
     set(talus_test_${stem}_needs talus_io)
 endforeach()

@@ -7,6 +7,7 @@
 #include "cli/options/closest_word.h"
 #include "cli/shared/command.h"
 #include "cli/shared/start.h"
+#include "io/mesh/mesh_import.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -82,6 +83,7 @@ static int print_for_packages(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+    tl_import_child_main();
     if (!tl_start(&argc, &argv)) {
         fprintf(stderr, "talus: the arguments cannot be read\n");
         return TL_EXIT_USAGE;

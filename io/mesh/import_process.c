@@ -1,38 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// A child process reads, the parent receives: the result and error as they are, then the arrays, then the names.
-//
-// Both are one program, so structs go through the pipe as they lie in memory. A file may have made the child into
-// anything, so none of what it says is believed unseen.
-
-#define _GNU_SOURCE
+// A child process reads, the parent receives: the result and error as they are, then the arrays, then the names. None
+// of what the child says is believed unseen.
 
 #include "io/mesh/import_process.h"
 
 #include "io/files/growable.h"
-#include "io/mesh/import_sandbox.h"
+#include "io/process/guarded_child.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
-#include <poll.h>
-#include <signal.h>
-#include <stdio.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
 
-#if defined(__SANITIZE_ADDRESS__)
-#define HAS_SHADOW_MEMORY 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer)
-#define HAS_SHADOW_MEMORY 1
-#endif
-#endif
-
-enum { PROGRESS_MILLISECONDS = 250, BASE_SECONDS = 10, BYTES_A_SECOND = 1000000, WALL_FACTOR = 4, MEMORY_FACTOR = 64 };
+enum { BASE_SECONDS = 10, BYTES_A_SECOND = 1000000, WALL_FACTOR = 4, MEMORY_FACTOR = 64 };
 
 static const uint64_t base_memory = (uint64_t)4 << 30;
 
@@ -44,25 +23,17 @@ typedef struct message {
     tl_imported_mesh mesh;
 } message;
 
-// The limits in use.
-typedef struct child_limits {
-    uint64_t processor_seconds;
-    uint64_t wall_seconds;
-    uint64_t memory_bytes;
-} child_limits;
+// What the task's parts are.
+enum { PART_SETTINGS, PART_FILE, PART_NAME, PART_PATH, PART_KIND };
 
-typedef struct receiver {
-    int pipe;
-    const tl_mesh_source *source;
-    const tl_host *host;
-    tl_io_error *error;
-    child_limits limits;
-    struct timespec start;
-} receiver;
+typedef struct source_settings {
+    bool allow_no_triangles;
+    double origin[3];
+} source_settings;
 
-static child_limits choose_limits(const tl_import_limits *limits, size_t size)
+static tl_child_limits choose_limits(const tl_import_limits *limits, size_t size)
 {
-    child_limits result;
+    tl_child_limits result;
     result.processor_seconds = BASE_SECONDS + size / BYTES_A_SECOND;
     result.wall_seconds = result.processor_seconds * WALL_FACTOR;
     result.memory_bytes = base_memory + (uint64_t)size * MEMORY_FACTOR;
@@ -77,147 +48,77 @@ static child_limits choose_limits(const tl_import_limits *limits, size_t size)
 
 // --- the child ------------------------------------------------------------------------------------------------------
 
-static bool send_bytes(int pipe, const void *bytes, size_t size)
+static void send_mesh(tl_child_pipe *answer, const message *sent)
 {
-    const char *at = bytes;
-    while (size > 0) {
-        ssize_t put = write(pipe, at, size);
-        if (put < 0 && errno != EINTR) {
-            return false;
-        }
-        if (put > 0) {
-            at += put;
-            size -= (size_t)put;
-        }
-    }
-    return true;
-}
-
-#ifndef HAS_SHADOW_MEMORY
-// Bytes of data that the process has now, which a child inherits; 0 where the system does not say.
-static uint64_t current_data(void)
-{
-    unsigned long long pages = 0;
-    FILE *file = fopen("/proc/self/statm", "re");
-    if (file != NULL) {
-        if (fscanf(file, "%*u %*u %*u %*u %*u %llu", &pages) != 1) {
-            pages = 0;
-        }
-        fclose(file);
-    }
-    return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
-}
-#endif
-
-static void limit_memory(uint64_t bytes)
-{
-#ifdef HAS_SHADOW_MEMORY
-    (void)bytes; // the shadow is data too
-#else
-    uint64_t total = current_data() + bytes;
-    // Where a limit is a word of 32 bits, larger ones are more than there are addresses.
-    const rlim_t words = total < (uint64_t)RLIM_INFINITY ? (rlim_t)total : RLIM_INFINITY;
-    struct rlimit memory = { words, words };
-    setrlimit(RLIMIT_DATA, &memory);
-#endif
-}
-
-static void limit_child(const child_limits *limits)
-{
-    struct rlimit time = { (rlim_t)limits->processor_seconds, (rlim_t)limits->processor_seconds };
-    struct rlimit none = { 0, 0 };
-    setrlimit(RLIMIT_CPU, &time);
-    setrlimit(RLIMIT_CORE, &none);
-    setrlimit(RLIMIT_FSIZE, &none); // it has nothing to write to a file
-    limit_memory(limits->memory_bytes);
-    // Whatever the program does on these is none of the child's business, and its last words are not for the user.
-    signal(SIGINT, SIG_DFL);
-    signal(SIGTERM, SIG_DFL);
-    signal(SIGABRT, SIG_DFL);
-    signal(SIGXCPU, SIG_DFL);
-    int nowhere = open("/dev/null", O_WRONLY);
-    if (nowhere >= 0) {
-        dup2(nowhere, STDERR_FILENO);
-        dup2(nowhere, STDOUT_FILENO);
+    const tl_imported_mesh *mesh = &sent->mesh;
+    const size_t triangles = mesh->triangle_count;
+    if (tl_child_send(answer, sent, sizeof *sent) && sent->result == TL_OK &&
+        tl_child_send(answer, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices) &&
+        tl_child_send(answer, mesh->indices, triangles * 3 * sizeof *mesh->indices) &&
+        tl_child_send(answer, mesh->materials, triangles * sizeof *mesh->materials)) {
+        tl_child_send(answer, mesh->names.text, mesh->names.text_size);
     }
 }
 
-// Does not return. _exit: nothing of the parent's (buffers, exit handlers) is to run twice.
-static void run_child(int pipe, tl_mesh_reader *read_mesh, const tl_mesh_source *source, const child_limits *limits)
+static void read_and_send(const tl_child_task *task, bool in_sandbox, tl_child_pipe *answer)
 {
-    limit_child(limits);
+    const source_settings *settings = task->parts[PART_SETTINGS];
+    const double *o = settings->origin;
+    const tl_mesh_source source = { task->parts[PART_NAME],      task->parts[PART_PATH], task->parts[PART_FILE],
+                                    task->part_sizes[PART_FILE], task->parts[PART_KIND], settings->allow_no_triangles,
+                                    { o[0], o[1], o[2] } };
+    tl_mesh_reader *read_mesh = (tl_mesh_reader *)task->function;
     message sent;
     memset(&sent, 0, sizeof sent);
-#ifndef HAS_SHADOW_MEMORY // sanitizers ask for more when they report
-    sent.in_sandbox = tl_enter_import_sandbox(pipe);
-#endif
-    sent.result = read_mesh(source, NULL, &sent.mesh, &sent.error);
-    const tl_imported_mesh *mesh = &sent.mesh;
-    size_t triangles = mesh->triangle_count;
-    bool all = send_bytes(pipe, &sent, sizeof sent);
-    if (sent.result == TL_OK) {
-        all = all && send_bytes(pipe, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices) &&
-              send_bytes(pipe, mesh->indices, triangles * 3 * sizeof *mesh->indices) &&
-              send_bytes(pipe, mesh->materials, triangles * sizeof *mesh->materials) &&
-              send_bytes(pipe, mesh->names.text, mesh->names.text_size);
-    }
-    _exit(all ? 0 : 1);
+    sent.in_sandbox = in_sandbox;
+    sent.result = read_mesh(&source, NULL, &sent.mesh, &sent.error);
+    send_mesh(answer, &sent);
 }
 
 // --- the parent -----------------------------------------------------------------------------------------------------
 
-static bool is_out_of_time(const receiver *from)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return now.tv_sec - from->start.tv_sec >= (time_t)from->limits.wall_seconds;
-}
-
-static tl_result fail_time(const receiver *from)
-{
-    return tl_io_fail(from->error, TL_ERR_LIMIT, from->source->name, 0,
-                      "open it in a modelling tool and export it as OBJ", "its reader was ended after %llu s",
-                      (unsigned long long)from->limits.wall_seconds);
-}
+typedef struct receiver {
+    tl_child *child;
+    const tl_mesh_source *source;
+    const tl_host *host;
+    tl_io_error *error;
+    tl_child_limits limits;
+} receiver;
 
 // TL_ERR_TRUNCATED when the child ended before all was there.
-static tl_result receive_bytes(receiver *from, void *bytes, size_t size)
+static tl_result receive_bytes(const receiver *from, void *bytes, size_t size)
 {
     char *at = bytes;
     while (size > 0) {
-        struct pollfd waiting = { from->pipe, POLLIN, 0 };
-        int ready = poll(&waiting, 1, PROGRESS_MILLISECONDS);
-        if (is_out_of_time(from)) {
-            return fail_time(from);
-        }
-        if (ready <= 0) {
-            if (tl_io_progress(from->host, "read mesh", 0, from->source->size) != TL_OK) {
-                return tl_io_fail(from->error, TL_ERR_CANCELLED, from->source->name, 0, NULL, "cancelled");
-            }
-            continue;
-        }
-        ssize_t got = read(from->pipe, at, size);
-        if (got == 0 || (got < 0 && errno != EINTR)) {
+        const ptrdiff_t got = tl_child_receive(from->child, at, size);
+        if (got == TL_CHILD_ENDED) {
             return TL_ERR_TRUNCATED;
         }
-        if (got > 0) {
-            at += got;
-            size -= (size_t)got;
+        if (got == TL_CHILD_OUT_OF_TIME) {
+            return tl_io_fail(from->error, TL_ERR_LIMIT, from->source->name, 0,
+                              "open it in a modelling tool and export it as OBJ", "its reader was ended after %llu s",
+                              (unsigned long long)from->limits.wall_seconds);
         }
+        if (got == TL_CHILD_NOTHING_YET && tl_io_progress(from->host, "read mesh", 0, from->source->size) != TL_OK) {
+            return tl_io_fail(from->error, TL_ERR_CANCELLED, from->source->name, 0, NULL, "cancelled");
+        }
+        at += got;
+        size -= (size_t)got;
     }
     return TL_OK;
 }
 
-static tl_result receive_names(receiver *from, size_t text_size, tl_imported_mesh *mesh)
+static tl_result receive_names(const receiver *from, size_t text_size, tl_imported_mesh *mesh)
 {
     char *text = text_size < SIZE_MAX ? tl_io_allocate(&mesh->allocator, text_size + 1) : NULL;
     if (text == NULL) {
         return TL_ERR_MEMORY;
     }
     tl_result result = receive_bytes(from, text, text_size);
+    text[text_size] = '\0'; // whatever the child's last name ends with
     for (size_t at = 0; result == TL_OK && at < text_size;) {
         uint32_t id;
-        size_t length = strnlen(text + at, text_size - at);
+        size_t length = strlen(text + at);
         result = tl_name_table_add(&mesh->names, &mesh->allocator, text + at, length, TL_MAX_IMPORTED_MATERIALS, &id);
         at += length + 1;
     }
@@ -246,7 +147,7 @@ static bool is_sound_mesh(const tl_imported_mesh *mesh)
     return true;
 }
 
-static tl_result receive_mesh(receiver *from, const tl_imported_mesh *sent, tl_imported_mesh *mesh)
+static tl_result receive_arrays(const receiver *from, const tl_imported_mesh *sent, tl_imported_mesh *mesh)
 {
     size_t triangles = sent->triangle_count;
     if (sent->vertex_count > TL_MAX_MESH_VERTICES || triangles > TL_MAX_MESH_TRIANGLES) {
@@ -296,7 +197,7 @@ static tl_result receive_error(const receiver *from, message *received)
     return tl_io_blame(from->error, result, told->element, told->element_index);
 }
 
-static tl_result receive_all(receiver *from, tl_imported_mesh *mesh)
+static tl_result receive_mesh(const receiver *from, tl_imported_mesh *mesh)
 {
     message received;
     tl_result result = receive_bytes(from, &received, sizeof received);
@@ -304,7 +205,7 @@ static tl_result receive_all(receiver *from, tl_imported_mesh *mesh)
         return receive_error(from, &received);
     }
     if (result == TL_OK) {
-        result = receive_mesh(from, &received.mesh, mesh);
+        result = receive_arrays(from, &received.mesh, mesh);
         mesh->isolation = received.in_sandbox ? TL_ISOLATION_SANDBOX : TL_ISOLATION_PROCESS;
     }
     if (result == TL_ERR_MEMORY) {
@@ -317,64 +218,73 @@ static tl_result receive_all(receiver *from, tl_imported_mesh *mesh)
     return result;
 }
 
-// Why the child ended early.
-static tl_result explain_death(const receiver *from, int status)
+// Why the child ended before all was there.
+static tl_result explain_end(const receiver *from, const tl_child_end *end)
 {
     const char *name = from->source->name;
-    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) {
+    if (end->by_limit) {
         return tl_io_fail(from->error, TL_ERR_LIMIT, name, 0, "open it in a modelling tool and export it as OBJ",
                           "its reader was ended: more than %llu s of processor time, or too little memory",
                           (unsigned long long)from->limits.processor_seconds);
     }
     return tl_io_fail(from->error, TL_ERR_FORMAT, name, 0, "it is damaged; export it again",
-                      "its reader failed on it (%s)",
-                      WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "it ended early");
+                      "its reader failed on it (%s)", end->how);
 }
 
-// Closed in programs that other threads start meanwhile.
-static int open_pipe(int ends[2])
+static void give_text(tl_child_task *task, int part, const char *text)
 {
-#ifdef __linux__
-    return pipe2(ends, O_CLOEXEC);
-#else
-    return pipe(ends) == 0 && fcntl(ends[0], F_SETFD, FD_CLOEXEC) != -1 ? fcntl(ends[1], F_SETFD, FD_CLOEXEC) : -1;
-#endif
+    task->parts[part] = text;
+    task->part_sizes[part] = text != NULL ? strlen(text) + 1 : 0;
+}
+
+static tl_result read_in_child(tl_mesh_reader *read_mesh, receiver *from, tl_imported_mesh *mesh)
+{
+    const tl_mesh_source *source = from->source;
+    const double *o = source->origin;
+    const source_settings settings = { source->allow_no_triangles, { o[0], o[1], o[2] } };
+    tl_child_task task;
+    memset(&task, 0, sizeof task);
+    task.work = read_and_send;
+    task.function = (tl_child_function *)read_mesh;
+    task.parts[PART_SETTINGS] = &settings;
+    task.part_sizes[PART_SETTINGS] = sizeof settings;
+    task.parts[PART_FILE] = source->bytes;
+    task.part_sizes[PART_FILE] = source->size;
+    give_text(&task, PART_NAME, source->name);
+    give_text(&task, PART_PATH, source->path);
+    give_text(&task, PART_KIND, source->kind);
+    const int refused = tl_child_start(&task, &from->limits, &from->child);
+    if (refused != 0) {
+        return tl_io_fail_system(from->error, source->name, "start a process to read it", refused);
+    }
+    const tl_result result = receive_mesh(from, mesh);
+    tl_child_end end;
+    tl_child_close(from->child, &end);
+    return result == TL_ERR_TRUNCATED ? explain_end(from, &end) : result;
 }
 
 tl_result tl_read_isolated(tl_mesh_reader *read_mesh, const tl_mesh_source *source, const tl_import_limits *limits,
                            const tl_host *host, tl_imported_mesh *mesh_out, tl_io_error *error_out)
 {
-    receiver from = { -1, source, host, error_out, choose_limits(limits, source->size), { 0, 0 } };
+    const tl_allocator *allocator = host != NULL ? host->allocator : NULL;
     memset(mesh_out, 0, sizeof *mesh_out);
-    int ends[2];
-    if (open_pipe(ends) != 0) {
-        return tl_io_fail_system(error_out, source->name, "start a process to read it", errno);
+    if (!tl_child_is_possible()) {
+        if (limits != NULL && (limits->seconds > 0 || limits->memory_bytes > 0)) {
+            return tl_io_fail(error_out, TL_ERR_UNSUPPORTED, source->name, 0, "call tl_import_child_main first in main",
+                              "limits need a process that reads");
+        }
+        return read_mesh(source, allocator, mesh_out, error_out);
     }
-    clock_gettime(CLOCK_MONOTONIC, &from.start);
-    pid_t child = fork();
-    if (child == 0) {
-        close(ends[0]);
-        run_child(ends[1], read_mesh, source, &from.limits);
-    }
-    int refused = errno;
-    close(ends[1]);
-    if (child < 0) {
-        close(ends[0]);
-        return tl_io_fail_system(error_out, source->name, "start a process to read it", refused);
-    }
-    from.pipe = ends[0];
-    tl_imported_mesh_init(mesh_out, host != NULL ? host->allocator : NULL);
-    tl_result result = receive_all(&from, mesh_out);
-    close(ends[0]);
-    kill(child, SIGKILL); // it has nothing more to say; how it ended, if it has, stands already
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    if (result == TL_ERR_TRUNCATED) {
-        result = explain_death(&from, status);
-    }
+    receiver from = { NULL, source, host, error_out, choose_limits(limits, source->size) };
+    tl_imported_mesh_init(mesh_out, allocator);
+    const tl_result result = read_in_child(read_mesh, &from, mesh_out);
     if (result != TL_OK) {
         tl_imported_mesh_free(mesh_out);
     }
     return result;
+}
+
+void tl_import_child_main(void)
+{
+    tl_child_main();
 }

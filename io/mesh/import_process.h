@@ -5,7 +5,7 @@
 // Assimp 5 answers some damaged files with a failed assertion (a PLY whose face list is cut), an endless loop (a PLY
 // whose header is cut) or a wild pointer. A level that cannot be read must not take the calling program down, so the
 // file is read by a child process with limits on its processor time, wall clock and memory, and what it found comes
-// back through a pipe; on Linux the system refuses it all else (import_sandbox.h). What comes back is not trusted
+// back through a pipe; on Linux the system refuses it all else (child_sandbox.h). What comes back is not trusted
 // either: counts, indices and coordinates are checked again. The copy costs a few milliseconds for a million triangles;
 // Assimp needs seconds.
 

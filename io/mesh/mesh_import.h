@@ -61,11 +61,16 @@ tl_import_options tl_default_import_options(void);
 /// triangles), TL_ERR_NOT_FINITE, TL_ERR_RANGE (a coordinate does not fit a float), TL_ERR_INDEX, TL_ERR_LIMIT,
 /// TL_ERR_ARGUMENT, TL_ERR_MEMORY, TL_ERR_CANCELLED. On failure `*mesh_out` is zeroed. All but OBJ is read in a child
 /// process with limits, so that a file that makes a reader crash or loop for ever is an error too (import_process.h);
-/// the child's memory is not the host's allocator's. On Windows it is read in the calling process, unguarded: give it
-/// no files of strangers there, and `limits` other than zeros are TL_ERR_UNSUPPORTED. A file that the level names (a
-/// glTF's buffer) is opened only when it is a regular file of the level's folder or below.
+/// the child's memory is not the host's allocator's. On Windows that needs tl_import_child_main. A file that the level
+/// names (a glTF's buffer) is opened only when it is a regular file of the level's folder or below.
 tl_result tl_import_mesh(const char *path, const tl_import_options *options, tl_imported_mesh *mesh_out,
                          tl_io_error *error_out);
+
+/// Call it first in main() of a program that reads files of strangers on Windows; it does nothing elsewhere. Windows
+/// has no fork: the process that reads is your program started anew, in which this call reads, answers and ends it.
+/// Without it files are read in the calling process there, unguarded, and limits other than zeros are
+/// TL_ERR_UNSUPPORTED.
+void tl_import_child_main(void);
 
 /// The same of a file that is in memory already. `path` names it, and is where files beside it are looked for; "-" is
 /// standard input, of which nothing more is read.

@@ -8,7 +8,7 @@
 
 #define _GNU_SOURCE
 
-#include "io/mesh/import_sandbox.h"
+#include "io/process/child_sandbox.h"
 
 #if defined(__linux__) && (defined(__x86_64__) || defined(__aarch64__) || (defined(__riscv) && __riscv_xlen == 64))
 
@@ -156,7 +156,7 @@ static void write_filter(filter_program *p, uint32_t pipe)
     add_answer(p, refused);
 }
 
-bool tl_enter_import_sandbox(int pipe)
+bool tl_enter_child_sandbox(int pipe)
 {
     filter_program program = { .length = 0 };
     write_filter(&program, (uint32_t)pipe);
@@ -166,7 +166,7 @@ bool tl_enter_import_sandbox(int pipe)
 
 #else
 
-bool tl_enter_import_sandbox(int pipe)
+bool tl_enter_child_sandbox(int pipe)
 {
     (void)pipe;
     return false;
