@@ -120,15 +120,23 @@ static void update_blur(const updater *u)
     }
 }
 
-static void copy_values(uint16_t *to, const uint16_t *from, uint32_t count)
+// The values that one of the three steps left.
+static void read_stage(const tl_distance_stages *stages, uint32_t step, uint32_t count, uint16_t *restrict to)
 {
-    memcpy(to, from, count * sizeof *to);
+    if (stages->value_size == sizeof *to) {
+        memcpy(to, (const uint16_t *)stages->values + (size_t)step * count, count * sizeof *to);
+        return;
+    }
+    const uint8_t *from = (const uint8_t *)stages->values + (size_t)step * count;
+    for (uint32_t i = 0; i < count; i++) {
+        to[i] = from[i];
+    }
 }
 
-static uint16_t largest_distance(const uint16_t *values, uint32_t count)
+static uint16_t largest_distance(const uint16_t *values, size_t count)
 {
     uint16_t largest = 0;
-    for (uint32_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++) {
         largest = values[i] > largest ? values[i] : largest;
     }
     return largest;
@@ -148,9 +156,9 @@ tl_result tl_distance_field_update(const uint8_t *before, const tl_distance_stag
         u.second = u.first + words;
         u.sharp = u.forward + count;
         memset(u.first, 0, 2 * (size_t)words * sizeof *u.first);
-        copy_values(u.forward, stages->forward, count);
-        copy_values(u.sharp, stages->sharp, count);
-        copy_values(u.blurred, stages->blurred, count);
+        read_stage(stages, 0, count, u.forward);
+        read_stage(stages, 1, count, u.sharp);
+        read_stage(stages, 2, count, u.blurred);
         find_changes(&u);
         update_forward(&u);
         update_backward(&u);
@@ -165,30 +173,55 @@ tl_result tl_distance_field_update(const uint8_t *before, const tl_distance_stag
     return there ? TL_OK : TL_ERR_MEMORY;
 }
 
+uint64_t tl_distance_stages_bytes(const tl_distance_stages *stages, uint32_t span_count)
+{
+    return 3 * (uint64_t)stages->value_size * span_count;
+}
+
 void tl_distance_stages_free(tl_distance_stages *stages, uint32_t span_count, const tl_allocator *allocator)
 {
-    tl_release_array(allocator, stages->forward, span_count, sizeof *stages->forward);
-    tl_release_array(allocator, stages->sharp, span_count, sizeof *stages->sharp);
-    tl_release_array(allocator, stages->blurred, span_count, sizeof *stages->blurred);
+    tl_release_array(allocator, stages->values, 3 * (uint64_t)span_count, stages->value_size);
     memset(stages, 0, sizeof *stages);
+}
+
+// Bytes instead, which take over from `wide`. TL_ERR_MEMORY: nothing has changed.
+static tl_result narrow_stages(tl_distance_stages *stages, uint32_t span_count, const tl_allocator *allocator)
+{
+    const uint64_t count = 3 * (uint64_t)span_count;
+    const uint16_t *wide = stages->values;
+    uint8_t *restrict narrow = tl_allocate_array(allocator, count, 1);
+    if (narrow == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint64_t i = 0; i < count; i++) {
+        narrow[i] = (uint8_t)wide[i];
+    }
+    tl_distance_stages_free(stages, span_count, allocator);
+    stages->values = narrow;
+    stages->value_size = 1;
+    return TL_OK;
 }
 
 tl_result tl_distance_stages_make(const tl_nav_compact *compact, const tl_allocator *allocator,
                                   tl_distance_stages *stages_out)
 {
     const uint32_t count = compact->span_count;
-    tl_distance_stages stages;
-    stages.forward = tl_allocate_array(allocator, count, sizeof *stages.forward);
-    stages.sharp = tl_allocate_array(allocator, count, sizeof *stages.sharp);
-    stages.blurred = tl_allocate_array(allocator, count, sizeof *stages.blurred);
-    if (stages.forward == NULL || stages.sharp == NULL || stages.blurred == NULL) {
+    uint16_t *forward = tl_allocate_array(allocator, 3 * (uint64_t)count, sizeof *forward);
+    memset(stages_out, 0, sizeof *stages_out);
+    if (forward == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint16_t *sharp = forward + count, *blurred = sharp + count;
+    tl_distance_stages stages = { forward, sizeof *forward };
+    tl_distance_sweep_forward(compact, forward);
+    memcpy(sharp, forward, count * sizeof *sharp);
+    tl_distance_sweep_backward(compact, sharp);
+    tl_distance_blur(compact, sharp, blurred);
+    if (largest_distance(forward, 3 * (size_t)count) <= UINT8_MAX &&
+        narrow_stages(&stages, count, allocator) != TL_OK) {
         tl_distance_stages_free(&stages, count, allocator);
         return TL_ERR_MEMORY;
     }
-    tl_distance_sweep_forward(compact, stages.forward);
-    copy_values(stages.sharp, stages.forward, count);
-    tl_distance_sweep_backward(compact, stages.sharp);
-    tl_distance_blur(compact, stages.sharp, stages.blurred);
     *stages_out = stages;
     return TL_OK;
 }
