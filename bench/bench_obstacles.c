@@ -70,7 +70,11 @@ static void make_tiles(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, edit_ti
     while (tl_nav_obstacles_waiting(obstacles) > 0 && times->swap_count < MAX_TILES) {
         tl_nav_rebaked_tile remade;
         double began = bench_process_seconds();
-        must(tl_nav_obstacles_bake_next(obstacles, &remade, NULL), "build");
+        const tl_result result = tl_nav_obstacles_bake_next(obstacles, &remade, NULL);
+        if (result == TL_NOT_FOUND) {
+            return; // what waited is as it was
+        }
+        must(result, "build");
         double built = bench_process_seconds();
         must(tl_navmesh_replace_tiles(navmesh, remade.tile_x, remade.tile_z, &remade.stack), "swap");
         times->swap[times->swap_count++] = (bench_process_seconds() - built) * 1e6;

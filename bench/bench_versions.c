@@ -98,7 +98,12 @@ static void swap_tiles(city *c, swap_times *times)
 {
     while (tl_nav_obstacles_waiting(c->obstacles[0]) > 0 && times->count < MAX_SWAPS) {
         tl_nav_rebaked_tile a, b;
-        must(tl_nav_obstacles_bake_next(c->obstacles[0], &a, NULL), "build");
+        const tl_result result = tl_nav_obstacles_bake_next(c->obstacles[0], &a, NULL);
+        if (result == TL_NOT_FOUND) {
+            must(tl_nav_obstacles_bake_next(c->obstacles[1], &b, NULL) == result ? TL_OK : TL_ERR_CORRUPT, "build");
+            return; // what waited is as it was
+        }
+        must(result, "build");
         must(tl_nav_obstacles_bake_next(c->obstacles[1], &b, NULL), "build");
         for (size_t turn = 0; turn < 2; turn++) { // in turn, who is first
             if ((times->count + turn) % 2 == 0) {

@@ -80,7 +80,7 @@ TL_API tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obsta
 TL_API tl_result tl_nav_obstacles_remove(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id);
 
 TL_API uint32_t tl_nav_obstacles_count(const tl_nav_obstacles *obstacles);
-/// Tiles that wait to be rebaked.
+/// Tiles that wait to be rebaked, or to be found as they were.
 TL_API uint32_t tl_nav_obstacles_waiting(const tl_nav_obstacles *obstacles);
 /// Bytes of the kept heightfields, of the memos of rebaked tiles and of the list of obstacles.
 TL_API uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles);
@@ -96,13 +96,16 @@ typedef struct tl_nav_rebaked_tile {
     tl_nav_tile_stack stack; ///< the caller's, from the def's allocator; empty: nothing is walkable there now
 } tl_nav_rebaked_tile;
 
-/// Rebakes the tile that has waited longest. Hand its stack to tl_navmesh_replace_tiles, or free it. TL_NOT_FOUND: none
-/// waits. On failure it keeps waiting.
+/// Rebakes the tile that has waited longest, and drops those before it that need none: all floors of theirs are marked
+/// as they were when the tile was last handed out, by this function or by tl_nav_obstacles_bake. Hand its stack to
+/// tl_navmesh_replace_tiles, or free it; it does not come again before its floors change. TL_NOT_FOUND: none is left.
+/// On failure it keeps waiting.
 TL_API tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked_tile *rebaked_out,
                                             tl_nav_bake_report *report_out);
 
-/// Rebakes up to `max_tiles` waiting tiles and replaces the old ones in the navmesh, as tl_navmesh_replace_tiles does:
-/// a tile or layer whose bytes are the same stays. The navmesh owns the new ones.
+/// Rebakes up to `max_tiles` waiting tiles, as tl_nav_obstacles_bake_next does, and replaces the old ones in the
+/// navmesh, as tl_navmesh_replace_tiles does: a tile or layer whose bytes are the same stays. The navmesh owns the new
+/// ones.
 /// `*waiting_out` (may be NULL): how many wait still. On failure the tile in work keeps waiting, and the navmesh has
 /// the old one or, when it ran out of memory, none or some of its layers.
 TL_API tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t max_tiles,

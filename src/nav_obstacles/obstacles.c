@@ -8,6 +8,7 @@
 
 #include "nav_obstacles/footprint.h"
 #include "nav_obstacles/packed_floors.h"
+#include "nav_obstacles/tile_marks.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
@@ -19,8 +20,10 @@
 typedef struct tile_floors {
     tl_packed_floors floors;
     tl_nav_tile_memo *memo; // NULL until the tile is first made again
+    tl_tile_marks marks;    // as it was last handed out, with is_known
     uint32_t next_waiting;  // in the queue, while it waits
     bool is_there, waits;
+    bool is_known; // the caller has this tile
 } tile_floors;
 
 typedef struct obstacle_slot {
@@ -90,9 +93,11 @@ static void end_wait(tl_nav_obstacles *o)
 // ---------------------------------------------------------------------------------------------------------
 // Floors.
 
-static void free_floors(tile_floors *tile)
+static void free_floors(tile_floors *tile, const tl_allocator *allocator)
 {
     tl_packed_floors_free(&tile->floors);
+    tl_tile_marks_free(&tile->marks, allocator);
+    tile->is_known = false;
     tl_nav_tile_memo_free(tile->memo);
     tile->memo = NULL;
 }
@@ -132,7 +137,7 @@ static void install(tl_nav_obstacles *o, const floors_taker *taker)
     for (uint32_t z = 0; z < taker->range.count_z; z++) {
         for (uint32_t x = 0; x < taker->range.count_x; x++) {
             tile_floors *tile = tile_at(o, taker->range.x + x, taker->range.z + z);
-            free_floors(tile);
+            free_floors(tile, &o->allocator);
             tile->floors = taker->fresh[(uint64_t)z * taker->range.count_x + x].floors;
             tile->is_there = true;
         }
@@ -262,6 +267,9 @@ tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input
         tl_nav_obstacles_destroy(o);
         return result;
     }
+    for (uint64_t i = 0; i < tile_count(o); i++) {
+        o->tiles[i].is_known = block_out != NULL;
+    }
     if (block_out != NULL) {
         *block_out = block;
     } else {
@@ -307,7 +315,7 @@ void tl_nav_obstacles_destroy(tl_nav_obstacles *obstacles)
         return;
     }
     for (uint64_t i = 0; i < tile_count(o); i++) {
-        free_floors(&o->tiles[i]);
+        free_floors(&o->tiles[i], &o->allocator);
     }
     tl_floors_scratch_free(&o->scratch);
     const tl_allocator allocator = o->allocator;
@@ -471,21 +479,46 @@ static void mark_obstacles(const tl_nav_obstacles *o, uint32_t x, uint32_t z, tl
     }
 }
 
-// Makes a tile with what stands on it now.
-static tl_result rebake_with_obstacles(tl_nav_obstacles *o, tile_floors *tile, tl_nav_rebaked_tile *rebaked,
-                                       tl_nav_bake_report *report)
+// The floors of a tile with what stands on them now; they are not linked yet.
+typedef struct marked_floors {
+    tl_nav_compact compact;
+    uint8_t *base_area;
+} marked_floors;
+
+static tl_result rebake_marked(tl_nav_obstacles *o, tile_floors *tile, marked_floors *now, tl_nav_rebaked_tile *rebaked,
+                               tl_nav_bake_report *report)
 {
     const uint32_t x = (uint32_t)rebaked->tile_x, z = (uint32_t)rebaked->tile_z;
     tl_nav_config config;
-    tl_nav_compact compact;
-    uint8_t *base_area;
+    tl_tile_marks marks;
     TL_TRY(tl_nav_config_from_def(&o->def, o->def.bounds, x, z, &config, report != NULL ? &report->base : NULL));
-    o->scratch.allocator = &o->allocator;
-    TL_TRY(tl_floors_unpack(&tile->floors, &o->scratch, &compact, &base_area));
-    mark_obstacles(o, x, z, &compact);
+    TL_TRY(tl_tile_marks_find(now->base_area, now->compact.area, now->compact.span_count, &o->allocator, &marks));
+    tl_floors_link(&o->scratch, &now->compact);
     const tl_host host = { &o->allocator, NULL, NULL };
     const tl_result result =
-        tl_nav_tile_rebake(&config, &compact, base_area, &tile->memo, &host, &rebaked->stack, report);
+        tl_nav_tile_rebake(&config, &now->compact, now->base_area, &tile->memo, &host, &rebaked->stack, report);
+    tl_tile_marks_free(result == TL_OK ? &tile->marks : &marks, &o->allocator);
+    if (result == TL_OK) {
+        tile->marks = marks;
+    }
+    return result;
+}
+
+// Makes a tile with what stands on it now; TL_NOT_FOUND: it is as it was handed out last.
+static tl_result rebake_with_obstacles(tl_nav_obstacles *o, tile_floors *tile, tl_nav_rebaked_tile *rebaked,
+                                       tl_nav_bake_report *report)
+{
+    marked_floors now;
+    if (tile->floors.frame.span_count == 0) {
+        return tile->is_known ? TL_NOT_FOUND : TL_OK;
+    }
+    o->scratch.allocator = &o->allocator;
+    TL_TRY(tl_floors_unpack(&tile->floors, &o->scratch, &now.compact, &now.base_area));
+    mark_obstacles(o, (uint32_t)rebaked->tile_x, (uint32_t)rebaked->tile_z, &now.compact);
+    if (tile->is_known && tl_tile_marks_hold(&tile->marks, now.base_area, now.compact.area, now.compact.span_count)) {
+        return TL_NOT_FOUND;
+    }
+    const tl_result result = rebake_marked(o, tile, &now, rebaked, report);
     if (result != TL_OK) {
         tl_floors_scratch_free(&o->scratch); // where memory is short
     }
@@ -500,18 +533,21 @@ tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked
     TL_REFUSE_NULL(rebaked_out, base);
     memset(rebaked_out, 0, sizeof *rebaked_out);
     TL_REFUSE_NULL(obstacles, base);
-    if (o->first_waiting == NO_SLOT) {
-        return TL_NOT_FOUND;
+    tl_result result = TL_NOT_FOUND;
+    while (result == TL_NOT_FOUND && o->first_waiting != NO_SLOT) {
+        tile_floors *tile = &o->tiles[o->first_waiting];
+        rebaked_out->tile_x = (int32_t)(o->first_waiting % o->tiles_x);
+        rebaked_out->tile_z = (int32_t)(o->first_waiting / o->tiles_x);
+        result = rebake_with_obstacles(o, tile, rebaked_out, report_out);
+        if (result == TL_OK || result == TL_NOT_FOUND) {
+            tile->is_known = true;
+            end_wait(o);
+        }
     }
-    tile_floors *tile = &o->tiles[o->first_waiting];
-    const uint32_t x = o->first_waiting % o->tiles_x, z = o->first_waiting / o->tiles_x;
-    rebaked_out->tile_x = (int32_t)x;
-    rebaked_out->tile_z = (int32_t)z;
-    if (tile->floors.frame.span_count > 0) {
-        TL_TRY(rebake_with_obstacles(o, tile, rebaked_out, report_out));
+    if (result != TL_OK) {
+        memset(rebaked_out, 0, sizeof *rebaked_out);
     }
-    end_wait(o);
-    return TL_OK;
+    return result;
 }
 
 tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t max_tiles,
@@ -526,7 +562,6 @@ tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navme
     tl_nav_obstacles *o = obstacles;
     tl_result result = TL_OK;
     for (uint32_t i = 0; i < max_tiles && result == TL_OK && o->first_waiting != NO_SLOT; i++) {
-        const uint32_t index = o->first_waiting;
         tl_nav_rebaked_tile rebaked;
         result = tl_nav_obstacles_bake_next(o, &rebaked, report_out);
         if (result != TL_OK) {
@@ -534,14 +569,15 @@ tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navme
         }
         result = tl_navmesh_replace_tiles(navmesh, rebaked.tile_x, rebaked.tile_z, &rebaked.stack);
         if (result != TL_OK) {
-            const tl_nav_tile_range again = { index % o->tiles_x, index / o->tiles_x, 1, 1 };
+            const tl_nav_tile_range again = { (uint32_t)rebaked.tile_x, (uint32_t)rebaked.tile_z, 1, 1 };
+            tile_at(o, again.x, again.z)->is_known = false;
             let_wait(o, &again);
         }
     }
     if (waiting_out != NULL) {
         *waiting_out = o->waiting_count;
     }
-    return result;
+    return result == TL_NOT_FOUND ? TL_OK : result;
 }
 
 uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles)
@@ -551,6 +587,7 @@ uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles)
         sizeof *o + o->scratch.size + tile_count(o) * sizeof *o->tiles + (uint64_t)o->slot_capacity * sizeof *o->slots;
     for (uint64_t i = 0; i < tile_count(o); i++) {
         bytes += o->tiles[i].floors.size + tl_nav_tile_memo_bytes(o->tiles[i].memo);
+        bytes += (uint64_t)o->tiles[i].marks.run_count * sizeof *o->tiles[i].marks.runs;
     }
     return bytes;
 }

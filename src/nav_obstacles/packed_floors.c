@@ -249,8 +249,15 @@ static inline void link_packed_pair(const tl_nav_compact *compact, const uint8_t
     compact->step[4 * (size_t)b + (direction ^ 2)] = (int16_t)-step;
 }
 
-static void link_packed(const tl_nav_compact *compact, const uint8_t *links)
+void tl_floors_link(const tl_floors_scratch *scratch, tl_nav_compact *compact)
 {
+    const uint8_t *links = scratch->links;
+    const size_t links_count = 4 * (size_t)compact->span_count;
+    if (compact->step != NULL) {
+        memset(compact->step, 0, links_count * sizeof *compact->step);
+    } else {
+        memset(compact->neighbour, 0xff, links_count * sizeof *compact->neighbour); // TL_NAV_NO_SPAN
+    }
     for (uint32_t z = 0; z < compact->height; z++) {
         for (uint32_t x = 0; x < compact->width; x++) {
             const uint32_t column = z * compact->width + x;
@@ -279,12 +286,6 @@ static void fill_floors(const tl_packed_floors *packed, const tl_nav_compact *co
         end += counts[c];
     }
     compact->first_span[columns] = end;
-    if (compact->step != NULL) {
-        memset(compact->step, 0, 4 * spans * sizeof *compact->step);
-    } else {
-        memset(compact->neighbour, 0xff, 4 * spans * sizeof *compact->neighbour); // TL_NAV_NO_SPAN
-    }
-    link_packed(compact, links);
 }
 
 // The next `size` bytes of a block, from a multiple of 8 on.
@@ -323,6 +324,7 @@ tl_result tl_floors_unpack(const tl_packed_floors *packed, tl_floors_scratch *sc
     uint8_t *base_area = take_bytes(&at, spans), *links = take_bytes(&at, spans);
     TL_ASSERT(at <= (uint8_t *)scratch->block + scratch->size);
     fill_floors(packed, compact_out, counts, links);
+    scratch->links = links;
     memcpy(base_area, compact_out->area, spans);
     *base_area_out = base_area;
     return TL_OK;

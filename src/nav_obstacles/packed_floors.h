@@ -23,12 +23,16 @@ typedef struct tl_floors_scratch {
     void *block;
     uint64_t size;
     const tl_allocator *allocator;
+    const uint8_t *links; ///< in the block, of the floors that were unpacked last; bit d: there is a neighbour
 } tl_floors_scratch;
 
-/// The same floors again, in the scratch's block, where they hold until its next use: they are not freed.
-/// base_area_out: their areas once more. TL_ERR_MEMORY: nothing is written.
+/// The same floors again, in the scratch's block, where they hold until its next use: they are not freed. They have
+/// room for their links, and get them by tl_floors_link. base_area_out: their areas once more. TL_ERR_MEMORY: nothing
+/// is written.
 tl_result tl_floors_unpack(const tl_packed_floors *packed, tl_floors_scratch *scratch, tl_nav_compact *compact_out,
                            uint8_t **base_area_out);
+/// Links the floors that were unpacked last.
+void tl_floors_link(const tl_floors_scratch *scratch, tl_nav_compact *compact);
 void tl_floors_scratch_free(tl_floors_scratch *scratch);
 void tl_packed_floors_free(tl_packed_floors *packed);
 

@@ -94,7 +94,9 @@ static void digest_obstacles(tl_nav_def def, const tl_nav_input *input)
     digest d = digest_begin();
     while (tl_nav_obstacles_waiting(obstacles) > 0) {
         tl_nav_rebaked_tile tile;
-        MUST(tl_nav_obstacles_bake_next(obstacles, &tile, NULL));
+        if (tl_nav_obstacles_bake_next(obstacles, &tile, NULL) != TL_OK) {
+            break;
+        }
         for (uint32_t i = 0; i < tile.stack.count; i++) {
             digest_blob(&d, tile.stack.tiles[i]);
         }

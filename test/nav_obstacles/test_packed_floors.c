@@ -51,13 +51,14 @@ static void check_equal(const tl_nav_compact *a, const tl_nav_compact *b)
 static uint64_t round_trip(const tl_nav_compact *compact)
 {
     const tl_allocator allocator = tl_allocator_or_default(NULL);
-    tl_floors_scratch scratch = { NULL, 0, &allocator };
+    tl_floors_scratch scratch = { NULL, 0, &allocator, NULL };
     tl_packed_floors packed;
     tl_nav_compact again;
     uint8_t *base_area;
     TEST_RESULT(tl_floors_pack(compact, &allocator, &packed), TL_OK);
     for (int k = 0; k < 2; k++) { // into a new block, and into the same again
         TEST_RESULT(tl_floors_unpack(&packed, &scratch, &again, &base_area), TL_OK);
+        tl_floors_link(&scratch, &again);
         check_equal(compact, &again);
         TEST_CHECK(memcmp(base_area, compact->area, compact->span_count) == 0);
     }
@@ -142,7 +143,7 @@ static void failing_memory_is_reported(void **state)
         tl_packed_floors packed;
         tl_nav_compact again;
         uint8_t *base_area;
-        tl_floors_scratch scratch = { NULL, 0, &memory.allocator };
+        tl_floors_scratch scratch = { NULL, 0, &memory.allocator, NULL };
         tl_result result = tl_floors_pack(&stages.compact, &memory.allocator, &packed);
         if (result == TL_OK) {
             result = tl_floors_unpack(&packed, &scratch, &again, &base_area);

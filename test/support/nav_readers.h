@@ -103,7 +103,11 @@ static inline void world_settle(shared_world *world, tl_nav_obstacles *obstacles
 {
     while (tl_nav_obstacles_waiting(obstacles) > 0) {
         tl_nav_rebaked_tile rebaked;
-        TEST_RESULT(tl_nav_obstacles_bake_next(obstacles, &rebaked, NULL), TL_OK);
+        const tl_result result = tl_nav_obstacles_bake_next(obstacles, &rebaked, NULL);
+        TEST_CHECK(result == TL_OK || result == TL_NOT_FOUND);
+        if (result == TL_NOT_FOUND) {
+            break; // what waited is as it was
+        }
         world_begin_write(world);
         TEST_RESULT(tl_navmesh_replace_tiles(world->navmesh, rebaked.tile_x, rebaked.tile_z, &rebaked.stack), TL_OK);
         pthread_rwlock_unlock(&world->lock);
