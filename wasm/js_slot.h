@@ -15,6 +15,13 @@
 /// An export. `name` is what JavaScript calls.
 #define TL_JS_EXPORT(name) __attribute__((export_name(#name), used)) name
 
+/// An export that only the full modules have. From the module of queries the linker drops it, and what only it calls.
+#ifdef TALUS_JS_QUERIES
+#define TL_JS_FULL_EXPORT(name) name
+#else
+#define TL_JS_FULL_EXPORT(name) TL_JS_EXPORT(name)
+#endif
+
 enum { TL_JS_SLOT_SIZE = 1024 };
 
 /// Numbers in and out, JavaScript's view of it is a Float64Array.

@@ -37,7 +37,7 @@ tl_ray_filter *TL_JS_EXPORT(js_set_ray_filter)(int32_t cull, uint32_t materials_
 }
 
 /// Slot: the result.
-tl_soup *TL_JS_EXPORT(js_soup_bake)(int32_t compact, int32_t kd_tree, int32_t pairs, float split_budget)
+tl_soup *TL_JS_FULL_EXPORT(js_soup_bake)(int32_t compact, int32_t kd_tree, int32_t pairs, float split_budget)
 {
     tl_soup_def def = tl_default_soup_def();
     def.layout = compact ? TL_SOUP_COMPACT : TL_SOUP_FAST;
@@ -94,22 +94,6 @@ int32_t TL_JS_EXPORT(js_soup_line_of_sight)(const tl_soup *soup, float ax, float
                                             float bz, const tl_ray_filter *filter)
 {
     return tl_soup_line_of_sight(soup, tl_vec3_make(ax, ay, az), tl_vec3_make(bx, by, bz), filter);
-}
-
-/// Room for a batch: `count` rays of seven floats, and their hits behind them. NULL: out of memory.
-tl_ray *TL_JS_EXPORT(js_batch_room)(uint32_t count)
-{
-    const uint64_t size = (uint64_t)count * (sizeof(tl_ray) + sizeof(tl_ray_hit));
-    return size > SIZE_MAX ? NULL : tl_js_buffer_room((size_t)size);
-}
-
-/// Casts the rays of js_batch_room. Returns their hits.
-tl_ray_hit *TL_JS_EXPORT(js_soup_cast_rays)(const tl_soup *soup, tl_ray *rays, uint32_t count,
-                                            const tl_ray_filter *filter)
-{
-    tl_ray_hit *hits = (tl_ray_hit *)(void *)(rays + count);
-    tl_soup_cast_rays(soup, rays, count, filter, NULL, hits);
-    return hits;
 }
 
 /// Slot: origin, direction, max t; then how many hits there are and where.

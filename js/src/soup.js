@@ -6,8 +6,9 @@
 import { argumentError } from './error.js';
 import { Handle, PRIVATE, refuseNew } from './handle.js';
 import { withInput } from './mesh.js';
-import { F32, F64, SLOT, TL_ERR_MEMORY, U16, U32, U8, accepting, check, copyIn, copyOut, fail, putAabb, putPose, putVec3, ready, release,
+import { F32, F64, SLOT, U16, U32, U8, accepting, check, copyIn, copyOut, fail, putAabb, putPose, putVec3, ready, release,
          slotAabb, slotVec3, wasm, watched } from './module.js';
+import { putBatch, takeAnswers, takeHits } from './soup_batch.js';
 import { visibleOutline, walkBoxes } from './ray_walk.js';
 import { SHAPE_NUMBERS, STATUS, withShapes } from './shape.js';
 
@@ -135,28 +136,23 @@ export class Soup extends Handle {
   }
 
   castRays(rays, filter = null, out = null) {
-    const count = rays.length / 7, soup = this._address;
-    if (!Number.isInteger(count)) throw argumentError('rays', 'give seven numbers a ray');
-    const room = wasm.js_batch_room(count) >>> 0;
-    if (room === 0) fail(TL_ERR_MEMORY);
-    F32.set(rays, room / 4);
-    const hits = filtered(filter, (f) => wasm.js_soup_cast_rays(soup, room, count, f)) >>> 0;
-    const result = batchArrays(count, out);
-    const { t, triangle, uv, normal, material, back } = result;
-    // The module's own views, held for the loop: nothing grows meanwhile.
-    const f32 = F32, u32 = U32, u16 = U16, u8 = U8;
-    for (let i = 0, w = hits / 4; i < count; i++, w += HIT_WORDS) {
-      t[i] = f32[w];
-      triangle[i] = u32[w + 1];
-      uv[2 * i] = f32[w + 2];
-      uv[2 * i + 1] = f32[w + 3];
-      normal[3 * i] = f32[w + 4];
-      normal[3 * i + 1] = f32[w + 5];
-      normal[3 * i + 2] = f32[w + 6];
-      material[i] = u16[2 * w + 14];
-      back[i] = u8[4 * w + 30];
-    }
-    return result;
+    const { room, count } = putBatch(rays, 7, 'rays');
+    return takeHits(count, out, filtered(filter, (f) => wasm.js_soup_cast_rays(this._address, room, count, f)));
+  }
+
+  castSegments(segments, filter = null, out = null) {
+    const { room, count } = putBatch(segments, 6, 'segments');
+    return takeHits(count, out, filtered(filter, (f) => wasm.js_soup_cast_segments(this._address, room, count, f)));
+  }
+
+  occludedRays(rays, filter = null, out = null) {
+    const { room, count } = putBatch(rays, 7, 'rays');
+    return takeAnswers(count, out, filtered(filter, (f) => wasm.js_soup_occluded_rays(this._address, room, count, f)));
+  }
+
+  linesOfSight(segments, filter = null, out = null) {
+    const { room, count } = putBatch(segments, 6, 'segments');
+    return takeAnswers(count, out, filtered(filter, (f) => wasm.js_soup_lines_of_sight(this._address, room, count, f)));
   }
 
   castRayAll(origin, direction, { maxT = Infinity, rule = 'touched', filter = null } = {}) {
@@ -268,15 +264,4 @@ export class Soup extends Handle {
   visibleOutline(eye, options = {}) {
     return visibleOutline(this, eye, options);
   }
-}
-
-function batchArrays(count, out) {
-  const sizes = { t: [Float32Array, 1], triangle: [Uint32Array, 1], uv: [Float32Array, 2], normal: [Float32Array, 3],
-                  material: [Uint16Array, 1], back: [Uint8Array, 1] };
-  const arrays = {};
-  for (const [name, [Type, width]] of Object.entries(sizes)) {
-    arrays[name] = out?.[name] ?? new Type(width * count);
-    if (arrays[name].length < width * count) throw argumentError(`out.${name}`, `give room for ${width * count} numbers`);
-  }
-  return arrays;
 }

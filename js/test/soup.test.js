@@ -54,7 +54,7 @@ test('batches and all hits agree with single rays, bit for bit', () => {
       continue;
     }
     hit++;
-    assert.deepEqual([one.t, one.triangle, one.u, one.v, one.nx], [hits.t[i], hits.triangle[i], hits.uv[2 * i], hits.uv[2 * i + 1], hits.normal[3 * i]]);
+    assert.deepEqual({ ...one }, hitOfBatch(hits, i));
     const all = soup.castRayAll(rays.subarray(7 * i, 7 * i + 3), rays.subarray(7 * i + 3, 7 * i + 6), { maxT: 100 });
     assert.equal(all[0].t, one.t);
     assert.ok(all.every((h, k) => k === 0 || h.t >= all[k - 1].t));
@@ -62,6 +62,39 @@ test('batches and all hits agree with single rays, bit for bit', () => {
   assert.ok(hit > 1000 && hit < count);
   assert.equal(errorOf(() => soup.castRays(new Float32Array(8))).field, 'rays');
   assert.equal(errorOf(() => soup.castRays(rays, null, { t: new Float32Array(1) })).field, 'out.t');
+});
+
+/** One hit of a batch, as single calls give it. */
+function hitOfBatch({ t, triangle, uv, normal, material, back }, i) {
+  return { t: t[i], triangle: triangle[i], u: uv[2 * i], v: uv[2 * i + 1], nx: normal[3 * i], ny: normal[3 * i + 1], nz: normal[3 * i + 2],
+           material: material[i], back: back[i] === 1 };
+}
+
+test('batches of segments, of what is occluded and of what is seen agree with single calls', () => {
+  const { mesh } = courtyard(), materials = mesh.indices.filter((_, i) => i % 3 === 0).map((k) => k % 5);
+  const soup = Soup.bake(new Mesh(mesh.vertices, mesh.indices, materials)), filter = { cull: 'front', ignoredMaterials: [2] };
+  const { min, max } = soup.bounds(), random = randomNumbers(5), count = 1001; // odd: arrays behind one another stay aligned
+  const segments = Float32Array.from({ length: 6 * count }, (_, i) => min[i % 3] + random() * (max[i % 3] - min[i % 3]));
+  const rays = Float32Array.from({ length: 7 * count }, (_, i) => (i % 7 === 6 ? 9 : i % 7 < 3 ? segments[i % (6 * count)] : random() - 0.5));
+  const hits = soup.castSegments(segments, filter), clear = soup.linesOfSight(segments, filter), occluded = soup.occludedRays(rays, filter);
+  let met = 0, open = 0, hidden = 0;
+  for (let i = 0; i < count; i++) {
+    const segment = segments.subarray(6 * i, 6 * i + 6), one = soup.castSegment(...segment, filter);
+    if (one !== null) assert.deepEqual({ ...one }, hitOfBatch(hits, i));
+    else assert.equal(hits.triangle[i], 0xffffffff);
+    met += one !== null;
+    assert.equal(clear[i] === 1, soup.lineOfSight(...segment, filter));
+    open += clear[i];
+    assert.equal(occluded[i] === 1, soup.occluded(...rays.subarray(7 * i, 7 * i + 7), filter));
+    hidden += occluded[i];
+  }
+  assert.ok(met > 100 && open > 100 && hidden > 100 && hidden < count - 100, `${met} ${open} ${hidden}`);
+  const out = new Uint8Array(count + 3);
+  assert.equal(soup.occludedRays(rays, filter, out), out);
+  assert.deepEqual(out.subarray(0, count), occluded);
+  assert.equal(errorOf(() => soup.linesOfSight(segments, null, new Uint8Array(3))).field, 'out');
+  assert.equal(errorOf(() => soup.castSegments(new Float32Array(7))).field, 'segments');
+  assert.equal(soup.castRays(new Float32Array(0)).t.length, 0);
 });
 
 test('shapes, points, boxes', () => {
