@@ -49,8 +49,8 @@ static tl_hull *put_hull(tl_result *result, tl_hull *hull, const tl_hull_report 
 }
 
 /// Slot: the result, then the report.
-tl_hull *TL_JS_EXPORT(js_hull_bake)(const tl_vec3 *points, uint32_t count, uint32_t max_vertices, float thickness,
-                                    float flatness)
+tl_hull *TL_JS_FULL_EXPORT(js_hull_bake)(const tl_vec3 *points, uint32_t count, uint32_t max_vertices, float thickness,
+                                         float flatness)
 {
     tl_hull_def def = tl_default_hull_def();
     def.max_vertices = max_vertices;
@@ -64,7 +64,7 @@ tl_hull *TL_JS_EXPORT(js_hull_bake)(const tl_vec3 *points, uint32_t count, uint3
 }
 
 /// Slot: scale, pose; then as js_hull_bake.
-tl_hull *TL_JS_EXPORT(js_hull_transform)(const tl_hull *source)
+tl_hull *TL_JS_FULL_EXPORT(js_hull_transform)(const tl_hull *source)
 {
     tl_hull *hull;
     tl_hull_report report;
@@ -72,13 +72,13 @@ tl_hull *TL_JS_EXPORT(js_hull_transform)(const tl_hull *source)
     return put_hull(&result, hull, &report);
 }
 
-tl_result TL_JS_EXPORT(js_hull_check)(const void *bytes, uint32_t size)
+tl_result TL_JS_FULL_EXPORT(js_hull_check)(const void *bytes, uint32_t size)
 {
     return tl_hull_check(bytes, size, &tl_js_report);
 }
 
 /// Slot: size, counts, arrays, bounds, mass.
-void TL_JS_EXPORT(js_hull_info)(const tl_hull *hull)
+void TL_JS_FULL_EXPORT(js_hull_info)(const tl_hull *hull)
 {
     uint32_t at = tl_js_put(0, (double)hull->blob.size);
     at = tl_js_put(at, hull->vertex_count);
@@ -95,13 +95,13 @@ void TL_JS_EXPORT(js_hull_info)(const tl_hull *hull)
     memcpy(&tl_js_slot[at + 3], hull->mass.inertia, sizeof hull->mass.inertia);
 }
 
-uint32_t TL_JS_EXPORT(js_hull_support)(const tl_hull *hull, float x, float y, float z, uint32_t hint)
+uint32_t TL_JS_FULL_EXPORT(js_hull_support)(const tl_hull *hull, float x, float y, float z, uint32_t hint)
 {
     return tl_hull_support(hull, tl_vec3_make(x, y, z), hint);
 }
 
 /// Slot: origin, direction, max t; then t, face, normal.
-int32_t TL_JS_EXPORT(js_hull_cast_ray)(const tl_hull *hull)
+int32_t TL_JS_FULL_EXPORT(js_hull_cast_ray)(const tl_hull *hull)
 {
     tl_hull_hit hit;
     if (!tl_hull_cast_ray(hull, tl_js_vec3(0), tl_js_vec3(3), tl_js_f32(6), &hit)) {
@@ -111,7 +111,7 @@ int32_t TL_JS_EXPORT(js_hull_cast_ray)(const tl_hull *hull)
     return 1;
 }
 
-int32_t TL_JS_EXPORT(js_hull_contains)(const tl_hull *hull, float x, float y, float z)
+int32_t TL_JS_FULL_EXPORT(js_hull_contains)(const tl_hull *hull, float x, float y, float z)
 {
     return tl_hull_contains(hull, tl_vec3_make(x, y, z));
 }
@@ -121,7 +121,7 @@ int32_t TL_JS_EXPORT(js_hull_contains)(const tl_hull *hull, float x, float y, fl
 
 enum { POSE_A = TL_JS_SHAPE_NUMBERS, SHAPE_B = POSE_A + 7, POSE_B = SHAPE_B + TL_JS_SHAPE_NUMBERS, EXTRA = POSE_B + 7 };
 
-void TL_JS_EXPORT(js_convex_distance)(void)
+void TL_JS_FULL_EXPORT(js_convex_distance)(void)
 {
     const tl_convex a = tl_js_shape(0), b = tl_js_shape(SHAPE_B);
     tl_separation s;
@@ -131,13 +131,13 @@ void TL_JS_EXPORT(js_convex_distance)(void)
     tl_js_put(tl_js_put(at, s.status), s.iterations);
 }
 
-int32_t TL_JS_EXPORT(js_convex_overlap)(void)
+int32_t TL_JS_FULL_EXPORT(js_convex_overlap)(void)
 {
     const tl_convex a = tl_js_shape(0), b = tl_js_shape(SHAPE_B);
     return tl_convex_overlap(&a, tl_js_pose(POSE_A), &b, tl_js_pose(POSE_B), NULL);
 }
 
-int32_t TL_JS_EXPORT(js_convex_penetration)(void)
+int32_t TL_JS_FULL_EXPORT(js_convex_penetration)(void)
 {
     const tl_convex a = tl_js_shape(0), b = tl_js_shape(SHAPE_B);
     tl_penetration p;
@@ -156,7 +156,7 @@ static int32_t put_convex_hit(const tl_convex_hit *hit)
     return hit->hit;
 }
 
-int32_t TL_JS_EXPORT(js_convex_cast)(void)
+int32_t TL_JS_FULL_EXPORT(js_convex_cast)(void)
 {
     const tl_convex a = tl_js_shape(0), b = tl_js_shape(SHAPE_B);
     tl_convex_hit hit;
@@ -165,7 +165,7 @@ int32_t TL_JS_EXPORT(js_convex_cast)(void)
 }
 
 /// Slot: shape A, its pose, origin, direction, max t.
-int32_t TL_JS_EXPORT(js_convex_cast_ray)(void)
+int32_t TL_JS_FULL_EXPORT(js_convex_cast_ray)(void)
 {
     const tl_convex a = tl_js_shape(0);
     tl_convex_hit hit;
@@ -175,7 +175,7 @@ int32_t TL_JS_EXPORT(js_convex_cast_ray)(void)
 }
 
 /// Slot: the number of contacts, normal, status, and seven numbers a contact.
-void TL_JS_EXPORT(js_convex_contacts)(void)
+void TL_JS_FULL_EXPORT(js_convex_contacts)(void)
 {
     const tl_convex a = tl_js_shape(0), b = tl_js_shape(SHAPE_B);
     const tl_contact_limits limits = { tl_js_f32(EXTRA), tl_js_f32(EXTRA + 1), 0 };
@@ -188,7 +188,7 @@ void TL_JS_EXPORT(js_convex_contacts)(void)
     }
 }
 
-void TL_JS_EXPORT(js_convex_bounds)(void)
+void TL_JS_FULL_EXPORT(js_convex_bounds)(void)
 {
     const tl_convex a = tl_js_shape(0);
     tl_js_put_aabb(0, tl_convex_bounds(&a, tl_js_pose(POSE_A)));

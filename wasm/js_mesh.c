@@ -141,7 +141,7 @@ void TL_JS_EXPORT(js_default_nav_def)(void)
 }
 
 /// Slot: a def and the level's bounds behind it; then tiles along x and z.
-tl_result TL_JS_EXPORT(js_tile_grid)(uint32_t bounds_at)
+tl_result TL_JS_FULL_EXPORT(js_tile_grid)(uint32_t bounds_at)
 {
     const tl_nav_def def = tl_js_nav_def(0);
     uint32_t x, z;
@@ -156,7 +156,7 @@ tl_result TL_JS_EXPORT(js_tile_grid)(uint32_t bounds_at)
 static tl_mesh welded;
 
 /// Of the input. Slot: counts and arrays of the welded mesh, which stand until js_weld_end, and the report.
-tl_result TL_JS_EXPORT(js_weld)(float tolerance, int32_t keep_duplicates)
+tl_result TL_JS_FULL_EXPORT(js_weld)(float tolerance, int32_t keep_duplicates)
 {
     tl_mesh_def def = tl_default_mesh_def();
     def.weld_tolerance = tolerance;
@@ -175,7 +175,7 @@ tl_result TL_JS_EXPORT(js_weld)(float tolerance, int32_t keep_duplicates)
     return result;
 }
 
-void TL_JS_EXPORT(js_weld_end)(void)
+void TL_JS_FULL_EXPORT(js_weld_end)(void)
 {
     tl_mesh_free(&welded);
 }
@@ -183,7 +183,7 @@ void TL_JS_EXPORT(js_weld_end)(void)
 static tl_sample_mesh sample;
 
 /// Slot: name, description, default triangles of level `index`. False: there is none.
-int32_t TL_JS_EXPORT(js_sample_info)(uint32_t index)
+int32_t TL_JS_FULL_EXPORT(js_sample_info)(uint32_t index)
 {
     uint32_t count;
     const tl_sample_level *levels = tl_sample_levels(&count);
@@ -197,7 +197,7 @@ int32_t TL_JS_EXPORT(js_sample_info)(uint32_t index)
 }
 
 /// Slot: the seed, 64 bits; then counts and arrays, which stand until js_sample_end.
-tl_result TL_JS_EXPORT(js_sample_build)(uint32_t index, uint32_t triangles)
+tl_result TL_JS_FULL_EXPORT(js_sample_build)(uint32_t index, uint32_t triangles)
 {
     uint32_t count;
     const tl_sample_level *levels = tl_sample_levels(&count);
@@ -210,7 +210,7 @@ tl_result TL_JS_EXPORT(js_sample_build)(uint32_t index, uint32_t triangles)
     return result;
 }
 
-void TL_JS_EXPORT(js_sample_end)(void)
+void TL_JS_FULL_EXPORT(js_sample_end)(void)
 {
     tl_sample_mesh_free(&sample);
 }

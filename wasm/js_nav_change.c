@@ -89,13 +89,13 @@ static tl_nav_obstacle obstacle_at(uint32_t at)
     return obstacle;
 }
 
-int32_t TL_JS_EXPORT(js_has_obstacles)(const tl_js_navmesh *self)
+int32_t TL_JS_FULL_EXPORT(js_has_obstacles)(const tl_js_navmesh *self)
 {
     return self->obstacles != NULL;
 }
 
 /// Slot: the obstacle; then its id.
-tl_result TL_JS_EXPORT(js_obstacle_add)(tl_js_navmesh *self)
+tl_result TL_JS_FULL_EXPORT(js_obstacle_add)(tl_js_navmesh *self)
 {
     const tl_nav_obstacle obstacle = obstacle_at(0);
     tl_nav_obstacle_id id = 0;
@@ -105,20 +105,20 @@ tl_result TL_JS_EXPORT(js_obstacle_add)(tl_js_navmesh *self)
 }
 
 /// Slot: the id, the obstacle.
-tl_result TL_JS_EXPORT(js_obstacle_move)(tl_js_navmesh *self)
+tl_result TL_JS_FULL_EXPORT(js_obstacle_move)(tl_js_navmesh *self)
 {
     const tl_nav_obstacle obstacle = obstacle_at(1);
     return tl_nav_obstacles_move(self->obstacles, tl_js_u64(0), &obstacle, &tl_js_report);
 }
 
 /// Slot: the id.
-tl_result TL_JS_EXPORT(js_obstacle_remove)(tl_js_navmesh *self)
+tl_result TL_JS_FULL_EXPORT(js_obstacle_remove)(tl_js_navmesh *self)
 {
     return tl_nav_obstacles_remove(self->obstacles, tl_js_u64(0));
 }
 
 /// Slot: how many tiles wait still.
-tl_result TL_JS_EXPORT(js_obstacles_update)(tl_js_navmesh *self, uint32_t max_tiles)
+tl_result TL_JS_FULL_EXPORT(js_obstacles_update)(tl_js_navmesh *self, uint32_t max_tiles)
 {
     uint32_t waiting = 0;
     tl_nav_bake_report report;
@@ -153,7 +153,7 @@ static tl_result rebake_range(tl_js_navmesh *self, tl_aabb changed, uint32_t *co
 }
 
 /// Of the input, inside a box in the slot; then how many tiles were baked.
-tl_result TL_JS_EXPORT(js_rebake)(tl_js_navmesh *self)
+tl_result TL_JS_FULL_EXPORT(js_rebake)(tl_js_navmesh *self)
 {
     const tl_aabb changed = tl_js_aabb(0);
     uint32_t count = 0;

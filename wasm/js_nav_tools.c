@@ -11,7 +11,7 @@
 // Jump links.
 
 /// Slot: nine fields of the def; then the result, the report, and where the links are.
-tl_nav_links *TL_JS_EXPORT(js_links_find)(const tl_js_navmesh *self, const tl_soup *soup)
+tl_nav_links *TL_JS_FULL_EXPORT(js_links_find)(const tl_js_navmesh *self, const tl_soup *soup)
 {
     tl_nav_links_def def = tl_default_nav_links_def();
     float *const floats[] = { &def.spacing,   &def.max_drop, &def.max_jump,  &def.jump_height,
@@ -49,7 +49,7 @@ tl_result TL_JS_EXPORT(js_links_info)(const tl_nav_links *links, uint32_t size)
 
 /// A set of links from JavaScript's: 'links' has `count` of them, whose agent is the navmesh's. To be freed with
 /// js_free. NULL: out of memory.
-tl_nav_links *TL_JS_EXPORT(js_links_make)(const tl_js_navmesh *self, const tl_nav_jump_link *links, uint32_t count)
+tl_nav_links *TL_JS_FULL_EXPORT(js_links_make)(const tl_js_navmesh *self, const tl_nav_jump_link *links, uint32_t count)
 {
     const size_t head = (sizeof(tl_nav_links) + 63) / 64 * 64;
     const size_t size = (head + count * sizeof *links + 63) / 64 * 64;
@@ -116,7 +116,7 @@ static tl_nav_audit audit;
 
 /// Slot: paths, seed, probe radius, smallest missing area; then what it did. Areas and volumes are the input's. The
 /// findings stand until js_audit_end.
-tl_result TL_JS_EXPORT(js_audit_run)(const tl_js_navmesh *self, const tl_soup *soup)
+tl_result TL_JS_FULL_EXPORT(js_audit_run)(const tl_js_navmesh *self, const tl_soup *soup)
 {
     tl_nav_audit_def def = tl_default_nav_audit_def();
     def.nav = self->def;
@@ -143,7 +143,7 @@ tl_result TL_JS_EXPORT(js_audit_run)(const tl_js_navmesh *self, const tl_soup *s
 }
 
 /// Slot: one finding.
-void TL_JS_EXPORT(js_audit_finding)(uint32_t index)
+void TL_JS_FULL_EXPORT(js_audit_finding)(uint32_t index)
 {
     const tl_nav_finding *f = &audit.findings[index];
     uint32_t at = tl_js_put(tl_js_put(0, f->kind), f->triangle);
@@ -152,7 +152,7 @@ void TL_JS_EXPORT(js_audit_finding)(uint32_t index)
     tl_js_put(at, (double)f->area);
 }
 
-void TL_JS_EXPORT(js_audit_end)(void)
+void TL_JS_FULL_EXPORT(js_audit_end)(void)
 {
     tl_nav_audit_free(&audit);
 }
@@ -161,7 +161,7 @@ void TL_JS_EXPORT(js_audit_end)(void)
 // Why.
 
 /// Slot: the point; then the answer: head, needed def, reasons.
-tl_result TL_JS_EXPORT(js_why)(const tl_js_navmesh *self)
+tl_result TL_JS_FULL_EXPORT(js_why)(const tl_js_navmesh *self)
 {
     tl_nav_def def = self->def;
     def.host = *tl_js_host();
@@ -188,8 +188,8 @@ tl_result TL_JS_EXPORT(js_why)(const tl_js_navmesh *self)
 // Sight.
 
 /// Slot: the result, then the number of pairs.
-tl_nav_pvs *TL_JS_EXPORT(js_sight_bake)(const tl_js_navmesh *self, const tl_soup *soup, float eye_height,
-                                        float max_distance)
+tl_nav_pvs *TL_JS_FULL_EXPORT(js_sight_bake)(const tl_js_navmesh *self, const tl_soup *soup, float eye_height,
+                                             float max_distance)
 {
     tl_nav_pvs_def def = tl_default_nav_pvs_def();
     def.eye_height = eye_height;

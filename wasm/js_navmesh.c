@@ -171,7 +171,7 @@ static tl_result bake_with_obstacles(tl_js_navmesh *self)
 }
 
 /// Slot: a def, then from `prune_at` what is pruned; then the result.
-tl_js_navmesh *TL_JS_EXPORT(js_navmesh_bake)(uint32_t prune_at, int32_t obstacles)
+tl_js_navmesh *TL_JS_FULL_EXPORT(js_navmesh_bake)(uint32_t prune_at, int32_t obstacles)
 {
     tl_js_navmesh *self = tl_js_navmesh_create();
     if (self == NULL) {

@@ -133,7 +133,7 @@ static tl_nav_offmesh *hand_links; // for the next file
 static uint32_t hand_link_count;
 
 /// Slot: a link set by hand, number `index` of `count`: the next file has them.
-tl_result TL_JS_EXPORT(js_pack_put_link)(uint32_t index, uint32_t count)
+tl_result TL_JS_FULL_EXPORT(js_pack_put_link)(uint32_t index, uint32_t count)
 {
     if (hand_link_count != count) {
         free(hand_links);
@@ -265,8 +265,8 @@ static tl_result encode_marks(const uint8_t *areas, uint32_t area_count, pack_pa
 /// how many triangles have areas, and where.
 /// `name` is zero-terminated. Volumes are the input's. Pointers may be NULL. Slot afterwards: how many bytes, and
 /// where.
-tl_result TL_JS_EXPORT(js_pack_write)(const char *name, const void *soup, const void *hull,
-                                      const tl_js_navmesh *navmesh)
+tl_result TL_JS_FULL_EXPORT(js_pack_write)(const char *name, const void *soup, const void *hull,
+                                           const tl_js_navmesh *navmesh)
 {
     pack_parts parts = { NULL, NULL, soup, hull, navmesh, NULL, NULL, NULL, NULL };
     const uint32_t area_count = tl_js_u32(15);

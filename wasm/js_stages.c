@@ -32,7 +32,7 @@ static uint32_t put_grid(uint32_t width, uint32_t height, tl_aabb bounds)
 }
 
 /// Slot: a def. The stages stand until js_stages_end.
-tl_result TL_JS_EXPORT(js_stages_bake)(uint32_t tile_x, uint32_t tile_z)
+tl_result TL_JS_FULL_EXPORT(js_stages_bake)(uint32_t tile_x, uint32_t tile_z)
 {
     tl_result result = begin_config(tile_x, tile_z);
     if (result != TL_OK) {
@@ -47,13 +47,13 @@ tl_result TL_JS_EXPORT(js_stages_bake)(uint32_t tile_x, uint32_t tile_z)
     return result;
 }
 
-void TL_JS_EXPORT(js_stages_end)(void)
+void TL_JS_FULL_EXPORT(js_stages_end)(void)
 {
     tl_nav_stages_free(&stages);
 }
 
 /// Slot: the grid, then the number of spans, where their columns begin, spans.
-void TL_JS_EXPORT(js_stages_heightfield)(void)
+void TL_JS_FULL_EXPORT(js_stages_heightfield)(void)
 {
     const tl_nav_heightfield *h = &stages.heightfield;
     const uint32_t at = tl_js_put(put_grid(h->width, h->height, h->bounds), h->span_count);
@@ -61,7 +61,7 @@ void TL_JS_EXPORT(js_stages_heightfield)(void)
 }
 
 /// Slot: the grid, then counts and arrays.
-void TL_JS_EXPORT(js_stages_compact)(void)
+void TL_JS_FULL_EXPORT(js_stages_compact)(void)
 {
     const tl_nav_compact *c = &stages.compact;
     uint32_t at = put_grid(c->width, c->height, c->bounds);
@@ -73,7 +73,7 @@ void TL_JS_EXPORT(js_stages_compact)(void)
 }
 
 /// Slot: the origin, cell size and height; counts and arrays of contours and of their vertices.
-void TL_JS_EXPORT(js_stages_contours)(int32_t raw)
+void TL_JS_FULL_EXPORT(js_stages_contours)(int32_t raw)
 {
     const tl_contour_set *s = raw ? &stages.contours.raw : &stages.contours.set;
     uint32_t at = tl_js_put_vec3(0, s->bounds.min);
@@ -83,7 +83,7 @@ void TL_JS_EXPORT(js_stages_contours)(int32_t raw)
 }
 
 /// Slot: the origin, cell size and height; counts and arrays.
-void TL_JS_EXPORT(js_stages_polygons)(void)
+void TL_JS_FULL_EXPORT(js_stages_polygons)(void)
 {
     const tl_polygon_mesh *m = &stages.polygons;
     uint32_t at = tl_js_put_vec3(0, m->bounds.min);
@@ -95,7 +95,7 @@ void TL_JS_EXPORT(js_stages_polygons)(void)
 }
 
 /// Slot: counts and arrays, the largest error.
-void TL_JS_EXPORT(js_stages_detail)(void)
+void TL_JS_FULL_EXPORT(js_stages_detail)(void)
 {
     const tl_nav_detail *d = &stages.detail;
     uint32_t at = tl_js_put(tl_js_put(tl_js_put(0, d->patch_count), d->vertex_count), d->triangle_count);
@@ -118,7 +118,7 @@ static void record_step(const tl_polygon_step *step, void *user)
 }
 
 /// Divides the contours of js_stages_bake again, all of them or one. Slot: how many numbers there are, and where.
-tl_result TL_JS_EXPORT(js_stages_steps)(int32_t contour)
+tl_result TL_JS_FULL_EXPORT(js_stages_steps)(int32_t contour)
 {
     tl_contour_set set = stages.contours.set;
     if (contour >= 0) {

@@ -3,7 +3,7 @@
 // The WebAssembly module: loaded once, with views of its memory that are made anew whenever it grows. All other files
 // read `wasm`, `F64` and so on as they stand: after a call that may allocate, a view kept from before it is detached.
 
-import { TalusError, resultError } from './error.js';
+import { TalusError, argumentError, resultError } from './error.js';
 
 /** The exports. Null before init. */
 export let wasm = null;
@@ -68,13 +68,18 @@ const SIMD_PROBE = new Uint8Array([
   0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
 ]);
 
+/** The package's own files. The module of queries has SIMD: where the engine has none, the full one does its work. */
+function ownSource(part, simd) {
+  if (!simd) return new URL('../dist/talus.wasm', import.meta.url);
+  if (part === 'queries') return new URL('../dist/talus-queries.wasm', import.meta.url);
+  return new URL('../dist/talus-simd.wasm', import.meta.url);
+}
+
 function chooseSource(options) {
   const simd = options.simd !== false && WebAssembly.validate(SIMD_PROBE);
-  const given = options.wasm;
-  if (given === undefined || given === null) {
-    const url = simd ? new URL('../dist/talus-simd.wasm', import.meta.url) : new URL('../dist/talus.wasm', import.meta.url);
-    return { source: url, simd };
-  }
+  const given = options.wasm, part = options.part ?? 'full';
+  if (part !== 'full' && part !== 'queries') throw argumentError('part', "'full' or 'queries'");
+  if (given === undefined || given === null) return { source: ownSource(part, simd), simd };
   if (typeof given === 'object' && 'simd' in given && 'scalar' in given) {
     return { source: simd ? given.simd : given.scalar, simd };
   }
@@ -99,6 +104,15 @@ async function fetchModule(source) {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
+/** Exports whose missing ones say so when they are called. */
+function explained(exports) {
+  const missing = (_, name) => (typeof name !== 'string' || !name.startsWith('js_') ? undefined : () => {
+    throw new TalusError('TL_ERR_UNSUPPORTED', `the module of queries lacks ${name}: await init() without part: 'queries'`,
+                         { field: 'part', advice: "await init() without part: 'queries', or bake in a TalusWorker" });
+  });
+  return Object.assign(Object.create(new Proxy({}, { get: missing })), exports);
+}
+
 async function load(options) {
   if (typeof WebAssembly !== 'object') {
     throw new TalusError('TL_ERR_UNSUPPORTED', 'this engine has no WebAssembly');
@@ -106,7 +120,7 @@ async function load(options) {
   const { source, simd } = chooseSource(options);
   const module = await fetchModule(source);
   const instance = await WebAssembly.instantiate(module, imports);
-  wasm = instance.exports;
+  wasm = hasBakesIn(instance.exports) ? instance.exports : explained(instance.exports);
   simdLoaded = simd ?? wasm.js_has_simd() !== 0;
   refreshViews();
   wasm._initialize?.();
@@ -123,6 +137,9 @@ export function init(options = {}) {
 
 export const isReady = () => wasm !== null;
 export const hasSimd = () => wasm !== null && simdLoaded;
+
+const hasBakesIn = (exports) => Object.hasOwn(exports, 'js_navmesh_bake');
+export const hasBakes = () => wasm !== null && hasBakesIn(wasm);
 
 export function version() {
   return readString(ready().js_version());

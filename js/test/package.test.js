@@ -5,10 +5,11 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import test from 'node:test';
+import { brotliCompressSync } from 'node:zlib';
 import { installPackage, snippets, sourceCount } from './snippets.js';
 
 const folder = mkdtempSync(join(tmpdir(), 'talus-package-'));
@@ -18,7 +19,12 @@ installPackage(folder);
 test('the tarball holds the modules, the types and nothing of the tests', () => {
   const packed = join(folder, 'node_modules/talus');
   assert.deepEqual(readdirSync(packed).sort(), ['LICENSE', 'README.md', 'dist', 'package.json', 'src']);
-  assert.deepEqual(readdirSync(join(packed, 'dist')).sort(), ['talus-simd.wasm', 'talus.wasm']);
+  assert.deepEqual(readdirSync(join(packed, 'dist')).sort(), ['talus-queries.wasm', 'talus-simd.wasm', 'talus.wasm']);
+});
+
+test('the module of queries is a small download', () => {
+  const bytes = brotliCompressSync(readFileSync(join(folder, 'node_modules/talus/dist/talus-queries.wasm')));
+  assert.ok(bytes.length <= 160 * 1024, `${bytes.length} bytes`);
 });
 
 test('the README has snippets, all with what they print', () => {

@@ -4,6 +4,8 @@
 
 import { Mesh, Navmesh, Soup, init, sampleLevel } from '../src/index.js';
 
+export { errorOf } from './errors.js';
+
 await init({ simd: !process.env.TALUS_SCALAR });
 
 /** A floor 10 m square, two triangles, facing up. */
@@ -35,15 +37,4 @@ export function randomNumbers(seed) {
     t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
     return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
   };
-}
-
-/** Runs what must throw a TalusError, and gives it. */
-export function errorOf(run) {
-  try {
-    run();
-  } catch (error) {
-    if (error.name !== 'TalusError') throw error;
-    return error;
-  }
-  throw new Error('nothing was thrown');
 }

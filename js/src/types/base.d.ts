@@ -34,6 +34,14 @@ export interface InitOptions {
   wasm?: WasmSource | { simd: WasmSource; scalar: WasmSource };
   /** False: the module without SIMD, also where the engine has it. */
   simd?: boolean;
+  /**
+   * 'queries': the small module, `dist/talus-queries.wasm`, half the bytes to be downloaded. It loads what was baked
+   * and queries it: `loadPack`, `Soup`, `Navmesh` with paths, off-mesh links and sight. What bakes, changes tiles or
+   * finds links, `Hull`, the functions on two shapes, `savePack`, `audit` and `why` throw a `TalusError`
+   * ("TL_ERR_UNSUPPORTED"); a `TalusWorker` still bakes, with the full module that it loads for itself. Engines
+   * without SIMD get the full module. Default 'full'. Ignored where `wasm` is given.
+   */
+  part?: 'full' | 'queries';
 }
 
 /**
@@ -48,6 +56,8 @@ export function isReady(): boolean;
 export function version(): string;
 /** Whether the module that was loaded has SIMD. */
 export function hasSimd(): boolean;
+/** Whether the module that was loaded bakes: not that of `part: 'queries'`. */
+export function hasBakes(): boolean;
 /** Bytes of the module's memory now. It grows as needed, up to 4 GB, and never shrinks. */
 export function memoryBytes(): number;
 
