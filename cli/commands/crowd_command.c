@@ -91,15 +91,20 @@ static tl_exit run_on_stage(tl_cli *cli, const crowd_settings *settings, const t
     return code;
 }
 
-static tl_exit run_scenario(tl_cli *cli, const crowd_settings *settings, const tl_input *input,
+// With obstacles the level is baked in tiles that they change.
+static tl_exit run_scenario(tl_cli *cli, const crowd_settings *settings, tl_input *input,
                             const tl_crowd_scenario *scenario)
 {
-    tl_crowd_stage stage = { input->navmesh, NULL, scenario };
+    tl_crowd_stage stage = { NULL, NULL, scenario };
+    tl_exit code = TL_EXIT_OK;
     if (scenario->obstacle_count == 0) {
-        return run_on_stage(cli, settings, &stage);
+        if (tl_input_need_navmesh(cli, &settings->bake, input, &code)) {
+            stage.navmesh = input->navmesh;
+            code = run_on_stage(cli, settings, &stage);
+        }
+        return code;
     }
     tl_crowd_obstacles obstacles;
-    tl_exit code = TL_EXIT_OK;
     if (tl_crowd_obstacles_make(cli, input, &settings->bake, scenario, &obstacles, &code) &&
         tl_crowd_obstacles_set_time(cli, &obstacles, 0.0f, &code)) {
         stage.navmesh = obstacles.navmesh;
@@ -131,7 +136,7 @@ static tl_exit run_crowd(tl_cli *cli)
         return code;
     }
     tl_input input;
-    if (tl_input_open_navmesh(cli, cli->arguments.words[0], &settings.bake, &input, &code)) {
+    if (tl_input_open_level(cli, cli->arguments.words[0], &settings.bake, &input, &code)) {
         tl_crowd_scenario scenario;
         tl_io_error error;
         memset(&error, 0, sizeof(error));

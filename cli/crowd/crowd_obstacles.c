@@ -12,8 +12,8 @@ enum { TILE_CELLS = 64 }; // where the options give none
 
 #define DEGREE 0.017453292519943295 // radians
 
-static bool bake_changing_tiles(tl_cli *cli, const tl_input *input, const tl_bake_settings *settings,
-                                tl_crowd_obstacles *o, tl_exit *exit_out)
+static bool bake_changing_tiles(tl_cli *cli, tl_input *input, const tl_bake_settings *settings, tl_crowd_obstacles *o,
+                                tl_exit *exit_out)
 {
     tl_level_areas areas;
     if (!tl_level_areas_make(cli, &input->level, &settings->areas, &areas, exit_out)) {
@@ -22,8 +22,8 @@ static bool bake_changing_tiles(tl_cli *cli, const tl_input *input, const tl_bak
     }
     const tl_mesh_view mesh = tl_mesh_as_view(&input->level.mesh);
     const tl_nav_input level = tl_level_areas_input(&areas, &mesh);
-    tl_nav_def def = input->bake.nav_def;
-    def.bounds = input->bake.nav_bounds;
+    tl_nav_def def = tl_bake_begin_nav(cli, &input->level, settings);
+    def.bounds = tl_aabb_is_empty(def.bounds) ? input->level.mesh.bounds : def.bounds;
     def.tile_size = def.tile_size > 0 ? def.tile_size : TILE_CELLS;
     tl_nav_bake_report report;
     memset(&report, 0, sizeof(report));
@@ -34,11 +34,15 @@ static bool bake_changing_tiles(tl_cli *cli, const tl_input *input, const tl_bak
     tl_progress_end(&cli->progress);
     if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(cli, input->path, result, &report.base);
+    } else if (tl_navmesh_tile_count(o->navmesh) == 0) {
+        input->bake.nav_report = report;
+        *exit_out = tl_input_fail_empty(cli, input, settings);
+        return false;
     }
     return result == TL_OK;
 }
 
-bool tl_crowd_obstacles_make(tl_cli *cli, const tl_input *input, const tl_bake_settings *settings,
+bool tl_crowd_obstacles_make(tl_cli *cli, tl_input *input, const tl_bake_settings *settings,
                              const tl_crowd_scenario *scenario, tl_crowd_obstacles *obstacles_out, tl_exit *exit_out)
 {
     tl_crowd_obstacles *o = obstacles_out;

@@ -18,9 +18,9 @@ typedef struct tl_crowd_obstacles {
     float last_change;       ///< seconds: of the scenario, after which nothing comes or goes
 } tl_crowd_obstacles;
 
-/// Bakes the level once more, in tiles that can be rebaked, without obstacles. False: reported; a baked file is
-/// refused, as it has no heightfields, and so is pruning. Free with tl_crowd_obstacles_free in any case.
-bool tl_crowd_obstacles_make(tl_cli *cli, const tl_input *input, const tl_bake_settings *settings,
+/// Bakes the level in tiles that can be rebaked, without obstacles. False: reported; a baked file is refused, as it has
+/// no heightfields, and so is pruning. Free with tl_crowd_obstacles_free in any case.
+bool tl_crowd_obstacles_make(tl_cli *cli, tl_input *input, const tl_bake_settings *settings,
                              const tl_crowd_scenario *scenario, tl_crowd_obstacles *obstacles_out, tl_exit *exit_out);
 /// Lets those come and go that do until `time`; below 0: all go. False: reported.
 bool tl_crowd_obstacles_set_time(tl_cli *cli, tl_crowd_obstacles *obstacles, float time, tl_exit *exit_out);

@@ -312,6 +312,20 @@ static tl_result keep_triangle_areas(const tl_level *level, const tl_level_areas
     return result;
 }
 
+tl_nav_def tl_bake_begin_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings)
+{
+    const tl_mesh_view mesh = tl_mesh_as_view(&level->mesh);
+    // Told before the bake: a level that is too large takes long.
+    const tl_level_doubt doubt = tl_level_doubt_find(&mesh, level->mesh.bounds, settings);
+    if (doubt.cause != NULL) {
+        tl_cli_warn(cli, "%s: %s", level->path, doubt.text);
+    }
+    tl_nav_def def = tl_bake_nav_def(settings);
+    enter_bounds(cli, settings, &def);
+    def.host = cli->host;
+    return def;
+}
+
 static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
                      tl_exit *exit_out)
 {
@@ -321,15 +335,8 @@ static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings 
         return false;
     }
     const tl_mesh_view mesh = tl_mesh_as_view(&level->mesh);
-    // Told before the bake: a level that is too large takes long.
-    const tl_level_doubt doubt = tl_level_doubt_find(&mesh, level->mesh.bounds, settings);
-    if (doubt.cause != NULL) {
-        tl_cli_warn(cli, "%s: %s", level->path, doubt.text);
-    }
     const tl_nav_input input = tl_level_areas_input(&areas, &mesh);
-    bake->nav_def = tl_bake_nav_def(settings);
-    enter_bounds(cli, settings, &bake->nav_def);
-    bake->nav_def.host = cli->host;
+    bake->nav_def = tl_bake_begin_nav(cli, level, settings);
     bake->nav_bounds = tl_aabb_is_empty(bake->nav_def.bounds) ? level->mesh.bounds : bake->nav_def.bounds;
     tl_result result = tl_nav_bake(&bake->nav_def, &input, &bake->tiles, &bake->nav_report);
     if (result == TL_OK && input.volume_count > 0) {

@@ -72,6 +72,9 @@ typedef struct tl_bake {
     tl_level_links links;
 } tl_bake;
 
+/// The def that a level's navmesh is baked with; empty bounds: the level's own. Warns of a level whose numbers look
+/// wrong.
+tl_nav_def tl_bake_begin_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings);
 /// False: the failure was reported, and `*exit_out` says how to end. Free with tl_bake_free, also then.
 /// A level of which nothing is walkable is no failure: `walkable` is false.
 bool tl_bake_level(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake_out,

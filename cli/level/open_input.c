@@ -198,26 +198,40 @@ static bool load_navmesh(tl_cli *cli, tl_input *input, const tl_bake_settings *s
     return result == TL_OK;
 }
 
-bool tl_input_open_navmesh(tl_cli *cli, const char *path, const tl_bake_settings *settings, tl_input *input_out,
-                           tl_exit *exit_out)
+bool tl_input_open_level(tl_cli *cli, const char *path, const tl_bake_settings *settings, tl_input *input_out,
+                         tl_exit *exit_out)
 {
     if (tl_input_is_baked(path)) {
-        return tl_input_open_baked(cli, path, input_out, exit_out) && load_navmesh(cli, input_out, settings, exit_out);
+        return tl_input_open_baked(cli, path, input_out, exit_out);
     }
     memset(input_out, 0, sizeof(*input_out));
     input_out->path = path;
+    return tl_level_load(cli, path, &settings->level, &input_out->level, exit_out);
+}
+
+bool tl_input_need_navmesh(tl_cli *cli, const tl_bake_settings *settings, tl_input *input, tl_exit *exit_out)
+{
+    if (input->baked) {
+        return load_navmesh(cli, input, settings, exit_out);
+    }
     tl_bake_settings only_nav = *settings;
     only_nav.soup = false;
     only_nav.nav = true;
     only_nav.hull = false;
-    bool ok = tl_level_load(cli, path, &settings->level, &input_out->level, exit_out) &&
-              tl_bake_level(cli, &input_out->level, &only_nav, &input_out->bake, exit_out);
+    bool ok = tl_bake_level(cli, &input->level, &only_nav, &input->bake, exit_out);
     tl_progress_end(&cli->progress);
-    if (ok && !input_out->bake.walkable) {
-        *exit_out = tl_input_fail_empty(cli, input_out, settings);
+    if (ok && !input->bake.walkable) {
+        *exit_out = tl_input_fail_empty(cli, input, settings);
         return false;
     }
-    return ok && tl_bake_assemble_navmesh(cli, path, &input_out->bake, &input_out->navmesh, exit_out);
+    return ok && tl_bake_assemble_navmesh(cli, input->path, &input->bake, &input->navmesh, exit_out);
+}
+
+bool tl_input_open_navmesh(tl_cli *cli, const char *path, const tl_bake_settings *settings, tl_input *input_out,
+                           tl_exit *exit_out)
+{
+    return tl_input_open_level(cli, path, settings, input_out, exit_out) &&
+           tl_input_need_navmesh(cli, settings, input_out, exit_out);
 }
 
 void tl_input_close(tl_input *input)

@@ -49,6 +49,11 @@ bool tl_input_open_soup(tl_cli *cli, const char *path, const tl_bake_settings *s
                         tl_exit *exit_out);
 bool tl_input_open_navmesh(tl_cli *cli, const char *path, const tl_bake_settings *settings, tl_input *input_out,
                            tl_exit *exit_out);
+/// The same in two steps, for what must be known in between: the file or the level alone, and the frame it is in; then
+/// its navmesh.
+bool tl_input_open_level(tl_cli *cli, const char *path, const tl_bake_settings *settings, tl_input *input_out,
+                         tl_exit *exit_out);
+bool tl_input_need_navmesh(tl_cli *cli, const tl_bake_settings *settings, tl_input *input, tl_exit *exit_out);
 /// Says that nothing of a level, or of a baked file, is walkable, and of a level why. Gives the exit code.
 tl_exit tl_input_fail_empty(tl_cli *cli, const tl_input *input, const tl_bake_settings *settings);
 void tl_input_close(tl_input *input);
