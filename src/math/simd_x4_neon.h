@@ -96,6 +96,11 @@ static inline tl_f32x4 tl_f32x4_min(tl_f32x4 a, tl_f32x4 b)
     return vbslq_f32(vcltq_f32(a, b), a, b);
 }
 
+static inline tl_f32x4 tl_f32x4_sqrt(tl_f32x4 a)
+{
+    return vsqrtq_f32(a);
+}
+
 static inline tl_f32x4 tl_f32x4_max(tl_f32x4 a, tl_f32x4 b)
 {
     return vbslq_f32(vcgtq_f32(a, b), a, b);

@@ -6,6 +6,7 @@
 #ifndef TALUS_SRC_MATH_SIMD_X4_PLAIN_H
 #define TALUS_SRC_MATH_SIMD_X4_PLAIN_H
 
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -94,6 +95,11 @@ static inline tl_f32x4 tl_f32x4_mul(tl_f32x4 a, tl_f32x4 b)
 static inline tl_f32x4 tl_f32x4_div(tl_f32x4 a, tl_f32x4 b)
 {
     return tl_f32x4_make(a.v[0] / b.v[0], a.v[1] / b.v[1], a.v[2] / b.v[2], a.v[3] / b.v[3]);
+}
+
+static inline tl_f32x4 tl_f32x4_sqrt(tl_f32x4 a)
+{
+    return tl_f32x4_make(sqrtf(a.v[0]), sqrtf(a.v[1]), sqrtf(a.v[2]), sqrtf(a.v[3]));
 }
 
 static inline tl_f32x4 tl_f32x4_max(tl_f32x4 a, tl_f32x4 b)

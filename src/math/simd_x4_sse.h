@@ -96,6 +96,11 @@ static inline tl_f32x4 tl_f32x4_min(tl_f32x4 a, tl_f32x4 b)
     return _mm_min_ps(a, b);
 }
 
+static inline tl_f32x4 tl_f32x4_sqrt(tl_f32x4 a)
+{
+    return _mm_sqrt_ps(a);
+}
+
 static inline tl_f32x4 tl_f32x4_max(tl_f32x4 a, tl_f32x4 b)
 {
     return _mm_max_ps(a, b);

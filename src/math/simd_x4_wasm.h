@@ -95,6 +95,11 @@ static inline tl_f32x4 tl_f32x4_min(tl_f32x4 a, tl_f32x4 b)
     return wasm_f32x4_pmin(b, a);
 }
 
+static inline tl_f32x4 tl_f32x4_sqrt(tl_f32x4 a)
+{
+    return wasm_f32x4_sqrt(a);
+}
+
 static inline tl_f32x4 tl_f32x4_max(tl_f32x4 a, tl_f32x4 b)
 {
     return wasm_f32x4_pmax(b, a);

@@ -13,8 +13,10 @@
 
 #include "base/hash.h"
 #include "base/min_max.h"
+#include "nav_crowd/crowd_kernels.h"
 #include "nav_crowd/crowd_neighbors.h"
-#include "nav_crowd/half_plane_program.h"
+
+#include <string.h>
 
 // Agents keep a little more than their radii apart, which absorbs what a throng without an answer presses in.
 #define SKIN_SHARE 0.02f
@@ -25,64 +27,30 @@
 // The share of an agent's speed that it takes to come off a wall it stands too near to.
 #define OFF_WALL_SHARE 0.5f
 
-// What a disc forbids: its middle and velocity as the agent sees them, both radii together, and the share of evading.
-typedef struct crowd_disc {
-    float x, z, vx, vz;
-    float radius;
-    float share;                    // of evading; of the room that is left the agent takes the rest
-    float horizon, overlap_horizon; // seconds
-    bool is_fixed;                  // the agent does all of the evading, and takes all of the room
-} crowd_disc;
-
-// `outward`: how far the agent's velocity lies within what is forbidden, < 0: outside of it.
-static tl_half_plane share_plane(const crowd_disc *disc, const float velocity[2], float along_x, float along_z,
-                                 float outward)
+// An end of a wall is a disc of the clearance, which stands still.
+static bool avoid_wall_end(const tl_nav_crowd *crowd, uint32_t i, const float end[2], float reach,
+                           tl_half_plane *plane_out)
 {
-    float share = disc->is_fixed ? 1.0f : outward > 0.0f ? disc->share : 1.0f - disc->share;
-    const tl_half_plane plane = { velocity[0] - share * outward * along_z, velocity[1] + share * outward * along_x,
-                                  along_x, along_z };
-    return plane;
-}
-
-// Out of the disc by which the cone is cut off: the velocities that reach it at the horizon.
-static tl_half_plane leave_cut_off(const crowd_disc *disc, const float velocity[2], float rate)
-{
-    float wx = disc->vx - disc->x * rate;
-    float wz = disc->vz - disc->z * rate;
-    float length = sqrtf(wx * wx + wz * wz);
-    float unit_x = 1.0f, unit_z = 0.0f;
-    if (length > 0.0f) {
-        unit_x = wx / length;
-        unit_z = wz / length;
+    const crowd_fields *a = &crowd->a;
+    const float x = end[0] - a->x[i], z = end[1] - a->z[i];
+    const float far = a->clearance[i] + reach;
+    if (x * x + z * z > far * far) {
+        return false;
     }
-    return share_plane(disc, velocity, unit_z, -unit_x, disc->radius * rate - length);
-}
-
-// The half-plane of a disc that moves with (vx, vz) less than the agent.
-static tl_half_plane avoid_disc(const crowd_disc *disc, const float velocity[2])
-{
-    const float x = disc->x, z = disc->z, r = disc->radius;
-    const float distance_sq = x * x + z * z;
-    if (distance_sq <= r * r) {
-        return leave_cut_off(disc, velocity, 1.0f / disc->overlap_horizon);
-    }
-    const float rate = 1.0f / disc->horizon;
-    float wx = disc->vx - x * rate;
-    float wz = disc->vz - z * rate;
-    float inward = wx * x + wz * z;
-    if (inward < 0.0f && inward * inward > r * r * (wx * wx + wz * wz)) {
-        return leave_cut_off(disc, velocity, rate);
-    }
-    float leg = sqrtf(distance_sq - r * r);
-    float along_x, along_z;
-    if (x * wz - z * wx > 0.0f) {
-        along_x = (x * leg - z * r) / distance_sq;
-        along_z = (x * r + z * leg) / distance_sq;
-    } else {
-        along_x = -(x * leg + z * r) / distance_sq;
-        along_z = -(z * leg - x * r) / distance_sq;
-    }
-    return share_plane(disc, velocity, along_x, along_z, disc->vx * along_z - disc->vz * along_x);
+    crowd_discs discs;
+    memset(&discs, 0, sizeof discs);
+    discs.x[0] = x;
+    discs.z[0] = z;
+    discs.vx[0] = discs.own_vx = a->vx[i];
+    discs.vz[0] = discs.own_vz = a->vz[i];
+    discs.radius[0] = a->clearance[i];
+    discs.evade[0] = discs.room[0] = 1.0f;
+    discs.rate = discs.overlap_rate = 1.0f / crowd->def.wall_horizon;
+    discs.count = 1;
+    tl_half_plane planes[CROWD_LANES];
+    tl_crowd_best_kernels()->avoid(&discs, planes);
+    *plane_out = planes[0];
+    return true;
 }
 
 // Keeps the agent from using up the distance to a wall within the horizon. False: it cannot, or stands behind it.
@@ -117,17 +85,7 @@ static bool avoid_wall(const tl_nav_crowd *crowd, uint32_t i, const float wall[4
     if (!(clearance > 0.0f) || distance < 0.0f) {
         return false;
     }
-    // An end of the wall: a disc of the clearance, which stands still.
-    const float *end = foot < 0.0f ? wall : wall + 2;
-    const crowd_disc disc = { end[0] - a->x[i],        end[1] - a->z[i],        a->vx[i], a->vz[i], clearance, 1.0f,
-                              crowd->def.wall_horizon, crowd->def.wall_horizon, true };
-    float far = clearance + reach;
-    if (disc.x * disc.x + disc.z * disc.z > far * far) {
-        return false;
-    }
-    const float velocity[2] = { a->vx[i], a->vz[i] };
-    *plane_out = avoid_disc(&disc, velocity);
-    return true;
+    return avoid_wall_end(crowd, i, foot < 0.0f ? wall : wall + 2, reach, plane_out);
 }
 
 // A wall of which the agent is on the walkable side, seen from the agent.
@@ -181,11 +139,11 @@ static void part_pair(uint32_t i, uint32_t other, float *x, float *z)
 #define LEADER_SHARE 0.9f
 
 // Of two in one group, of which one leads; else `share`.
-static float share_of_leader(const tl_nav_crowd *crowd, uint32_t i, uint32_t other, float share)
+static float share_of_leader(const tl_nav_crowd *crowd, const crowd_group *group, uint32_t i, uint32_t other,
+                             float share)
 {
     const crowd_fields *a = &crowd->a;
-    const crowd_group *group = tl_crowd_group_of(crowd, i);
-    if (group == NULL || tl_crowd_group_of(crowd, other) != group) {
+    if (tl_crowd_group_of(crowd, other) != group) {
         return share;
     }
     return a->member[other] - 1 == group->first ? LEADER_SHARE
@@ -193,31 +151,60 @@ static float share_of_leader(const tl_nav_crowd *crowd, uint32_t i, uint32_t oth
                                                 : share;
 }
 
-static tl_half_plane avoid_neighbor(const crowd_step *step, uint32_t k, const crowd_neighbor *neighbor)
+// What an agent evades of a neighbour; equal ones half. `group` is its own, or NULL.
+static float share_of_evading(const tl_nav_crowd *crowd, uint32_t k, uint32_t n, const crowd_group *group)
 {
-    const tl_nav_crowd *crowd = step->crowd;
     const crowd_snapshot *seen = &crowd->seen;
-    const uint32_t n = neighbor->snapshot;
-    const float velocity[2] = { seen->vx[k], seen->vz[k] };
     float share = 0.5f + 0.5f * (seen->priority[n] - seen->priority[k]);
     const uint32_t still = (seen->kind[k] ^ seen->kind[n]) & CROWD_SEEN_STILL;
     if (still != 0 && tl_crowd_has_goal_of(crowd, seen->agent[k], seen->agent[n])) {
         share = (seen->kind[k] & CROWD_SEEN_STILL) != 0 ? 1.0f - BEFORE_STILL_SHARE : BEFORE_STILL_SHARE;
     }
-    share = share_of_leader(crowd, seen->agent[k], seen->agent[n], share);
-    crowd_disc disc = { seen->x[n] - seen->x[k],
-                        seen->z[n] - seen->z[k],
-                        velocity[0] - seen->vx[n],
-                        velocity[1] - seen->vz[n],
-                        (1.0f + SKIN_SHARE) * (seen->radius[k] + seen->radius[n]),
-                        share,
-                        crowd->def.agent_horizon,
-                        step->dt,
-                        (seen->kind[n] & CROWD_SEEN_FIXED) != 0 };
-    if (disc.x == 0.0f && disc.z == 0.0f && disc.vx == 0.0f && disc.vz == 0.0f) {
-        part_pair(seen->agent[k], seen->agent[n], &disc.vx, &disc.vz);
+    return group != NULL ? share_of_leader(crowd, group, seen->agent[k], seen->agent[n], share) : share;
+}
+
+// Fixed ones do nothing of the evading, and leave all of the room.
+static void list_discs(const tl_nav_crowd *crowd, uint32_t k, const crowd_neighbor *neighbors, crowd_discs *discs)
+{
+    const crowd_snapshot *seen = &crowd->seen;
+    const crowd_group *group = tl_crowd_group_of(crowd, seen->agent[k]);
+    const float x = seen->x[k], z = seen->z[k], vx = seen->vx[k], vz = seen->vz[k], radius = seen->radius[k];
+    for (uint32_t i = 0; i < discs->count; i++) {
+        const uint32_t n = neighbors[i].snapshot;
+        discs->x[i] = seen->x[n] - x;
+        discs->z[i] = seen->z[n] - z;
+        discs->vx[i] = vx - seen->vx[n];
+        discs->vz[i] = vz - seen->vz[n];
+        discs->radius[i] = (1.0f + SKIN_SHARE) * (radius + seen->radius[n]);
+        const bool is_fixed = (seen->kind[n] & CROWD_SEEN_FIXED) != 0;
+        const float share = share_of_evading(crowd, k, n, group);
+        discs->evade[i] = is_fixed ? 1.0f : share;
+        discs->room[i] = is_fixed ? 1.0f : 1.0f - share;
+        if (discs->x[i] == 0.0f && discs->z[i] == 0.0f && discs->vx[i] == 0.0f && discs->vz[i] == 0.0f) {
+            part_pair(seen->agent[k], seen->agent[n], &discs->vx[i], &discs->vz[i]);
+        }
     }
-    return avoid_disc(&disc, velocity);
+    // Kernels take whole vectors.
+    for (uint32_t i = discs->count; i % CROWD_LANES != 0; i++) {
+        discs->x[i] = discs->z[i] = discs->vx[i] = discs->vz[i] = discs->radius[i] = 1.0f;
+        discs->evade[i] = discs->room[i] = 1.0f;
+    }
+}
+
+// The neighbours' half-planes, behind those of the walls.
+static void avoid_neighbors(const crowd_step *step, uint32_t k, const crowd_neighbor *neighbors, uint32_t count,
+                            tl_half_plane_program *program)
+{
+    const tl_nav_crowd *crowd = step->crowd;
+    crowd_discs discs;
+    discs.count = count;
+    discs.own_vx = crowd->seen.vx[k];
+    discs.own_vz = crowd->seen.vz[k];
+    discs.rate = 1.0f / crowd->def.agent_horizon;
+    discs.overlap_rate = 1.0f / step->dt;
+    list_discs(crowd, k, neighbors, &discs);
+    tl_crowd_best_kernels()->avoid(&discs, &program->planes[program->count]);
+    program->count += count;
 }
 
 // What the agent can come to in this step of what it wants.
@@ -266,8 +253,6 @@ void tl_crowd_avoid(const crowd_step *step, uint32_t k, float velocity_out[2])
         program.count += avoid_wall(crowd, i, wall, &program.planes[program.count]);
     }
     program.hard_count = program.count;
-    for (uint32_t n = 0; n < seen_count; n++) {
-        program.planes[program.count++] = avoid_neighbor(step, k, &neighbors[n]);
-    }
+    avoid_neighbors(step, k, neighbors, seen_count, &program);
     tl_half_plane_solve(&program, velocity_out);
 }

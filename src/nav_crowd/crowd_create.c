@@ -5,7 +5,7 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/min_max.h"
-#include "nav_crowd/crowd.h"
+#include "nav_crowd/crowd_kernels.h"
 
 #include <math.h>
 #include <string.h>
@@ -91,7 +91,11 @@ static bool allocate_step(tl_nav_crowd *crowd)
                                &seen->radius, &seen->height, &seen->priority, &seen->wanted_x, &seen->wanted_z };
     bool all = true;
     for (uint32_t i = 0; i < TL_COUNT_OF(floats); i++) {
-        *floats[i] = (float *)tl_allocate_array(allocator, count, sizeof(float));
+        // Kernels read whole vectors, and ignore what lies behind the last agent.
+        *floats[i] = (float *)tl_allocate_array(allocator, count + CROWD_LANES, sizeof(float));
+        if (*floats[i] != NULL) {
+            memset(*floats[i], 0, (size_t)(count + CROWD_LANES) * sizeof(float));
+        }
         all = all && *floats[i] != NULL;
     }
     crowd->work_capacity = tl_min_u32(crowd->def.paths_per_step, crowd->def.max_agents);
@@ -113,7 +117,7 @@ static void release_step(tl_nav_crowd *crowd)
     float *const floats[] = { seen->x,      seen->y,      seen->z,        seen->vx,       seen->vz,
                               seen->radius, seen->height, seen->priority, seen->wanted_x, seen->wanted_z };
     for (uint32_t i = 0; i < TL_COUNT_OF(floats); i++) {
-        tl_release_array(allocator, floats[i], count, sizeof(float));
+        tl_release_array(allocator, floats[i], count + CROWD_LANES, sizeof(float));
     }
     tl_release_array(allocator, seen->agent, count, sizeof(uint32_t));
     tl_release_array(allocator, seen->kind, count, sizeof(uint32_t));

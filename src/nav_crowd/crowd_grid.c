@@ -21,8 +21,8 @@ enum { CELLS_PER_REACH = 2 };
 
 static uint32_t grid_cell(const crowd_grid *grid, float x, float z)
 {
-    return ((uint32_t)tl_crowd_cell(z, grid->cell_size) & grid->mask_z) << grid->shift_z |
-           ((uint32_t)tl_crowd_cell(x, grid->cell_size) & grid->mask_x);
+    return ((uint32_t)tl_crowd_place_in_grid(z, grid->cell_size).cell & grid->mask_z) << grid->shift_z |
+           ((uint32_t)tl_crowd_place_in_grid(x, grid->cell_size).cell & grid->mask_x);
 }
 
 // Seconds after which others see that an agent is held up.

@@ -15,11 +15,28 @@ typedef struct crowd_neighbor {
     uint32_t snapshot; ///< where it stands there
 } crowd_neighbor;
 
-/// The cell of a coordinate; cells beyond 2^30 fall together with others.
-static inline int32_t tl_crowd_cell(float at, float cell_size)
+/// Where a coordinate is in a grid.
+typedef struct crowd_cell_place {
+    int32_t cell; ///< cells beyond 2^30 fall together with others
+    float in;     ///< metres from the cell's begin
+} crowd_cell_place;
+
+/// floor, which is a call where the processor need not have it.
+static inline double tl_crowd_floor(double value)
 {
-    double cell = floor((double)at / (double)cell_size);
-    return (int32_t)(cell - floor(cell * 0x1p-30) * 0x1p30);
+    if (!(fabs(value) < 0x1p52)) {
+        return value; // whole
+    }
+    const double whole = (double)(int64_t)value;
+    return whole > value ? whole - 1.0 : whole;
+}
+
+static inline crowd_cell_place tl_crowd_place_in_grid(float at, float cell_size)
+{
+    const double cell = tl_crowd_floor((double)at / (double)cell_size);
+    const crowd_cell_place place = { (int32_t)(cell - tl_crowd_floor(cell * 0x1p-30) * 0x1p30),
+                                     (float)((double)at - cell * (double)cell_size) };
+    return place;
 }
 
 /// The nearest neighbours of the agent at `k` of the snapshot, the nearest first; returns how many there are, at most

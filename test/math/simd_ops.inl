@@ -73,6 +73,7 @@ static void run_x4(const simd_input *in, simd_output **out)
     put_x4(out, "f32x4_sub", SIMD_NUMBER_32, tl_f32x4_sub(a, b));
     put_x4(out, "f32x4_mul", SIMD_NUMBER_32, tl_f32x4_mul(a, b));
     put_x4(out, "f32x4_div", SIMD_NUMBER_32, tl_f32x4_div(a, b));
+    put_x4(out, "f32x4_sqrt", SIMD_NUMBER_32, tl_f32x4_sqrt(a));
     put_x4(out, "f32x4_rotate_three", SIMD_EXACT, tl_f32x4_rotate_three(a));
     put_x4(out, "f32x4_min", SIMD_EXACT, tl_f32x4_min(a, b));
     put_x4(out, "f32x4_max", SIMD_EXACT, tl_f32x4_max(a, b));

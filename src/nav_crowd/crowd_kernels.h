@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+//
+// What most of a step is spent in, four agents at a time: which of a run of agents are near, the order of those, and
+// the half-planes by which they are avoided. Compiled once per instruction set (crowd_kernels.inl); every one gives the
+// same bits.
+
+#ifndef TALUS_SRC_NAV_CROWD_CROWD_KERNELS_H
+#define TALUS_SRC_NAV_CROWD_CROWD_KERNELS_H
+
+#include "base/cpu.h"
+#include "nav_crowd/crowd.h"
+#include "nav_crowd/half_plane_program.h"
+
+enum {
+    CROWD_LANES = 4,
+    CROWD_MAX_SPANS = 16,
+    CROWD_MORE_FOUND = 16, ///< beyond the neighbours that are wanted: then the nearest are chosen
+    CROWD_MAX_FOUND = CROWD_MAX_NEIGHBORS + CROWD_MORE_FOUND + CROWD_LANES
+};
+
+/// Agents [begin, end) of the snapshot.
+typedef struct crowd_span {
+    uint32_t begin, end;
+} crowd_span;
+
+/// One who looks for others, and those found so far.
+typedef struct crowd_scan {
+    const crowd_snapshot *seen;
+    uint32_t self;
+    float reach; ///< metres, rim to rim: who is nearer is found
+    crowd_span spans[CROWD_MAX_SPANS];
+    uint32_t next_span, span_count;
+    uint32_t full;  ///< the scan stops when it has found more
+    uint32_t count; ///< found
+    float gap[CROWD_MAX_FOUND];
+    uint32_t at[CROWD_MAX_FOUND]; ///< of the snapshot
+} crowd_scan;
+
+/// Discs that an agent avoids, seen from it: middles, how much faster the agent is, both radii together, and which
+/// shares it takes of evading and of the room that is left.
+typedef struct crowd_discs {
+    float x[CROWD_MAX_NEIGHBORS], z[CROWD_MAX_NEIGHBORS];
+    float vx[CROWD_MAX_NEIGHBORS], vz[CROWD_MAX_NEIGHBORS];
+    float radius[CROWD_MAX_NEIGHBORS];
+    float evade[CROWD_MAX_NEIGHBORS], room[CROWD_MAX_NEIGHBORS];
+    uint32_t count;
+    float own_vx, own_vz;     ///< of the agent
+    float rate, overlap_rate; ///< 1 / seconds: within which they are avoided, and left where they overlap
+} crowd_discs;
+
+typedef struct crowd_kernels {
+    /// Scans the spans from the next one on; at the end there are none. False: it is full, and there may be more.
+    bool (*scan)(crowd_scan *scan);
+    /// How many of `count` <= CROWD_MAX_FOUND gaps are smaller than each. May write behind them, in both arrays, up to
+    /// the next multiple of CROWD_LANES. False: two are equal.
+    bool (*rank)(float *gaps, uint32_t count, uint32_t *ranks_out);
+    /// The half-plane of each disc. Writes up to the next multiple of CROWD_LANES.
+    void (*avoid)(const crowd_discs *discs, tl_half_plane *planes_out);
+} crowd_kernels;
+
+extern const crowd_kernels tl_crowd_kernels_scalar;
+#if TL_CPU_LEVELS >= 1
+extern const crowd_kernels tl_crowd_kernels_vec128;
+#endif
+
+/// Those of this machine.
+static inline const crowd_kernels *tl_crowd_best_kernels(void)
+{
+#if TL_CPU_LEVELS > 1
+    return tl_cpu_has_vec128() ? &tl_crowd_kernels_vec128 : &tl_crowd_kernels_scalar;
+#elif TL_CPU_LEVELS == 1
+    return &tl_crowd_kernels_vec128;
+#else
+    return &tl_crowd_kernels_scalar;
+#endif
+}
+
+#endif
