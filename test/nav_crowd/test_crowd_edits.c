@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A crowd in a world that changes under it: doors shut and open, obstacles come, move and go, whole tiles disappear.
-// Nobody leaves the mesh, is lost or stays for ever; and three crowds, on one, two and eight threads (pthread) and as
-// many instruction sets as there are, stay the same to the bit.
+// A crowd in a world that changes under it: doors shut and open, obstacles come, move and go, whole tiles disappear,
+// and groups form, walk in other formations and part. Nobody leaves the mesh, is lost or stays for ever; and three
+// crowds, on one, two and eight threads (pthread) and as many instruction sets as there are, stay the same to the bit.
 //
 //   test_crowd_edits [STEPS (1200) [AGENTS (150) [EVERY (1)]]]
 //
@@ -22,8 +22,11 @@ enum {
     CROWDS = 3,
     MAX_OBSTACLES = 24,
     DOORS = 4,
-    EDIT_EVERY = 12,     // steps
-    GOALS_EVERY = 20,    // steps
+    EDIT_EVERY = 12,   // steps
+    GOALS_EVERY = 20,  // steps
+    GROUPS_EVERY = 36, // steps
+    MAX_GROUPS = 24,
+    GROUP_SIZE = 6,
     SETTLE_STEPS = 8000, // at the end, when nothing changes any more
     WINDOW = 16          // steps
 };
@@ -40,13 +43,15 @@ typedef struct edit_world {
     tl_nav_agent *agents[CROWDS];
     tl_nav_obstacle_id ids[MAX_OBSTACLES], doors[DOORS]; // 0: the door is open
     uint32_t obstacle_count;
+    tl_nav_group groups[MAX_GROUPS]; // of fixed lists of agents; TL_NAV_NO_GROUP: they walk alone
+    uint32_t group_count;
     uint32_t crowd_count; // that step now: all, or the first alone
     void *saved;
     test_random random;
     tl_vec3 *anchor;     // where each agent was when it last came forward by a metre
     uint32_t *anchor_at; // the step
     uint32_t longest;    // steps that one walked without coming forward
-    uint64_t off_mesh, lost, edits, goals, tiles_gone;
+    uint64_t off_mesh, lost, edits, goals, tiles_gone, formed, parted;
 } edit_world;
 
 static const uint32_t workers[CROWDS] = { 1, 2, 8 };
@@ -134,6 +139,45 @@ static void make_crowds(edit_world *w, const tl_tasks tasks[CROWDS])
     }
 }
 
+// The first agent of group g, which leads it: the others stand behind one another in the list.
+static uint32_t first_of_group(const edit_world *w, uint32_t g)
+{
+    return g * (agent_count / w->group_count);
+}
+
+static bool follows(const edit_world *w, uint32_t i)
+{
+    const uint32_t apart = w->group_count > 0 ? agent_count / w->group_count : 0;
+    const uint32_t g = apart > 0 ? i / apart : 0;
+    return g < w->group_count && w->groups[g] != TL_NAV_NO_GROUP && i % apart > 0 && i % apart < GROUP_SIZE;
+}
+
+// Forms a group, lets it part, or changes how it walks: in all crowds that step now.
+static void change_group(edit_world *w, uint32_t g)
+{
+    const uint32_t first = first_of_group(w, g);
+    tl_nav_group_def def = tl_default_nav_group_def();
+    def.formation = (tl_nav_formation)test_random_below(&w->random, TL_NAV_FORMATION_SLOTS);
+    const bool forms = w->groups[g] == TL_NAV_NO_GROUP;
+    const bool parts = !forms && test_random_below(&w->random, 3) == 0;
+    tl_nav_group formed = w->groups[g];
+    for (uint32_t c = 0; c < w->crowd_count; c++) {
+        if (forms) {
+            TEST_RESULT(tl_nav_crowd_add_group(w->crowds[c], &def, &w->agents[c][first], GROUP_SIZE, &formed, NULL),
+                        TL_OK);
+            TEST_CHECK(c == 0 || formed == w->groups[g]);
+            w->groups[g] = formed;
+        } else if (parts) {
+            TEST_RESULT(tl_nav_crowd_remove_group(w->crowds[c], formed), TL_OK);
+        } else {
+            TEST_RESULT(tl_nav_crowd_set_formation(w->crowds[c], formed, &def, NULL), TL_OK);
+        }
+    }
+    w->groups[g] = parts ? TL_NAV_NO_GROUP : w->groups[g];
+    w->formed += forms;
+    w->parted += parts;
+}
+
 static tl_nav_obstacle box_at(float x, float z, float half_x, float half_z)
 {
     tl_nav_obstacle box;
@@ -195,7 +239,7 @@ static void edit(edit_world *w)
     }
 }
 
-// Whoever has nowhere to go gets a new goal, the same in each crowd.
+// Whoever has nowhere to go, and follows nobody, gets a new goal, the same in each crowd.
 static void give_goals(edit_world *w, bool to_all)
 {
     for (uint32_t i = 0; i < agent_count; i++) {
@@ -203,7 +247,7 @@ static void give_goals(edit_world *w, bool to_all)
         TEST_RESULT(tl_nav_crowd_agent(w->crowds[0], w->agents[0][i], &state), TL_OK);
         const bool walks = state.status == TL_NAV_AGENT_WALKING || state.status == TL_NAV_AGENT_WAITING ||
                            state.status == TL_NAV_AGENT_OFF_MESH;
-        if (walks && !to_all) {
+        if (follows(w, i) || (walks && !to_all)) {
             continue;
         }
         const tl_nav_location goal = random_place(w);
@@ -320,6 +364,7 @@ static void test_edits(void **state)
     }
     make_world(&w);
     make_crowds(&w, tasks);
+    w.group_count = agent_count / 20 < MAX_GROUPS ? agent_count / 20 : MAX_GROUPS;
     w.crowd_count = CROWDS;
     w.saved = malloc(tl_nav_crowd_state_size(w.crowds[0]));
     for (uint32_t step = 0; step < step_count; step++) {
@@ -328,6 +373,9 @@ static void test_edits(void **state)
         }
         if (step % GOALS_EVERY == 0) {
             give_goals(&w, false);
+        }
+        if (step % GROUPS_EVERY == 0 && w.group_count > 0) {
+            change_group(&w, test_random_below(&w.random, w.group_count));
         }
         choose_kernels(CROWDS - 1);
         TEST_RESULT(tl_nav_obstacles_update(w.obstacles, w.navmesh, 1, NULL, NULL), TL_OK);
@@ -338,12 +386,14 @@ static void test_edits(void **state)
         }
     }
     const uint32_t settled = settle(&w, step_count);
-    print_message("%u agents, %u steps, %u edits, %u goals: %u off the mesh, %u lost, the longest without a metre "
+    print_message("%u agents, %u steps, %u edits, %u goals, %u groups formed: %u off the mesh, %u lost, the longest "
+                  "without a metre "
                   "forward %.1f s, all arrived after %.1f s, hash %016llx\n",
-                  agent_count, step_count, (unsigned)w.edits, (unsigned)w.goals, (unsigned)w.off_mesh, (unsigned)w.lost,
-                  (double)((float)w.longest * DT), (double)((float)settled * DT),
-                  (unsigned long long)tl_nav_crowd_hash(w.crowds[0]));
+                  agent_count, step_count, (unsigned)w.edits, (unsigned)w.goals, (unsigned)w.formed,
+                  (unsigned)w.off_mesh, (unsigned)w.lost, (double)((float)w.longest * DT),
+                  (double)((float)settled * DT), (unsigned long long)tl_nav_crowd_hash(w.crowds[0]));
     TEST_CHECK(w.off_mesh == 0 && w.lost == 0 && w.edits * EDIT_EVERY >= step_count && w.goals > agent_count);
+    TEST_CHECK(w.group_count == 0 || step_count < 1200 || (w.formed > w.group_count && w.parted > 0));
     for (uint32_t c = 0; c < CROWDS; c++) {
         TEST_CHECK(tl_nav_crowd_count(w.crowds[c]) == agent_count);
         TEST_CHECK(tl_nav_crowd_hash(w.crowds[c]) == tl_nav_crowd_hash(w.crowds[0]));

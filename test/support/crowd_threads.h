@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Tasks on threads of their own for each call: slow, but any number of them, and no thread lives between calls.
+// Tasks on threads that are made for each call, but for the first worker's, which is the caller's: slow, but any number
+// of them, and no thread lives between calls.
 
 #ifndef TALUS_TEST_CROWD_THREADS_H
 #define TALUS_TEST_CROWD_THREADS_H
@@ -32,14 +33,15 @@ static inline void run_on_threads(tl_task_fn *task, uint32_t count, void *task_u
 {
     const uint32_t workers = *(const uint32_t *)user;
     pthread_t threads[CROWD_MAX_THREADS];
-    thread_job jobs[CROWD_MAX_THREADS];
+    thread_job jobs[CROWD_MAX_THREADS] = { { task, 0, 0, 1, task_user } };
     TEST_CHECK(workers <= CROWD_MAX_THREADS);
     for (uint32_t w = 0; w < workers; w++) {
         thread_job job = { task, w, count, workers, task_user };
         jobs[w] = job;
-        TEST_CHECK(pthread_create(&threads[w], NULL, run_stride, &jobs[w]) == 0);
+        TEST_CHECK(w == 0 || pthread_create(&threads[w], NULL, run_stride, &jobs[w]) == 0);
     }
-    for (uint32_t w = 0; w < workers; w++) {
+    run_stride(&jobs[0]);
+    for (uint32_t w = 1; w < workers; w++) {
         pthread_join(threads[w], NULL);
     }
 }
