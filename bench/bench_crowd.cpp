@@ -2,17 +2,19 @@
 //
 // Crowds beside DetourCrowd's: the same polygons, agents, goals and steps, in one process.
 //
-//   bench_crowd [--seconds SIMULATED (40)] [--max AGENTS (2000)] [--scenes 0|1 (1)] [--detour 0|1 (1)] [--json FILE]
+//   bench_crowd [--seconds SIMULATED (40)] [--max AGENTS (2000)] [--scenes 0|1 (1)] [--detour 0|1 (1)]
+//               [--threads 1|2 (1)] [--json FILE]
 //
 // First what a step of an agent costs: squares with pillars and without, six square metres an agent, everybody to a
-// random place. CPU time of one thread. Then the scenes that crowds are judged by (support/crowd_scenes.hpp): pairs
-// that overlap by more than a hundredth of both radii, agents off their polygon, changes of velocity from step to step,
-// and when all have arrived.
+// random place. CPU time of one thread; of two the time by the clock, and how much sooner they are done. Then the
+// scenes that crowds are judged by (support/crowd_scenes.hpp): pairs that overlap by more than a hundredth of both
+// radii, agents off their polygon, changes of velocity from step to step, and when all have arrived.
 
 #include "bench_options.h"
 #include "crowd_scenes.hpp"
 #include "measure.h"
 #include "report.h"
+#include "second_thread.hpp"
 
 #include <cstdio>
 #include <cstring>
@@ -23,12 +25,14 @@
 namespace
 {
 
-crowd_figures run_talus(const crowd_scene &s)
+crowd_figures run_talus(const crowd_scene &s, const tl_tasks *tasks = nullptr,
+                        double (*seconds)() = bench_thread_seconds)
 {
     crowd_figures f;
     const tl_navmesh *navmesh = s.level.twin.get();
     tl_nav_crowd_def def = tl_default_nav_crowd_def();
     def.max_agents = (uint32_t)s.starts.size();
+    def.host.tasks = tasks;
     def.paths_per_step = std::max(64u, def.max_agents / 20); // all have one after a second
     tl_nav_crowd *crowd = nullptr;
     if (tl_nav_crowd_create(&def, &crowd, nullptr) != TL_OK) {
@@ -48,9 +52,9 @@ crowd_figures run_talus(const crowd_scene &s)
     }
     std::vector<crowd_body> now(agents.size()), before;
     while (!f.is_over(s)) {
-        const double begin = bench_thread_seconds();
+        const double begin = seconds();
         tl_nav_crowd_step(crowd, navmesh, CROWD_DT, nullptr);
-        f.seconds += bench_thread_seconds() - begin;
+        f.seconds += seconds() - begin;
         before = now;
         for (size_t i = 0; i < agents.size(); i++) {
             tl_nav_agent_state state;
@@ -149,14 +153,32 @@ void run_scene(bench_report *report, const crowd_scene &s, bool with_detour, boo
     }
 }
 
-void run_squares(bench_report *report, float seconds, uint32_t most, bool with_detour)
+// The same steps by one thread and by two.
+void run_on_two_threads(bench_report *report, const crowd_scene &s)
+{
+    second_thread second;
+    const tl_tasks tasks = second.tasks();
+    const crowd_figures one = run_talus(s, nullptr, bench_wall_seconds);
+    const crowd_figures two = run_talus(s, &tasks, bench_wall_seconds);
+    print(s, "1", one);
+    print(s, "2", two);
+    bench_report_speed(report, (std::string(s.name) + ", " + std::to_string(s.starts.size()) + " agents").c_str(),
+                       "one thread", one.seconds / two.seconds, 1.0);
+}
+
+void run_squares(bench_report *report, float seconds, uint32_t most, bool with_detour, bool on_two_threads)
 {
     for (const bool pillars : { true, false }) {
         for (const uint32_t count : { 100u, 500u, 2000u, 10000u, 100000u }) {
             crowd_scene s;
             s.name = pillars ? "square with pillars" : "open square";
             s.seconds = seconds;
-            if (count <= most && s.square(count, pillars)) {
+            if (count > most || !s.square(count, pillars)) {
+                continue;
+            }
+            if (on_two_threads) {
+                run_on_two_threads(report, s);
+            } else {
                 run_scene(report, s, with_detour && count <= 2000, false);
             }
         }
@@ -183,18 +205,19 @@ void run_scenes(bench_report *report, bool with_detour)
 
 int main(int argc, char **argv)
 {
-    uint32_t seconds = 40, most = 2000, scenes = 1, detour = 1;
+    uint32_t seconds = 40, most = 2000, scenes = 1, detour = 1, threads = 1;
     const bench_option options[] = { { "seconds", BENCH_COUNT, &seconds, "that are simulated in the squares" },
                                      { "max", BENCH_COUNT, &most, "agents of the largest square; 1: none" },
                                      { "scenes", BENCH_COUNT, &scenes, "1: the scenes too" },
                                      { "detour", BENCH_COUNT, &detour, "1: DetourCrowd too" },
+                                     { "threads", BENCH_COUNT, &threads, "2: the squares on one thread and on two" },
                                      { nullptr, BENCH_COUNT, nullptr, nullptr } };
     const char *json = nullptr;
     bench_parse(argc, argv, options, nullptr, &json);
     bench_report *report = bench_report_new("crowd", "us", "agents");
     std::printf("%-20s %6s %-7s %7s %9s %7s %8s %6s %8s %6s\n", "scene", "agents", "who", "us/step", "overlaps",
                 "deepest", "off mesh", "walls", "turn", "arrive");
-    run_squares(report, (float)seconds, most, detour != 0);
+    run_squares(report, (float)seconds, most, detour != 0, threads > 1);
     if (scenes != 0) {
         run_scenes(report, detour != 0);
     }

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Tasks on two threads: the caller's, and one that waits for work.
+// Tasks on two threads: the caller's, and one that spins until there is work.
 
 #ifndef TALUS_BENCH_SECOND_THREAD_HPP
 #define TALUS_BENCH_SECOND_THREAD_HPP
 
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
 #include <talus/base.h>
 #include <thread>
 
-// A thread that waits for work beside the caller's.
 class second_thread
 {
   public:
@@ -27,16 +24,15 @@ class second_thread
     }
 
   private:
+    // The thread looks again and again, as those of job systems do for a while: to be woken takes tens of microseconds.
     void give(tl_task_fn *new_task, uint32_t new_count, void *user)
     {
-        std::lock_guard<std::mutex> lock(mutex);
         task = new_task;
         count = new_count;
         task_user = user;
         next = 0;
-        round++;
         working = true;
-        wake.notify_one();
+        round.fetch_add(1, std::memory_order_release);
     }
 
     void work(uint32_t worker)
@@ -48,18 +44,15 @@ class second_thread
 
     void serve()
     {
-        for (uint64_t seen = 0;;) {
-            std::unique_lock<std::mutex> lock(mutex);
-            wake.wait(lock, [&] { return round != seen; });
-            seen = round;
+        for (uint64_t seen = 0;; seen++) {
+            while (round.load(std::memory_order_acquire) == seen) {
+                std::this_thread::yield();
+            }
             if (task == nullptr) {
                 return;
             }
-            lock.unlock();
             work(1);
-            lock.lock();
-            working = false;
-            done.notify_one();
+            working.store(false, std::memory_order_release);
         }
     }
 
@@ -68,18 +61,17 @@ class second_thread
         second_thread *self = static_cast<second_thread *>(user);
         self->give(task, count, task_user);
         self->work(0);
-        std::unique_lock<std::mutex> lock(self->mutex);
-        self->done.wait(lock, [&] { return !self->working; });
+        while (self->working.load(std::memory_order_acquire)) {
+            std::this_thread::yield();
+        }
     }
 
-    std::mutex mutex;
-    std::condition_variable wake, done;
     tl_task_fn *task = nullptr;
     void *task_user = nullptr;
     uint32_t count = 0;
     std::atomic<uint32_t> next{ 0 };
-    uint64_t round = 0;
-    bool working = false;
+    std::atomic<uint64_t> round{ 0 };
+    std::atomic<bool> working{ false };
     std::thread thread{ [this] { serve(); } };
 };
 

@@ -191,7 +191,7 @@ typedef struct crowd_snapshot {
 /// A uniform grid over the plan that repeats itself every `mask + 1` cells in both directions.
 typedef struct crowd_grid {
     uint32_t *first; ///< [cell_count + 1] of the snapshot
-    uint32_t *cell;  ///< [max_agents] of each place
+    uint32_t *cell;  ///< [max_agents] of each place; then where it stands in the snapshot
     uint32_t cell_count;
     uint32_t mask_x, mask_z, shift_z;
     float cell_size;
@@ -271,7 +271,7 @@ void tl_crowd_search_path(const crowd_step *step, uint32_t i, tl_nav_query *quer
 void tl_crowd_revalidate(const crowd_step *step, uint32_t i);
 
 /// Sorts all agents into the grid, and copies what they show.
-void tl_crowd_fill_grid(tl_nav_crowd *crowd);
+void tl_crowd_fill_grid(const crowd_step *step);
 
 /// Sets an agent's wanted velocity, and its status.
 void tl_crowd_steer(const crowd_step *step, uint32_t i);

@@ -40,36 +40,56 @@ static uint32_t kind_of(const crowd_fields *a, uint32_t i)
     return kind;
 }
 
-static void copy_agent(tl_nav_crowd *crowd, uint32_t i, uint32_t to)
+// Agents of one task of these passes: each takes little time.
+enum { GRID_BLOCK = 1024 };
+
+static void find_agent_cells(uint32_t block, uint32_t worker, void *user)
 {
-    const crowd_fields *a = &crowd->a;
-    crowd_snapshot *seen = &crowd->seen;
-    seen->x[to] = a->x[i];
-    seen->y[to] = a->y[i];
-    seen->z[to] = a->z[i];
-    seen->vx[to] = a->vx[i];
-    seen->vz[to] = a->vz[i];
-    seen->radius[to] = a->radius[i];
-    seen->height[to] = a->height[i];
-    seen->priority[to] = a->priority[i];
-    seen->wanted_x[to] = a->wanted_x[i];
-    seen->wanted_z[to] = a->wanted_z[i];
-    seen->agent[to] = i;
-    seen->kind[to] = kind_of(a, i) | (a->flags[i] & CROWD_TRAVEL_MASK);
+    (void)worker;
+    const crowd_step *step = (const crowd_step *)user;
+    const crowd_grid *grid = &step->crowd->grid;
+    const crowd_fields *a = &step->crowd->a;
+    const uint32_t end = tl_block_end(block, GRID_BLOCK, step->crowd->head->used);
+    for (uint32_t i = block * GRID_BLOCK; i < end; i++) {
+        if (a->status[i] != CROWD_FREE) {
+            grid->cell[i] = grid_cell(grid, a->x[i], a->z[i]);
+        }
+    }
 }
 
-void tl_crowd_fill_grid(tl_nav_crowd *crowd)
+static void copy_seen_agents(uint32_t block, uint32_t worker, void *user)
 {
-    crowd_grid *grid = &crowd->grid;
+    (void)worker;
+    const crowd_step *step = (const crowd_step *)user;
+    const crowd_fields *a = &step->crowd->a;
+    const crowd_snapshot *seen = &step->crowd->seen;
+    const uint32_t end = tl_block_end(block, GRID_BLOCK, seen->count);
+    for (uint32_t k = block * GRID_BLOCK; k < end; k++) {
+        const uint32_t i = seen->agent[k];
+        seen->x[k] = a->x[i];
+        seen->y[k] = a->y[i];
+        seen->z[k] = a->z[i];
+        seen->vx[k] = a->vx[i];
+        seen->vz[k] = a->vz[i];
+        seen->radius[k] = a->radius[i];
+        seen->height[k] = a->height[i];
+        seen->priority[k] = a->priority[i];
+        seen->wanted_x[k] = a->wanted_x[i];
+        seen->wanted_z[k] = a->wanted_z[i];
+        seen->kind[k] = kind_of(a, i) | (a->flags[i] & CROWD_TRAVEL_MASK);
+    }
+}
+
+// A counting sort by cell. `cell` holds the place in the snapshot then.
+static void sort_agents(tl_nav_crowd *crowd)
+{
+    const crowd_grid *grid = &crowd->grid;
     const crowd_fields *a = &crowd->a;
     const uint32_t used = crowd->head->used;
     memset(grid->first, 0, ((size_t)grid->cell_count + 1) * sizeof *grid->first);
-    grid->cell_size = crowd->def.neighbor_distance / (float)CELLS_PER_REACH;
-    crowd->seen.count = crowd->head->count;
     crowd->seen.max_radius = 0.0f;
     for (uint32_t i = 0; i < used; i++) {
         if (a->status[i] != CROWD_FREE) {
-            grid->cell[i] = grid_cell(grid, a->x[i], a->z[i]);
             grid->first[grid->cell[i] + 1]++;
             crowd->seen.max_radius = tl_max_f32(crowd->seen.max_radius, a->radius[i]);
         }
@@ -80,9 +100,21 @@ void tl_crowd_fill_grid(tl_nav_crowd *crowd)
     // Each cell's entry moves to its end, so that it is the next one's begin.
     for (uint32_t i = 0; i < used; i++) {
         if (a->status[i] != CROWD_FREE) {
-            copy_agent(crowd, i, grid->first[grid->cell[i]]++);
+            const uint32_t k = grid->first[grid->cell[i]]++;
+            crowd->seen.agent[k] = i;
+            grid->cell[i] = k;
         }
     }
     memmove(grid->first + 1, grid->first, (size_t)grid->cell_count * sizeof *grid->first);
     grid->first[0] = 0;
+}
+
+void tl_crowd_fill_grid(const crowd_step *step)
+{
+    tl_nav_crowd *crowd = step->crowd;
+    crowd->grid.cell_size = crowd->def.neighbor_distance / (float)CELLS_PER_REACH;
+    crowd->seen.count = crowd->head->count;
+    tl_crowd_run_tasks(step, find_agent_cells, tl_block_count(crowd->head->used, GRID_BLOCK));
+    sort_agents(crowd);
+    tl_crowd_run_tasks(step, copy_seen_agents, tl_block_count(crowd->seen.count, GRID_BLOCK));
 }
