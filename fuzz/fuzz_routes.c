@@ -4,20 +4,16 @@
 // impossible. The input is patches of the true chunk, six bytes each: a word's index, and what is written there. The
 // file's hashes are made right, so that what is behind them is reached.
 
-#include <talus/nav_routes.h>
+#include "test/support/memory_file.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <talus/nav_routes.h>
 
-enum { SIDE = 10, MAX_BYTES = 1 << 18, PATCH = 6, PLACES = 6, POINTS = 32 };
+enum { SIDE = 10, PATCH = 6, PLACES = 6, POINTS = 32 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-typedef struct memory_file {
-    uint8_t bytes[MAX_BYTES];
-    size_t size;
-} memory_file;
 
 static memory_file bare, patched; // without routes, and with the input's
 static tl_nav_tiles tiles;
@@ -29,25 +25,6 @@ static void require(bool condition)
     if (!condition) {
         abort();
     }
-}
-
-static tl_result write_to(const void *bytes, size_t size, void *user)
-{
-    memory_file *file = user;
-    require(size <= MAX_BYTES - file->size);
-    memcpy(file->bytes + file->size, bytes, size);
-    file->size += size;
-    return TL_OK;
-}
-
-static tl_result read_from(uint64_t offset, void *bytes, size_t size, void *user)
-{
-    const memory_file *file = user;
-    if (offset > file->size || size > file->size - offset) {
-        return TL_ERR_TRUNCATED;
-    }
-    memcpy(bytes, file->bytes + offset, size);
-    return TL_OK;
 }
 
 static void write_file(const tl_nav_routes *extra, memory_file *file)
@@ -66,7 +43,7 @@ static void write_file(const tl_nav_routes *extra, memory_file *file)
         items[count++] = item;
     }
     file->size = 0;
-    require(tl_pack_write(items, count, NULL, write_to, file, NULL) == TL_OK);
+    require(tl_pack_write(items, count, NULL, memory_file_write, file, NULL) == TL_OK);
 }
 
 // A floor of 20 x 20 m with holes, in 3 x 3 tiles, and the routes over it.
@@ -102,7 +79,7 @@ static void make_world(void)
             TL_OK);
     write_file(NULL, &bare);
     tl_nav_routes_def routes_def = tl_default_nav_routes_def();
-    routes_def.read = read_from;
+    routes_def.read = memory_file_read;
     routes_def.user = &bare;
     routes_def.block = 2;
     require(tl_nav_routes_bake(&routes_def, &routes, NULL) == TL_OK && routes->gate_count > 4);
@@ -158,7 +135,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     tl_nav_world_def def = tl_default_nav_world_def();
     tl_nav_world *world = NULL;
     tl_nav_router *router = NULL;
-    def.read = read_from;
+    def.read = memory_file_read;
     def.user = &patched;
     if (tl_nav_world_create(&def, &world, NULL) == TL_OK) {
         require(tl_nav_router_create(world, NULL, &router, NULL) == TL_OK);

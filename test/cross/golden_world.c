@@ -3,46 +3,16 @@
 // A world of tiles that is streamed from a file's bytes, far from the origin: its routes as they are baked, and what is
 // answered by them, with all tiles in memory and with those of both ends alone.
 
+#include "../support/memory_file.h"
 #include "golden.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 enum { ROUTES = 150, POINTS = 64 };
 
-typedef struct world_bytes {
-    uint8_t *bytes;
-    uint64_t size;
-} world_bytes;
-
-static tl_result write_bytes(const void *bytes, size_t size, void *user)
-{
-    world_bytes *file = user;
-    uint8_t *grown = realloc(file->bytes, (size_t)file->size + size);
-    if (grown == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    memcpy(grown + file->size, bytes, size);
-    file->bytes = grown;
-    file->size += size;
-    return TL_OK;
-}
-
-static tl_result read_bytes(uint64_t offset, void *bytes, size_t size, void *user)
-{
-    const world_bytes *file = user;
-    if (offset > file->size || size > file->size - offset) {
-        return TL_ERR_TRUNCATED;
-    }
-    memcpy(bytes, file->bytes + offset, size);
-    return TL_OK;
-}
-
 /// The file of the tiles; `routes` may be NULL.
-static world_bytes pack_world(const tl_nav_def *def, const tl_nav_tiles *tiles, const tl_nav_routes *routes)
+static memory_file pack_world(const tl_nav_def *def, const tl_nav_tiles *tiles, const tl_nav_routes *routes)
 {
     static const double origin[3] = { 1e7, -300, 2e7 };
-    world_bytes file = { NULL, 0 };
+    memory_file file = { NULL, 0, 0 };
     tl_pack_navmesh *navmesh;
     tl_pack_frame *frame;
     tl_pack_item *items = calloc((size_t)tiles->tile_count + 3, sizeof *items);
@@ -58,18 +28,18 @@ static world_bytes pack_world(const tl_nav_def *def, const tl_nav_tiles *tiles, 
     if (routes != NULL) {
         items[count++] = (tl_pack_item){ TL_PACK_ROUT, 0, routes, routes->blob.size };
     }
-    MUST(tl_pack_write(items, count, NULL, write_bytes, &file, NULL));
+    MUST(tl_pack_write(items, count, NULL, memory_file_write, &file, NULL));
     tl_blob_free(navmesh);
     tl_blob_free(frame);
     free(items);
     return file;
 }
 
-static tl_nav_world *open_world(world_bytes *file)
+static tl_nav_world *open_world(memory_file *file)
 {
     tl_nav_world *world;
     tl_nav_world_def def = tl_default_nav_world_def();
-    def.read = read_bytes;
+    def.read = memory_file_read;
     def.user = file;
     def.frame_reach = 10.0;
     MUST(tl_nav_world_create(&def, &world, NULL));
@@ -126,7 +96,7 @@ static void digest_route(digest *d, tl_nav_world *world, tl_nav_router *router, 
     }
 }
 
-static void digest_routes(world_bytes *file, const char *part, bool whole)
+static void digest_routes(memory_file *file, const char *part, bool whole)
 {
     dice random = { 77 };
     tl_nav_world *world = open_world(file);
@@ -158,16 +128,16 @@ void golden_world(const tl_mesh_view *view)
     def.tile_size = 20;
     def.bounds = (tl_aabb){ { 0, -1, 0 }, { 40, 14, 40 } };
     MUST(tl_nav_bake(&def, &input, &tiles, NULL));
-    world_bytes bare = pack_world(&def, &tiles, NULL);
+    memory_file bare = pack_world(&def, &tiles, NULL);
     tl_nav_routes_def routes_def = tl_default_nav_routes_def();
-    routes_def.read = read_bytes;
+    routes_def.read = memory_file_read;
     routes_def.user = &bare;
     routes_def.block = 2;
     MUST(tl_nav_routes_bake(&routes_def, &routes, NULL));
     digest d = digest_begin();
     digest_blob(&d, routes);
     digest_print(&d, "world", "routes");
-    world_bytes file = pack_world(&def, &tiles, routes);
+    memory_file file = pack_world(&def, &tiles, routes);
     digest_routes(&file, "all-loaded", true);
     digest_routes(&file, "ends-loaded", false);
     tl_blob_free(routes);

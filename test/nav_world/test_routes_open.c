@@ -231,7 +231,7 @@ static void test_failures(void **state)
     }
     def.host.progress = NULL;
     // Heads can be read, tiles cannot.
-    file.bytes[file.size - 100] ^= 1;
+    file.in.bytes[file.in.size - 100] ^= 1;
     TEST_CHECK(tl_is_error(tl_nav_routes_bake(&def, &routes, &report)) && routes == NULL);
     TEST_CHECK(report.element != NULL && strcmp(report.element, "chunk") == 0);
     world_file_free(&file);

@@ -35,10 +35,10 @@ static world_file rewrite(const world_file *file, const tl_pack_item *extra, boo
     world_file copy, out;
     uint32_t count = 0;
     memset(&out, 0, sizeof out);
-    copy.bytes = test_blob_alloc(file->size);
-    memcpy(copy.bytes, file->bytes, file->size);
-    TEST_RESULT(tl_pack_to_host_order(copy.bytes, file->size, NULL), TL_OK);
-    TEST_RESULT(tl_pack_open(copy.bytes, file->size, &pack, NULL), TL_OK);
+    copy.in.bytes = test_blob_alloc(file->in.size);
+    memcpy(copy.in.bytes, file->in.bytes, file->in.size);
+    TEST_RESULT(tl_pack_to_host_order(copy.in.bytes, file->in.size, NULL), TL_OK);
+    TEST_RESULT(tl_pack_open(copy.in.bytes, file->in.size, &pack, NULL), TL_OK);
     TEST_CHECK(pack.chunk_count + 2 <= 64);
     for (uint32_t i = 0; i < pack.chunk_count; i++) {
         const tl_pack_chunk chunk = tl_pack_chunk_at(&pack, backwards ? pack.chunk_count - 1 - i : i);
@@ -52,8 +52,8 @@ static world_file rewrite(const world_file *file, const tl_pack_item *extra, boo
     if (extra != NULL) {
         items[count++] = *extra;
     }
-    TEST_RESULT(tl_pack_write(items, count, NULL, world_file_write, &out, NULL), TL_OK);
-    test_blob_free(copy.bytes);
+    TEST_RESULT(tl_pack_write(items, count, NULL, memory_file_write, &out.in, NULL), TL_OK);
+    test_blob_free(copy.in.bytes);
     return out;
 }
 
@@ -77,7 +77,7 @@ static void test_refused_by_name(void **state)
     TEST_RESULT(try_open(&backwards, &report), TL_ERR_CORRUPT);
     world_file empty;
     memset(&empty, 0, sizeof empty);
-    TEST_RESULT(tl_pack_write(NULL, 0, NULL, world_file_write, &empty, NULL), TL_OK);
+    TEST_RESULT(tl_pack_write(NULL, 0, NULL, memory_file_write, &empty.in, NULL), TL_OK);
     TEST_RESULT(try_open(&empty, &report), TL_NOT_FOUND);
 
     tl_blob_free(links);
@@ -99,18 +99,18 @@ static void test_damaged_index(void **state)
         uint64_t aligned[TL_PACK_HEAD_SIZE / 8];
         unsigned char bytes[TL_PACK_HEAD_SIZE];
     } head;
-    memcpy(head.bytes, file.bytes, sizeof head);
+    memcpy(head.bytes, file.in.bytes, sizeof head);
     TEST_RESULT(tl_pack_index_size(head.bytes, &index_size, NULL), TL_OK);
-    const size_t whole = file.size;
+    const size_t whole = file.in.size;
     for (size_t size = 0; size < index_size; size++) {
-        file.size = size;
+        file.in.size = size;
         TEST_CHECK(tl_is_error(try_open(&file, NULL)));
     }
-    file.size = whole;
+    file.in.size = whole;
     for (size_t i = 0; i < index_size; i++) {
-        file.bytes[i] ^= 0x10;
+        file.in.bytes[i] ^= 0x10;
         TEST_CHECK(tl_is_error(try_open(&file, NULL)));
-        file.bytes[i] ^= 0x10;
+        file.in.bytes[i] ^= 0x10;
     }
     TEST_RESULT(try_open(&file, NULL), TL_OK);
     world_file_free(&file);
@@ -128,14 +128,14 @@ static void test_damaged_tiles(void **state)
         uint64_t aligned[TL_PACK_HEAD_SIZE / 8];
         unsigned char bytes[TL_PACK_HEAD_SIZE];
     } head;
-    memcpy(head.bytes, file.bytes, sizeof head);
+    memcpy(head.bytes, file.in.bytes, sizeof head);
     TEST_RESULT(tl_pack_index_size(head.bytes, &index_size, NULL), TL_OK);
     uint32_t refused = 0, failed = 0;
     for (uint32_t i = 0; i < 300; i++) {
         const size_t at =
-            (size_t)index_size + 512 + test_random_below(&random, (uint32_t)(file.size - index_size - 512));
+            (size_t)index_size + 512 + test_random_below(&random, (uint32_t)(file.in.size - index_size - 512));
         const unsigned char flip = (unsigned char)(1u << test_random_below(&random, 8));
-        file.bytes[at] ^= flip;
+        file.in.bytes[at] ^= flip;
         tl_nav_world_def def = tl_default_nav_world_def();
         tl_nav_world *world = NULL;
         def.read = world_file_read;
@@ -150,7 +150,7 @@ static void test_damaged_tiles(void **state)
             refused++;
         }
         tl_nav_world_destroy(world);
-        file.bytes[at] ^= flip;
+        file.in.bytes[at] ^= flip;
     }
     // The rest lay in padding between chunks, which nobody reads.
     print_message("%u refused, %u failed when loaded\n", refused, failed);

@@ -82,7 +82,7 @@ static void test_failed_reads_are_tried_again(void **state)
     tl_nav_world *world = world_open(&file, (uint64_t)64 << 20, 4096.0);
     const double edge = edge_of(&level);
     tl_nav_world_interest all = world_interest(HERE, 0.5 * edge, 0.5 * edge, edge);
-    file.fail_from = file.size / 2;
+    file.fail_from = file.in.size / 2;
     world_settle(world, &all, 1);
     const tl_nav_world_state broken = world_state(world);
     TEST_CHECK(broken.failed > 20 && broken.loaded > 20 && broken.failed + broken.loaded == broken.places);
@@ -145,8 +145,8 @@ typedef struct loader {
 static tl_result locked_read(uint64_t offset, void *bytes, size_t size, void *user)
 {
     const world_file *file = user;
-    TEST_CHECK(offset + size <= file->size);
-    memcpy(bytes, file->bytes + offset, size);
+    TEST_CHECK(offset + size <= file->in.size);
+    memcpy(bytes, file->in.bytes + offset, size);
     return TL_OK;
 }
 

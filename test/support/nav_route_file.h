@@ -30,11 +30,11 @@ static inline world_file route_file_with(const world_file *file, const void *rou
     tl_pack pack;
     world_file out;
     memset(&out, 0, sizeof out);
-    unsigned char *bytes = (unsigned char *)test_blob_alloc(file->size);
+    unsigned char *bytes = (unsigned char *)test_blob_alloc(file->in.size);
     TEST_CHECK(bytes != NULL);
-    memcpy(bytes, file->bytes, file->size);
-    TEST_RESULT(tl_pack_to_host_order(bytes, file->size, NULL), TL_OK);
-    TEST_RESULT(tl_pack_open(bytes, file->size, &pack, NULL), TL_OK);
+    memcpy(bytes, file->in.bytes, file->in.size);
+    TEST_RESULT(tl_pack_to_host_order(bytes, file->in.size, NULL), TL_OK);
+    TEST_RESULT(tl_pack_open(bytes, file->in.size, &pack, NULL), TL_OK);
     TEST_CHECK(pack.chunk_count < MAX_CHUNKS);
     for (uint32_t i = 0; i < pack.chunk_count; i++) {
         const tl_pack_chunk chunk = tl_pack_chunk_at(&pack, i);
@@ -43,7 +43,7 @@ static inline world_file route_file_with(const world_file *file, const void *rou
     }
     const tl_pack_item extra = { TL_PACK_ROUT, 0, routes, size };
     items[pack.chunk_count] = extra;
-    TEST_RESULT(tl_pack_write(items, pack.chunk_count + 1, NULL, world_file_write, &out, NULL), TL_OK);
+    TEST_RESULT(tl_pack_write(items, pack.chunk_count + 1, NULL, memory_file_write, &out.in, NULL), TL_OK);
     test_blob_free(bytes);
     return out;
 }

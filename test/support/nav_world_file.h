@@ -5,31 +5,18 @@
 #ifndef TALUS_TEST_NAV_WORLD_FILE_H
 #define TALUS_TEST_NAV_WORLD_FILE_H
 
+#include "memory_file.h"
 #include "nav_fixture.h"
 
 #include <talus/nav_world.h>
 
 typedef struct world_file {
-    unsigned char *bytes;
-    size_t size, capacity;
+    memory_file in;
     uint64_t reads;
     uint64_t fail_from; ///< reads of chunks behind this offset fail; 0: none
     uint64_t fail_at;   ///< this read, counted from 1, says `failure`; 0: none
     tl_result failure;
 } world_file;
-
-static inline tl_result world_file_write(const void *bytes, size_t size, void *user)
-{
-    world_file *file = (world_file *)user;
-    if (file->size + size > file->capacity) {
-        file->capacity = 2 * (file->size + size);
-        file->bytes = (unsigned char *)realloc(file->bytes, file->capacity);
-        TEST_CHECK(file->bytes != NULL);
-    }
-    memcpy(file->bytes + file->size, bytes, size);
-    file->size += size;
-    return TL_OK;
-}
 
 static inline tl_result world_file_read(uint64_t offset, void *bytes, size_t size, void *user)
 {
@@ -37,14 +24,10 @@ static inline tl_result world_file_read(uint64_t offset, void *bytes, size_t siz
     if (++file->reads == file->fail_at) {
         return file->failure;
     }
-    if (offset > file->size || size > file->size - offset) {
-        return TL_ERR_TRUNCATED;
-    }
-    if (file->fail_from != 0 && offset >= file->fail_from) {
+    if (file->fail_from != 0 && offset >= file->fail_from && offset + size <= file->in.size) {
         return TL_ERR_IO;
     }
-    memcpy(bytes, file->bytes + offset, size);
-    return TL_OK;
+    return memory_file_read(offset, bytes, size, &file->in);
 }
 
 /// A file of such tiles, row by row, with `origin` as the level's own coordinates of 0 and such axes.
@@ -70,7 +53,7 @@ static inline world_file world_file_pack(const tl_nav_def *def, const tl_nav_til
     }
     world_file file;
     memset(&file, 0, sizeof file);
-    TEST_RESULT(tl_pack_write(items, count, NULL, world_file_write, &file, NULL), TL_OK);
+    TEST_RESULT(tl_pack_write(items, count, NULL, memory_file_write, &file.in, NULL), TL_OK);
     tl_blob_free(navmesh);
     tl_blob_free(frame);
     return file;
@@ -108,7 +91,7 @@ static inline world_file world_file_make(const fixture_level *level, const doubl
 
 static inline void world_file_free(world_file *file)
 {
-    free(file->bytes);
+    free(file->in.bytes);
     memset(file, 0, sizeof *file);
 }
 
