@@ -5,6 +5,7 @@
 #include "cli/level/level_doubt.h"
 #include "cli/level/open_input.h"
 #include "cli/shared/json_out.h"
+#include "world/job/world_reader.h"
 
 #include <talus/nav_routes.h>
 #include <talus/polygon.h>
@@ -240,6 +241,26 @@ static tl_result check_navmesh(findings *f, const tl_pack *pack)
     return TL_OK;
 }
 
+// Routes must be those of the file's tiles.
+static tl_result check_routes(findings *f, const char *path, const tl_pack *pack)
+{
+    tl_pack_chunk chunk = { 0 };
+    for (uint32_t i = 0; i < pack->chunk_count && chunk.type != TL_PACK_ROUT; i++) {
+        chunk = tl_pack_chunk_at(pack, i);
+    }
+    tl_world_reader reader;
+    if (chunk.type != TL_PACK_ROUT || tl_world_reader_open(path, &reader, NULL) != TL_OK) {
+        return TL_OK;
+    }
+    tl_report report;
+    tl_result result = tl_world_reader_index(&reader, NULL);
+    if (result == TL_OK && tl_nav_routes_check_tiles(chunk.bytes, &reader.index, &report) != TL_OK) {
+        add_finding(f, "routes", NULL, TL_NO_ELEMENT, "of other tiles: run 'talus world routes' again");
+    }
+    tl_world_reader_close(&reader);
+    return result == TL_ERR_MEMORY ? result : TL_OK; // the pack was opened: its index is sound
+}
+
 static tl_exit check_baked(findings *f, const char *path)
 {
     tl_file_map map;
@@ -263,6 +284,9 @@ static tl_exit check_baked(findings *f, const char *path)
     }
     if (result == TL_OK && f->faults == 0) {
         result = check_navmesh(f, &pack);
+    }
+    if (result == TL_OK && f->faults == 0) {
+        result = check_routes(f, path, &pack);
     }
     is_out_of_memory(f, result, &code);
     tl_file_map_close(&map);

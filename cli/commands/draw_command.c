@@ -12,6 +12,7 @@
 #include "cli/options/output_check.h"
 #include "cli/options/parse_value.h"
 #include "cli/shared/json_out.h"
+#include "cli/world/ground_picture.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -420,6 +421,15 @@ static tl_exit draw_job(tl_cli *cli, const draw_settings *settings)
     return draw_world(cli, job, &options);
 }
 
+// The one stage that a large world can be drawn of tile by tile, or -1: what is asked for needs all of it in memory.
+static int streamed_stage(const tl_cli *cli, const draw_settings *settings)
+{
+    const int stage = settings->stages[STAGE_NAVMESH] ? STAGE_NAVMESH : STAGE_POLYGONS;
+    const bool fits = settings->stage_count == 1 && settings->stages[stage] && settings->view != 2 &&
+                      !settings->overview && !settings->has_ends;
+    return fits && tl_is_large_ground(cli->arguments.words[0]) ? stage : -1;
+}
+
 static tl_exit run_draw(tl_cli *cli)
 {
     draw_settings settings;
@@ -467,6 +477,10 @@ static tl_exit run_draw(tl_cli *cli)
     if (settings.output == NULL) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "say where to write with -o FILE.png");
     }
+    const int streamed = streamed_stage(cli, &settings);
+    if (streamed >= 0) {
+        return tl_draw_ground(cli, cli->arguments.words[0], STAGE_NAMES[streamed], settings.output, settings.size);
+    }
     return draw_stages(cli, cli->arguments.words[0], &settings);
 }
 
@@ -479,8 +493,9 @@ const tl_command tl_draw_command = {
     "('navcontours 1'). The stages, in the order of the pipeline: soup, spans, areas, distance, regions,\n"
     "contours, triangulation, merging, triangles, polygons, detail, navmesh, path; or all. Several stages go\n"
     "to several files: OUT-STAGE.png. What the level hides is drawn faintly. triangulation and merging show\n"
-    "step by step how one contour is divided. Of the job of 'talus world' its tiles are drawn as maps: walkable,\n"
-    "cost, time, missing; or all.",
+    "step by step how one contour is divided. A merged world of more than 2048 tiles is drawn from above, tile\n"
+    "by tile, unless --view oblique or a path asks for all of it. Of the job of 'talus world' its tiles are drawn\n"
+    "as maps: walkable, cost, time, missing; or all.",
     "talus sample courtyard -o courtyard.obj\n"
     "talus bake courtyard.obj -o courtyard.talus\n"
     "talus draw courtyard.obj -o stages.png --stage soup,regions,polygons --size 400\n"

@@ -19,7 +19,8 @@ typedef struct links_settings {
     uint32_t size;
 } links_settings;
 
-// The file's chunks with these links in the place of those it had.
+// The file's chunks with these links in the place of those it had. Routes go: they know nothing of links, and files
+// with links are not opened as worlds.
 static tl_exit write_baked_links(tl_cli *cli, const draw_source *source, const tl_nav_links *links, const char *output)
 {
     const tl_pack *pack = &source->input.pack;
@@ -31,7 +32,9 @@ static tl_exit write_baked_links(tl_cli *cli, const draw_source *source, const t
     }
     for (uint32_t i = 0; i < pack->chunk_count; ++i) {
         tl_pack_chunk chunk = tl_pack_chunk_at(pack, i);
-        if (chunk.type != TL_PACK_LINK) {
+        if (chunk.type == TL_PACK_ROUT) {
+            tl_cli_warn(cli, "%s: its routes know nothing of links, and are left out", output);
+        } else if (chunk.type != TL_PACK_LINK) {
             tl_pack_item item = { chunk.type, chunk.id, chunk.bytes, chunk.size };
             content.items[content.count++] = item;
         }

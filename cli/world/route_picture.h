@@ -5,12 +5,14 @@
 #ifndef TALUS_CLI_ROUTE_PICTURE_H
 #define TALUS_CLI_ROUTE_PICTURE_H
 
-#include "io/files/io_error.h"
+#include "world/job/world_reader.h"
 
 #include <talus/nav_routes.h>
 
 typedef struct tl_route_picture {
-    const char *file, *output; ///< a merged file; .png or .svg
+    tl_world_reader *reader;    ///< of a merged file
+    const tl_pack_index *index; ///< of that
+    const char *output;         ///< .png or .svg
     const tl_nav_world_route_point *points;
     const tl_nav_world_route *route; ///< complete
     uint32_t size;                   ///< pixels along the longer side of the map

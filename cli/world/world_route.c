@@ -177,15 +177,16 @@ static tl_exit print_route(tl_cli *cli, const route_session *session, tl_result 
     return TL_EXIT_OK;
 }
 
-static tl_exit draw_session_route(tl_cli *cli, const route_session *session, const tl_world_route_request *request)
+static tl_exit draw_session_route(tl_cli *cli, route_session *session, const tl_world_route_request *request)
 {
-    const tl_route_picture picture = { request->file, request->output, session->points, &session->route,
-                                       request->size };
+    const tl_route_picture picture = { &session->reader, tl_nav_world_index(session->world),
+                                       request->output,  session->points,
+                                       &session->route,  request->size };
     tl_io_error error;
     return tl_draw_world_route(&picture, &error) == TL_OK ? TL_EXIT_OK : tl_cli_fail_io(cli, &error);
 }
 
-static tl_exit answer_route(tl_cli *cli, const route_session *session, const tl_world_route_request *request,
+static tl_exit answer_route(tl_cli *cli, route_session *session, const tl_world_route_request *request,
                             tl_result result, int missing)
 {
     if (result != TL_OK && (result != TL_NOT_FOUND || session->error.result != TL_OK)) {

@@ -3325,6 +3325,8 @@ namespace Talus.Interop
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_nav_world_create(tl_nav_world_def* def, tl_nav_world** world_out, tl_report* report);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_pack_index* tl_nav_world_index(tl_nav_world* world);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern void tl_nav_world_destroy(tl_nav_world* world);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_nav_world_update(tl_nav_world* world, tl_nav_world_interest* interests, uint count, uint max_changes);
@@ -3356,6 +3358,8 @@ namespace Talus.Interop
         public static extern tl_result tl_nav_routes_bake(tl_nav_routes_def* def, tl_nav_routes** routes_out, tl_report* report);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_nav_routes_check(void* bytes, ulong size, tl_report* report);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_routes_check_tiles(tl_nav_routes* routes, tl_pack_index* index, tl_report* report);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_nav_router_create(tl_nav_world* world, tl_allocator* allocator, tl_nav_router** router_out, tl_report* report);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -64,6 +64,10 @@ TL_API tl_result tl_nav_routes_bake(const tl_nav_routes_def *def, tl_nav_routes 
 /// tl_pack_meta_check. O(size).
 TL_API tl_result tl_nav_routes_check(const void *bytes, uint64_t size, tl_report *report);
 
+/// Whether checked routes are those of the tiles of a file with that index, as they stand there. TL_ERR_CORRUPT: they
+/// are of other tiles. TL_ERR_ARGUMENT. `report` may be NULL. O(chunks).
+TL_API tl_result tl_nav_routes_check_tiles(const tl_nav_routes *routes, const tl_pack_index *index, tl_report *report);
+
 // ---------------------------------------------------------------------------------------------------------
 // Asking.
 

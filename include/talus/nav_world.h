@@ -61,6 +61,8 @@ TL_API tl_nav_world_def tl_default_nav_world_def(void);
 /// tl_pack_load_navmesh), TL_ERR_CORRUPT (a tile lies outside its grid or is there twice), TL_ERR_MEMORY; `*world_out`
 /// is NULL then. `report` may be NULL. O(tiles log tiles), one read of 256 bytes a tile.
 TL_API tl_result tl_nav_world_create(const tl_nav_world_def *def, tl_nav_world **world_out, tl_report *report);
+/// The index of its file, which stays as long as the world: for those who read other chunks than it does.
+TL_API const tl_pack_index *tl_nav_world_index(const tl_nav_world *world);
 /// Frees it with all its tiles. No load may be running. NULL: nothing happens.
 TL_API void tl_nav_world_destroy(tl_nav_world *world);
 

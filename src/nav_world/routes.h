@@ -163,7 +163,7 @@ typedef struct tl_world_routes {
 } tl_world_routes;
 
 /// A hash over the tiles of a file's index.
-uint64_t tl_nav_world_tiles_hash(const tl_nav_world *world);
+uint64_t tl_route_tiles_hash(const tl_pack_index *index);
 /// Reads the ROUT chunk where the file has one, and holds it to the tiles.
 tl_result tl_nav_world_open_routes(tl_nav_world *world, tl_report *report);
 void tl_nav_world_close_routes(tl_nav_world *world);

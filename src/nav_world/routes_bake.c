@@ -260,7 +260,7 @@ static tl_result make_routes_blob(routes_bake *bake)
     if (bake->blob == NULL) {
         return tl_nav_world_no_memory(bake->report);
     }
-    const uint64_t hash = tl_nav_world_tiles_hash(bake->world);
+    const uint64_t hash = tl_route_tiles_hash(&bake->world->index);
     bake->blob->tiles_hash[0] = (uint32_t)(hash & UINT32_MAX);
     bake->blob->tiles_hash[1] = (uint32_t)(hash >> 32);
     bake->blob->gate_count = tree->gate_count;

@@ -66,16 +66,28 @@ tl_result tl_nav_routes_check(const void *bytes, uint64_t size, tl_report *repor
     return TL_OK;
 }
 
-uint64_t tl_nav_world_tiles_hash(const tl_nav_world *world)
+uint64_t tl_route_tiles_hash(const tl_pack_index *index)
 {
     uint64_t hash = 0;
-    for (uint32_t i = 0; i < world->index.count; i++) {
-        const tl_pack_entry *entry = &world->index.entries[i];
+    for (uint32_t i = 0; i < index->count; i++) {
+        const tl_pack_entry *entry = &index->entries[i];
         if (entry->type == TL_PACK_NAVT) {
             hash = tl_hash_mix(hash ^ entry->hash);
         }
     }
     return hash;
+}
+
+tl_result tl_nav_routes_check_tiles(const tl_nav_routes *routes, const tl_pack_index *index, tl_report *report)
+{
+    tl_report_begin(report, "routes");
+    TL_REFUSE_NULL(routes, report);
+    TL_REFUSE_NULL(index, report);
+    const uint64_t hash = (uint64_t)routes->tiles_hash[0] | (uint64_t)routes->tiles_hash[1] << 32;
+    return hash == tl_route_tiles_hash(index)
+               ? TL_OK
+               : tl_report_fail(report, TL_ERR_CORRUPT, "tiles", TL_NO_ELEMENT,
+                                "its routes are those of other tiles: bake the routes again");
 }
 
 // Whether a gate lies between two places of the world.
@@ -91,8 +103,7 @@ static bool is_of_world(const tl_nav_world *world, const tl_nav_gate *gate)
 static tl_result take_routes(tl_nav_world *world, tl_world_routes *routes, uint32_t chunk, tl_report *report)
 {
     const tl_nav_routes *blob = routes->blob;
-    const uint64_t hash = (uint64_t)blob->tiles_hash[0] | (uint64_t)blob->tiles_hash[1] << 32;
-    if (hash != tl_nav_world_tiles_hash(world)) {
+    if (tl_nav_routes_check_tiles(blob, &world->index, NULL) != TL_OK) {
         return tl_report_fail(report, TL_ERR_CORRUPT, "chunk", chunk,
                               "its routes are those of other tiles: bake the routes again");
     }

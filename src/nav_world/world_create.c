@@ -336,6 +336,12 @@ tl_result tl_nav_world_open(const tl_nav_world_def *def, bool bare, tl_nav_world
     return TL_OK;
 }
 
+const tl_pack_index *tl_nav_world_index(const tl_nav_world *world)
+{
+    TL_ASSERT(world != NULL);
+    return &world->index;
+}
+
 void tl_nav_world_destroy(tl_nav_world *world)
 {
     if (world == NULL) {

@@ -27,16 +27,6 @@ static void find_file(const char *folder, const char *ending, int n, char path[2
     free(text);
 }
 
-static void damage(const char *path, bool at_end)
-{
-    size_t size;
-    char *bytes = cli_read_file(path, &size);
-    assert_true(size > 100);
-    bytes[at_end ? size - 30 : size / 2] ^= 4;
-    cli_write_file(path, bytes, size);
-    free(bytes);
-}
-
 static double baked_now(const char *line)
 {
     json_t *object = cli_json(0, line);
@@ -291,7 +281,7 @@ static void test_tile_faults(void **state)
     cli_do(1, "world status faults");
     TEST_CHECK(baked_now("world bake faults --json") == 1);
     find_file("faults/tiles", ".tile", 9, path);
-    damage(path, true);
+    cli_damage(path, true);
     cli_check_error(3, "world merge faults -o faults.talus", "is damaged: its content was altered", ".tile");
     assert_false(cli_exists(path)); // so that the next bake makes it again
     TEST_CHECK(baked_now("world bake faults --json") == 1);
@@ -300,7 +290,7 @@ static void test_tile_faults(void **state)
     TEST_CHECK(baked_now("world bake faults --json") == 1);
     cli_do(0, "world merge faults -o faults.talus");
     cli_check_same_files("whole.talus", "faults.talus");
-    damage("faults.talus", false);
+    cli_damage("faults.talus", false);
     cli_check_error(3, "world check faults.talus", "faults.talus", "chunk");
 }
 
@@ -324,13 +314,13 @@ static void test_input_faults(void **state)
     cli_do(0, "sample courtyard --seed 3 -o other.obj");
     cli_do(0, "world plan other.obj -o other --tile-size 64");
     find_file("other/store", ".segment", 1, path);
-    damage(path, false);
+    cli_damage(path, false);
     cli_check_error(3, "world bake other", ".segment: the triangles of cell", "tiles failed");
     assert_int_equal(unlink(path), 0);
     cli_check_error(4, "world bake other", ".segment", "cannot open");
     cli_do(0, "world plan other.obj -o other --tile-size 64");
     cli_do(0, "world bake other");
-    damage("other/plan", false);
+    cli_damage("other/plan", false);
     cli_check_error(3, "world bake other", "other/plan: was altered", "talus world plan");
     cli_write_text("bad.json", "{ \"inputs\": [ { \"file\": \"yard.obj\", \"translat\": [1, 2, 3] } ] }");
     cli_check_error(3, "world plan bad.json -o bad", "inputs[0]", "translat");

@@ -6,10 +6,10 @@
 
 static const char *const ROUTES_FIELDS[] = { "read", "block", NULL };
 
-static tl_result bake_routes(level_file *file, const tl_host *host, tl_nav_routes **routes_out)
+static tl_result bake_routes(memory_file *file, const tl_host *host, tl_nav_routes **routes_out)
 {
     tl_nav_routes_def def = tl_default_nav_routes_def();
-    def.read = level_file_read;
+    def.read = memory_file_read;
     def.user = file;
     def.host = *host;
     return tl_nav_routes_bake(&def, routes_out, NULL);
@@ -17,15 +17,15 @@ static tl_result bake_routes(level_file *file, const tl_host *host, tl_nav_route
 
 static tl_result routes_bake(contract_run *run)
 {
-    level_file file = level_file_make(NULL, 0);
+    memory_file file = level_file_make(NULL, 0);
     tl_nav_routes_def def = tl_default_nav_routes_def();
     tl_nav_routes *routes = NULL;
-    def.read = level_file_read;
+    def.read = memory_file_read;
     def.user = &file;
     if (run->what == CONTRACT_ZEROED_DEF) {
         memset(&def, 0, sizeof def);
     } else if (run->what == CONTRACT_BAD_FIELD) {
-        def.read = run->variant == 0 ? NULL : level_file_read;
+        def.read = run->variant == 0 ? NULL : memory_file_read;
         def.block = run->variant == 1 ? 3 : def.block;
     }
     file.bytes[100] ^= run->what == CONTRACT_BAD_BYTES ? 1 : 0;
@@ -42,7 +42,7 @@ static tl_result routes_bake(contract_run *run)
 static tl_result routes_check(contract_run *run)
 {
     const tl_host plain = { NULL, NULL, NULL };
-    level_file file = level_file_make(NULL, 0);
+    memory_file file = level_file_make(NULL, 0);
     tl_nav_routes *routes = NULL;
     TEST_RESULT(bake_routes(&file, &plain, &routes), TL_OK);
     routes->block ^= run->what == CONTRACT_BAD_BYTES ? 1 : 0;
@@ -54,9 +54,31 @@ static tl_result routes_check(contract_run *run)
     return result;
 }
 
+// CONTRACT_BAD_BYTES: routes of other tiles.
+static tl_result routes_check_tiles(contract_run *run)
+{
+    const tl_host plain = { NULL, NULL, NULL };
+    memory_file file = level_file_make(NULL, 0);
+    tl_nav_world_def def = tl_default_nav_world_def();
+    tl_nav_routes *routes = NULL;
+    tl_nav_world *world = NULL;
+    def.read = memory_file_read;
+    def.user = &file;
+    TEST_RESULT(bake_routes(&file, &plain, &routes), TL_OK);
+    TEST_RESULT(tl_nav_world_create(&def, &world, NULL), TL_OK);
+    routes->tiles_hash[1] ^= run->what == CONTRACT_BAD_BYTES ? 1 : 0;
+    const tl_result result = tl_nav_routes_check_tiles(CONTRACT_INPUT(run, 0, routes),
+                                                       CONTRACT_INPUT(run, 1, tl_nav_world_index(world)), run->report);
+    run->is_clear = true;
+    tl_nav_world_destroy(world);
+    tl_blob_free(routes);
+    free(file.bytes);
+    return result;
+}
+
 // A world with its routes, all tiles in memory.
 typedef struct routed_world {
-    level_file *file;
+    memory_file *file;
     tl_nav_world *world;
     tl_nav_router *router;
     tl_nav_world_route_request request;
@@ -67,7 +89,7 @@ static routed_world routed_begin(bool with_routes)
     const tl_host plain = { NULL, NULL, NULL };
     routed_world open;
     tl_nav_routes *routes = NULL;
-    level_file bare = level_file_make(NULL, 0);
+    memory_file bare = level_file_make(NULL, 0);
     memset(&open, 0, sizeof open);
     TEST_RESULT(bake_routes(&bare, &plain, &routes), TL_OK);
     open.file = malloc(sizeof *open.file);
@@ -76,7 +98,7 @@ static routed_world routed_begin(bool with_routes)
     tl_blob_free(routes);
     free(bare.bytes);
     tl_nav_world_def def = tl_default_nav_world_def();
-    def.read = level_file_read;
+    def.read = memory_file_read;
     def.user = open.file;
     TEST_RESULT(tl_nav_world_create(&def, &open.world, NULL), TL_OK);
     const tl_nav_world_interest interest = { { 10, 0, 10 }, 100 };
@@ -158,6 +180,9 @@ const contract_entry CONTRACT_TABLE_nav_routes[] = {
     { "tl_nav_routes_check",
       CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(BAD_BYTES), 1, 0, NULL,
       routes_check, NULL },
+    { "tl_nav_routes_check_tiles",
+      CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(BAD_BYTES), 2, 0, NULL,
+      routes_check_tiles, NULL },
     { "tl_nav_router_create", ANSWERS | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NOT_FOUND) | CONTRACT_BIT(NO_MEMORY),
       1, 1, NULL, router_create, NULL },
     { "tl_nav_router_destroy", CONTRACT_BIT(NULL_FREE), 0, 0, NULL, router_destroy, NULL },

@@ -8,15 +8,15 @@ static const char *const WORLD_FIELDS[] = { "read", "budget", "frame_reach", NUL
 
 static tl_result world_create(contract_run *run)
 {
-    level_file file = level_file_make(NULL, 0);
+    memory_file file = level_file_make(NULL, 0);
     tl_nav_world_def def = tl_default_nav_world_def();
     tl_nav_world *world = NULL;
-    def.read = level_file_read;
+    def.read = memory_file_read;
     def.user = &file;
     if (run->what == CONTRACT_ZEROED_DEF) {
         memset(&def, 0, sizeof def);
     } else if (run->what == CONTRACT_BAD_FIELD) {
-        def.read = run->variant == 0 ? NULL : level_file_read;
+        def.read = run->variant == 0 ? NULL : memory_file_read;
         def.budget = run->variant == 1 ? 1 : def.budget;
         def.frame_reach = run->variant == 2 ? 0.0 : def.frame_reach;
     }
@@ -40,7 +40,7 @@ static tl_result world_destroy(contract_run *run)
 
 // A world, with all tiles in memory or none.
 typedef struct open_world {
-    level_file *file;
+    memory_file *file;
     tl_nav_world *world;
     tl_nav_world_interest interest;
     contract_nav nav;
@@ -69,7 +69,7 @@ static open_world world_begin(const contract_run *run, bool loaded)
     TEST_CHECK(open.file != NULL);
     *open.file = level_file_make(NULL, 0);
     tl_nav_world_def def = tl_default_nav_world_def();
-    def.read = level_file_read;
+    def.read = memory_file_read;
     def.user = open.file;
     def.allocator = run->host->allocator;
     TEST_RESULT(tl_nav_world_create(&def, &open.world, NULL), TL_OK);
@@ -238,6 +238,7 @@ const contract_entry CONTRACT_TABLE_nav_world[] = {
     { "tl_nav_world_get_state", ANSWERS, 1, 1, NULL, world_get_state, NULL },
     { "tl_nav_world_place_in", 0, 0, 0, NULL, NULL, "returns a value; what it is given is the caller's duty" },
     { "tl_nav_world_place_out", 0, 0, 0, NULL, NULL, "fills a value; what it is given is the caller's duty" },
+    { "tl_nav_world_index", 0, 0, 0, NULL, NULL, "returns a value; what it is given is the caller's duty" },
     { "tl_nav_world_navmesh", 0, 0, 0, NULL, NULL, "returns a value; what it is given is the caller's duty" },
     { "tl_nav_world_covers", ASKS, 2, 0, NULL, world_covers, NULL },
     { "tl_nav_world_find_nearest",

@@ -6,42 +6,17 @@
 #define CONTRACT_WORLD_FILE_H
 
 #include "contract_nav.h"
+#include "memory_file.h"
 
-#include <stdlib.h>
 #include <talus/nav_routes.h>
 
-// The level's tiles as a file in memory, with routes unless they are NULL.
-typedef struct level_file {
-    unsigned char *bytes;
-    size_t size;
-} level_file;
-
-static inline tl_result level_file_append(const void *bytes, size_t size, void *user)
-{
-    level_file *file = user;
-    file->bytes = realloc(file->bytes, file->size + size);
-    TEST_CHECK(file->bytes != NULL);
-    memcpy(file->bytes + file->size, bytes, size);
-    file->size += size;
-    return TL_OK;
-}
-
-static inline tl_result level_file_read(uint64_t offset, void *bytes, size_t size, void *user)
-{
-    const level_file *file = user;
-    if (offset > file->size || size > file->size - offset) {
-        return TL_ERR_TRUNCATED;
-    }
-    memcpy(bytes, file->bytes + offset, size);
-    return TL_OK;
-}
-
-static inline level_file level_file_make(const void *routes, uint64_t routes_size)
+/// The level's tiles as a file, with routes unless they are NULL.
+static inline memory_file level_file_make(const void *routes, uint64_t routes_size)
 {
     const contract_level *level = contract_level_get();
     const tl_nav_tiles *tiles = &level->tiles;
     tl_pack_item items[9];
-    level_file file = { NULL, 0 };
+    memory_file file = { NULL, 0, 0 };
     tl_pack_navmesh *navmesh = NULL;
     tl_nav_def def = level->nav_def;
     def.bounds.min = tiles->tiles[0]->origin;
@@ -59,7 +34,7 @@ static inline level_file level_file_make(const void *routes, uint64_t routes_siz
         const tl_pack_item item = { TL_PACK_ROUT, 0, routes, routes_size };
         items[count++] = item;
     }
-    TEST_RESULT(tl_pack_write(items, count, NULL, level_file_append, &file, NULL), TL_OK);
+    TEST_RESULT(tl_pack_write(items, count, NULL, memory_file_write, &file, NULL), TL_OK);
     tl_blob_free(navmesh);
     return file;
 }

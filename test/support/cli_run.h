@@ -234,6 +234,17 @@ static inline int cli_leave_folder(void **state)
     return chdir("..") == 0 && system(command) == 0 ? 0 : -1;
 }
 
+/// Turns a bit of a file, in its middle or 30 bytes before its end.
+static inline void cli_damage(const char *path, bool at_end)
+{
+    size_t size;
+    char *bytes = cli_read_file(path, &size);
+    assert_true(size > 100);
+    bytes[at_end ? size - 30 : size / 2] ^= 4;
+    cli_write_file(path, bytes, size);
+    free(bytes);
+}
+
 /// A square floor of `size` m at height 0 with its centre in the origin, and a wall across it at x = 0 when asked.
 static inline void cli_write_floor(const char *path, float size, bool wall)
 {

@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <talus/pack.h>
+#include <talus/nav_routes.h>
 
 enum { FIRST_ROOM = 64 };
 
@@ -198,6 +198,17 @@ static tl_result read_settings(check_job *job)
                                         "holds no navmesh's settings");
 }
 
+static tl_result check_file_routes(const check_job *job, uint32_t chunk, const void *bytes)
+{
+    const tl_pack_index *index = &job->reader.index;
+    tl_report why;
+    tl_result result = tl_nav_routes_check(bytes, index->entries[chunk].size, &why);
+    if (result == TL_OK) {
+        result = tl_nav_routes_check_tiles(bytes, index, &why);
+    }
+    return result == TL_OK ? TL_OK : fail_chunk(job, result, chunk, why.advice);
+}
+
 static tl_result check_chunks(check_job *job)
 {
     for (uint32_t i = 0; i < job->reader.index.count; i++) {
@@ -207,6 +218,7 @@ static tl_result check_chunks(check_job *job)
         if (result == TL_OK && type == TL_PACK_NAVT) {
             result = take_tile(job, i, bytes);
         } else {
+            result = result == TL_OK && type == TL_PACK_ROUT ? check_file_routes(job, i, bytes) : result;
             free(bytes);
         }
         if (result != TL_OK) {

@@ -3773,6 +3773,7 @@ extern "C" {
         world_out: *mut *mut tl_nav_world,
         report: *mut tl_report,
     ) -> tl_result;
+    pub fn tl_nav_world_index(world: *const tl_nav_world) -> *const tl_pack_index;
     pub fn tl_nav_world_destroy(world: *mut tl_nav_world);
     pub fn tl_nav_world_update(
         world: *mut tl_nav_world,
@@ -3828,6 +3829,11 @@ extern "C" {
     pub fn tl_nav_routes_check(
         bytes: *const c_void,
         size: u64,
+        report: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_routes_check_tiles(
+        routes: *const tl_nav_routes,
+        index: *const tl_pack_index,
         report: *mut tl_report,
     ) -> tl_result;
     pub fn tl_nav_router_create(
