@@ -44,18 +44,21 @@ static tl_hull *put_hull(tl_result *result, tl_hull *hull, const tl_hull_report 
     at = tl_js_put(at, report->triangle_count);
     at = tl_js_put(at, report->thickened);
     at = tl_js_put(at, report->points_left_out);
-    tl_js_put(at, report->max_outside);
+    at = tl_js_put(at, report->max_outside);
+    tl_js_put(at, report->corners_left_out);
     return hull;
 }
 
 /// Slot: the result, then the report.
 tl_hull *TL_JS_FULL_EXPORT(js_hull_bake)(const tl_vec3 *points, uint32_t count, uint32_t max_vertices, float thickness,
-                                         float flatness)
+                                         float flatness, float weld_distance, float merge_distance)
 {
     tl_hull_def def = tl_default_hull_def();
     def.max_vertices = max_vertices;
     def.thickness = thickness;
     def.flatness = flatness;
+    def.weld_distance = weld_distance;
+    def.merge_distance = merge_distance;
     def.host = *tl_js_host();
     tl_hull *hull;
     tl_hull_report report;

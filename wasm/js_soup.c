@@ -37,13 +37,15 @@ tl_ray_filter *TL_JS_EXPORT(js_set_ray_filter)(int32_t cull, uint32_t materials_
 }
 
 /// Slot: the result.
-tl_soup *TL_JS_FULL_EXPORT(js_soup_bake)(int32_t compact, int32_t kd_tree, int32_t pairs, float split_budget)
+tl_soup *TL_JS_FULL_EXPORT(js_soup_bake)(int32_t compact, int32_t kd_tree, int32_t pairs, float split_budget,
+                                         int32_t quality)
 {
     tl_soup_def def = tl_default_soup_def();
     def.layout = compact ? TL_SOUP_COMPACT : TL_SOUP_FAST;
     def.partition = kd_tree ? TL_SOUP_KD_TREE : TL_SOUP_BVH;
     def.pair_triangles = pairs != 0;
     def.split_budget = split_budget;
+    def.quality = (tl_soup_quality)quality;
     def.host = *tl_js_host();
     tl_soup *soup;
     tl_soup_report report;

@@ -14,6 +14,7 @@ function fromResult(address) {
   }
   return new Hull(PRIVATE, address, 'js_blob_free', {
     triangleCount: F64[s + 1], thickened: F64[s + 2] !== 0, pointsLeftOut: F64[s + 3], maxOutside: F64[s + 4],
+    cornersLeftOut: F64[s + 5],
   });
 }
 
@@ -30,7 +31,8 @@ export class Hull extends Handle {
     const address = copyIn(array);
     try {
       return fromResult(watched(options, null, () => wasm.js_hull_bake(
-        address, Math.floor(array.length / 3), options.maxVertices ?? 0, options.thickness ?? 0, options.flatness ?? 8)));
+        address, Math.floor(array.length / 3), options.maxVertices ?? 0, options.thickness ?? 0, options.flatness ?? 8,
+        options.weldDistance ?? 0, options.mergeDistance ?? 0)));
     } finally {
       release(address);
     }

@@ -15,5 +15,6 @@ import './nav_query.js';
 import './nav_change.js';
 export { jumpLinkPoint } from './nav_tools.js';
 export { Sight } from './sight.js';
+export { Crowd } from './crowd.js';
 export { loadPack, pointFromLevel, pointToLevel, savePack } from './pack.js';
 export { TalusWorker } from './worker.js';

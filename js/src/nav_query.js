@@ -13,7 +13,7 @@ const WIDE_STATUS = ['none', 'complete', 'unreachable', 'out of nodes', 'start b
 const ALL_FLAGS = 0xffffffffffffffffn;
 
 /** Writes a filter, and says so in the flags. */
-function filterFlag(filter) {
+export function filterFlag(filter) {
   if (!filter) return 0;
   U64[SLOT] = filter.includeFlags ?? ALL_FLAGS;
   U64[SLOT + 1] = filter.excludeFlags ?? 0n;
@@ -37,11 +37,11 @@ export function readLocation(at) {
 }
 
 /** A place as a location: points are moved to the nearest polygon. Null: none is near. */
-function locate(navmesh, place, options) {
+export function locate(navmesh, place, options) {
   return isLocation(place) ? place : navmesh.findNearest(place, options);
 }
 
-function putLocation(at, location) {
+export function putLocation(at, location) {
   U64[SLOT + at] = location.polygon;
   for (let i = 0; i < 3; i++) F64[SLOT + at + 1 + i] = location.point[i];
 }

@@ -71,9 +71,11 @@ export class Soup extends Handle {
     const partition = ['bvh', 'kd-tree'].indexOf(options.partition ?? 'bvh');
     if (layout < 0) throw argumentError('layout', "'fast' or 'compact'");
     if (partition < 0) throw argumentError('partition', "'bvh' or 'kd-tree'");
+    const quality = ['default', 'fast', 'high'].indexOf(options.quality ?? 'default');
+    if (quality < 0) throw argumentError('quality', "one of 'default', 'fast', 'high'");
     return withInput(mesh, null, () => {
       const address = watched(options, null, () => wasm.js_soup_bake(
-        layout, partition, options.pairTriangles === false ? 0 : 1, options.splitBudget ?? 0)) >>> 0;
+        layout, partition, options.pairTriangles === false ? 0 : 1, options.splitBudget ?? 0, quality)) >>> 0;
       if (address === 0) {
         check(F64[SLOT]);
         fail(F64[SLOT]);

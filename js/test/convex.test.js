@@ -25,6 +25,16 @@ test('pairs of shapes', () => {
   assert.ok(shapeBounds({ type: 'box', halfExtents: [3, 1, 1] }, turned).max[2] > 5.9);
 });
 
+test('hulls of noisy points: corners welded, faces merged', () => {
+  const random = randomNumbers(3), corners = [...cube().vertices], points = [...corners.map((x) => x + 1e-4 * random()), ...corners];
+  const exact = Hull.bake(points), merged = Hull.bake(points, { weldDistance: 1e-3, mergeDistance: 1e-3 });
+  assert.ok(exact.faceCount > 6);
+  assert.deepEqual([merged.faceCount, merged.vertexCount, merged.report.cornersLeftOut > 0], [6, 8, true]);
+  assert.ok(merged.report.maxOutside > 0 && merged.report.maxOutside <= 2e-3);
+  assert.equal(exact.report.cornersLeftOut, 0);
+  assert.equal(errorOf(() => Hull.bake(points, { weldDistance: -1 })).field, 'weldDistance');
+});
+
 test('every type of shape', () => {
   const shapes = [
     { type: 'capsule', a: [0, 0, 0], b: [0, 1, 0], radius: 1 }, { type: 'triangle', a: [1, 0, 0], b: [0, 1, 0], c: [0, 0, 1] },

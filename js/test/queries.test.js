@@ -5,7 +5,7 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import test from 'node:test';
-import { Hull, Mesh, Navmesh, Soup, TalusWorker, distance, hasBakes, hasSimd, init, loadPack, sampleLevel, savePack } from '../src/index.js';
+import { Crowd, Hull, Mesh, Navmesh, Soup, TalusWorker, distance, hasBakes, hasSimd, init, loadPack, sampleLevel, savePack } from '../src/index.js';
 import { errorOf } from './errors.js';
 
 // In another process, as this one has the small module: a file, and what the full module answers of it.
@@ -43,7 +43,7 @@ test('the same answers as the full module', () => {
 test('what is not in it says what to do', () => {
   const calls = [() => Soup.bake(floor), () => Navmesh.bake(floor), () => Hull.bake([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]),
                  () => sampleLevel('courtyard'), () => savePack({ soup: pack.soup }), () => pack.navmesh.addObstacle({}),
-                 () => pack.navmesh.audit(pack.soup), () => pack.navmesh.why(floor, [0, 0, 0]), () => pack.navmesh.findLinks(pack.soup),
+                 () => Crowd.create(pack.navmesh), () => pack.navmesh.audit(pack.soup), () => pack.navmesh.why(floor, [0, 0, 0]), () => pack.navmesh.findLinks(pack.soup),
                  () => distance({ type: 'sphere', radius: 1 }, null, { type: 'sphere', radius: 1 }, null)];
   for (const call of calls) {
     const error = errorOf(call);

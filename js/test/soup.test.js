@@ -138,6 +138,27 @@ test('refit moves triangles; drawing counts them', () => {
   assert.equal(errorOf(() => Soup.bake(mesh, { layout: 'compact' }).refit(lifted)).result, 'TL_ERR_UNSUPPORTED');
 });
 
+test('quality: splits add references, not answers', () => {
+  // Long slivers through clutter: boxes that only splits make smaller.
+  const random = randomNumbers(9), vertices = [];
+  const add = (size, ...corners) => {
+    const at = [0, 1, 2].map(() => size * random());
+    corners.forEach((corner) => vertices.push(...corner.map((x, i) => x + at[i])));
+  };
+  for (let i = 0; i < 200; i++) add(20, [0, 0, 0], [10, 10, 10], [10.05, 10, 10]);
+  for (let i = 0; i < 1000; i++) add(30, [0, 0, 0], [0.1, 0, 0], [0, 0.1, 0.1]);
+  const [fast, high] = ['fast', 'high'].map((quality) => Soup.bake(new Mesh(vertices), { quality }));
+  assert.ok(high.stats().referenceCount > fast.stats().referenceCount);
+  let hits = 0;
+  for (let i = 0; i < 3000; i++) {
+    const ray = Array.from({ length: 6 }, (_, k) => (k < 3 ? 30 * random() : random() - 0.5));
+    const [a, b] = [fast, high].map((soup) => ({ ...soup.castRay(...ray) }));
+    assert.deepEqual(a, b);
+    hits += a.t !== undefined ? 1 : 0;
+  }
+  assert.ok(hits > 10, String(hits));
+});
+
 test('bytes go round; damaged ones are refused by name', () => {
   const { soup } = courtyard(), bytes = soup.toBytes();
   const copy = Soup.fromBytes(bytes);
@@ -157,6 +178,7 @@ test('errors name what is wrong', () => {
   assert.equal(errorOf(() => Soup.bake(new Mesh([]))).result, 'TL_ERR_EMPTY');
   assert.equal(errorOf(() => Soup.bake(floor(), { layout: 'tiny' })).field, 'layout');
   assert.equal(errorOf(() => Soup.bake(floor(), { splitBudget: 2 })).field, 'splitBudget');
+  assert.equal(errorOf(() => Soup.bake(floor(), { quality: 'best' })).field, 'quality');
   assert.equal(errorOf(() => Soup.bake({})).field, 'mesh');
   assert.equal(errorOf(() => new Mesh([1, 2])).field, 'vertices');
   assert.equal(errorOf(() => Soup.bake(floor()).castRayAll([0, NaN, 0], [0, 1, 0])).result, 'TL_ERR_NOT_FINITE');

@@ -24,6 +24,10 @@ export interface HullOptions extends BakeHooks {
   thickness?: number;
   /** Half ulps of the largest coordinate: input this thin counts as flat. Default 8. */
   flatness?: number;
+  /** Metres, >= 0: corners within this of an earlier one are left out. Default 0: only equal points are one. */
+  weldDistance?: number;
+  /** Metres, >= 0: nearly coplanar faces whose corners lie within this are one. 1e-5 of the size undoes rounding. Default 0. */
+  mergeDistance?: number;
 }
 
 export interface HullReport {
@@ -32,8 +36,10 @@ export interface HullReport {
   thickened: boolean;
   /** Points outside, because maxVertices was reached. */
   pointsLeftOut: number;
-  /** Metres: how far the farthest of these is from the hull. */
+  /** Metres: no point of the input lies farther outside of the hull. */
   maxOutside: number;
+  /** Of the exact hull, by weldDistance and mergeDistance. */
+  cornersLeftOut: number;
 }
 
 /** For density 1. */
