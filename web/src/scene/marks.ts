@@ -66,7 +66,7 @@ export class Marks {
       const geometry = new LineGeometry();
       geometry.setPositions(this.local(points, lift));
       const material = new LineMaterial({
-        color: colour, linewidth: width, transparent: behind, opacity: behind ? 0.3 : 1, depthTest: !behind,
+        color: colour, linewidth: width, transparent: behind, opacity: behind ? 0.5 : 1, depthTest: !behind,
         // Over every layer that lies on the same floor.
         polygonOffset: true, polygonOffsetFactor: -20, polygonOffsetUnits: -60,
       });
