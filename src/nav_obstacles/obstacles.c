@@ -7,8 +7,8 @@
 // a tile is the same as a bake of the level with those volumes.
 
 #include "nav_obstacles/footprint.h"
-#include "nav_obstacles/packed_floors.h"
 #include "nav_obstacles/tile_marks.h"
+#include "nav_obstacles/unpacked_tiles.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
@@ -41,7 +41,7 @@ struct tl_nav_obstacles {
     obstacle_slot *slots;
     uint32_t slot_count, slot_capacity, first_free, used_count;
     uint32_t first_waiting, last_waiting, waiting_count;
-    tl_floors_scratch scratch; // the floors of the tile that is made again
+    tl_unpacked_tiles unpacked; // of the tiles that were made again last
 };
 
 #define NO_SLOT UINT32_MAX
@@ -138,6 +138,7 @@ static void install(tl_nav_obstacles *o, const floors_taker *taker)
         for (uint32_t x = 0; x < taker->range.count_x; x++) {
             tile_floors *tile = tile_at(o, taker->range.x + x, taker->range.z + z);
             free_floors(tile, &o->allocator);
+            tl_unpacked_tiles_forget(&o->unpacked, (uint32_t)(tile - o->tiles));
             tile->floors = taker->fresh[(uint64_t)z * taker->range.count_x + x].floors;
             tile->is_there = true;
         }
@@ -233,6 +234,7 @@ static tl_result create(const tl_nav_def *def, tl_nav_obstacles **out, tl_report
         return TL_ERR_MEMORY;
     }
     memset(o->tiles, 0, tile_count(o) * sizeof *o->tiles);
+    tl_unpacked_tiles_init(&o->unpacked, tile_count(o));
     *out = o;
     return TL_OK;
 }
@@ -317,7 +319,7 @@ void tl_nav_obstacles_destroy(tl_nav_obstacles *obstacles)
     for (uint64_t i = 0; i < tile_count(o); i++) {
         free_floors(&o->tiles[i], &o->allocator);
     }
-    tl_floors_scratch_free(&o->scratch);
+    tl_unpacked_tiles_free(&o->unpacked);
     const tl_allocator allocator = o->allocator;
     tl_release_array(&allocator, o->tiles, tile_count(o), sizeof *o->tiles);
     tl_release_array(&allocator, o->slots, o->slot_capacity, sizeof *o->slots);
@@ -479,24 +481,19 @@ static void mark_obstacles(const tl_nav_obstacles *o, uint32_t x, uint32_t z, tl
     }
 }
 
-// The floors of a tile with what stands on them now; they are not linked yet.
-typedef struct marked_floors {
-    tl_nav_compact compact;
-    uint8_t *base_area;
-} marked_floors;
-
-static tl_result rebake_marked(tl_nav_obstacles *o, tile_floors *tile, marked_floors *now, tl_nav_rebaked_tile *rebaked,
-                               tl_nav_bake_report *report)
+static tl_result rebake_marked(tl_nav_obstacles *o, tile_floors *tile, tl_unpacked_tile *now,
+                               tl_nav_rebaked_tile *rebaked, tl_nav_bake_report *report)
 {
     const uint32_t x = (uint32_t)rebaked->tile_x, z = (uint32_t)rebaked->tile_z;
     tl_nav_config config;
     tl_tile_marks marks;
     TL_TRY(tl_nav_config_from_def(&o->def, o->def.bounds, x, z, &config, report != NULL ? &report->base : NULL));
-    TL_TRY(tl_tile_marks_find(now->base_area, now->compact.area, now->compact.span_count, &o->allocator, &marks));
-    tl_floors_link(&o->scratch, &now->compact);
+    tl_unpacked_tile_link(now);
+    tl_nav_compact compact = now->compact;
+    TL_TRY(tl_tile_marks_find(now->base_area, compact.area, compact.span_count, &o->allocator, &marks));
     const tl_host host = { &o->allocator, NULL, NULL };
     const tl_result result =
-        tl_nav_tile_rebake(&config, &now->compact, now->base_area, &tile->memo, &host, &rebaked->stack, report);
+        tl_nav_tile_rebake(&config, &compact, now->base_area, &tile->memo, &host, &rebaked->stack, report);
     tl_tile_marks_free(result == TL_OK ? &tile->marks : &marks, &o->allocator);
     if (result == TL_OK) {
         tile->marks = marks;
@@ -508,19 +505,20 @@ static tl_result rebake_marked(tl_nav_obstacles *o, tile_floors *tile, marked_fl
 static tl_result rebake_with_obstacles(tl_nav_obstacles *o, tile_floors *tile, tl_nav_rebaked_tile *rebaked,
                                        tl_nav_bake_report *report)
 {
-    marked_floors now;
+    tl_unpacked_tile *now = NULL;
     if (tile->floors.frame.span_count == 0) {
         return tile->is_known ? TL_NOT_FOUND : TL_OK;
     }
-    o->scratch.allocator = &o->allocator;
-    TL_TRY(tl_floors_unpack(&tile->floors, &o->scratch, &now.compact, &now.base_area));
-    mark_obstacles(o, (uint32_t)rebaked->tile_x, (uint32_t)rebaked->tile_z, &now.compact);
-    if (tile->is_known && tl_tile_marks_hold(&tile->marks, now.base_area, now.compact.area, now.compact.span_count)) {
+    const uint32_t index = (uint32_t)(tile - o->tiles);
+    TL_TRY(tl_unpacked_tiles_take(&o->unpacked, index, &tile->floors, &o->allocator, &now));
+    mark_obstacles(o, (uint32_t)rebaked->tile_x, (uint32_t)rebaked->tile_z, &now->compact);
+    if (tile->is_known &&
+        tl_tile_marks_hold(&tile->marks, now->base_area, now->compact.area, now->compact.span_count)) {
         return TL_NOT_FOUND;
     }
-    const tl_result result = rebake_marked(o, tile, &now, rebaked, report);
+    const tl_result result = rebake_marked(o, tile, now, rebaked, report);
     if (result != TL_OK) {
-        tl_floors_scratch_free(&o->scratch); // where memory is short
+        tl_unpacked_tiles_free(&o->unpacked); // where memory is short
     }
     return result;
 }
@@ -583,8 +581,8 @@ tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navme
 uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles)
 {
     const tl_nav_obstacles *o = obstacles;
-    uint64_t bytes =
-        sizeof *o + o->scratch.size + tile_count(o) * sizeof *o->tiles + (uint64_t)o->slot_capacity * sizeof *o->slots;
+    uint64_t bytes = sizeof *o + tl_unpacked_tiles_bytes(&o->unpacked) + tile_count(o) * sizeof *o->tiles +
+                     (uint64_t)o->slot_capacity * sizeof *o->slots;
     for (uint64_t i = 0; i < tile_count(o); i++) {
         bytes += o->tiles[i].floors.size + tl_nav_tile_memo_bytes(o->tiles[i].memo);
         bytes += (uint64_t)o->tiles[i].marks.run_count * sizeof *o->tiles[i].marks.runs;
