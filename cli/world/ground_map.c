@@ -23,7 +23,7 @@ _Static_assert(offsetof(tl_nav_tile, bounds) + 24 <= TILE_HEAD_BYTES, "a tile's 
 #define GROUND_HIGH 0xf4ecd0u
 #define GROUND_SEAM 0x2b2b33u
 
-static tl_result fail_map_memory(const tl_ground_map *map, tl_io_error *error_out)
+static tl_result fail_ground_memory(const tl_ground_map *map, tl_io_error *error_out)
 {
     return tl_io_fail(error_out, TL_ERR_MEMORY, map->reader->path, 0, "", "out of memory for the picture");
 }
@@ -36,7 +36,7 @@ static tl_result read_chunk_into(const tl_ground_map *map, const tl_pack_entry *
     if (entry->size > *room) {
         void *grown = entry->size < SIZE_MAX ? realloc(*bytes, (size_t)entry->size) : NULL;
         if (grown == NULL) {
-            return fail_map_memory(map, error_out);
+            return fail_ground_memory(map, error_out);
         }
         *bytes = grown;
         *room = (size_t)entry->size;
@@ -161,7 +161,7 @@ tl_result tl_ground_map_paint(tl_ground_map *map, uint32_t size, const tl_progre
     map->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)map->width, (int)map->height);
     map->cairo = cairo_create(map->surface);
     if (cairo_status(map->cairo) != CAIRO_STATUS_SUCCESS) {
-        return fail_map_memory(map, error_out);
+        return fail_ground_memory(map, error_out);
     }
     draw_set_colour(map->cairo, GROUND_NONE, 1.0);
     cairo_paint(map->cairo);
