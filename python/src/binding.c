@@ -76,6 +76,23 @@ void binding_release(Py_buffer *buffers, size_t count)
     }
 }
 
+bool binding_take_items(PyObject *args, size_t in_size, size_t out_size, binding_items *items)
+{
+    memset(items, 0, sizeof(*items));
+    if (!PyArg_ParseTuple(args, "Oy*w*", &items->capsule, &items->in, &items->out)) {
+        return false;
+    }
+    items->count = binding_count(&items->in, in_size, "input");
+    return items->count >= 0 && binding_has(&items->out, out_size, items->count, false, "output");
+}
+
+PyObject *binding_end_items(binding_items *items, bool answered)
+{
+    binding_release(&items->in, 1);
+    binding_release(&items->out, 1);
+    return answered ? Py_NewRef(Py_None) : NULL;
+}
+
 static void free_blob_capsule(PyObject *capsule)
 {
     binding_blob *held = PyCapsule_GetPointer(capsule, PyCapsule_GetName(capsule));

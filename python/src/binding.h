@@ -35,6 +35,18 @@ bool binding_has(const Py_buffer *buffer, size_t size, Py_ssize_t count, bool op
 /// Releases what PyArg_ParseTuple filled; buffers that it did not reach are zero.
 void binding_release(Py_buffer *buffers, size_t count);
 
+/// The arguments of a function that answers item by item: (object, array of items, array of answers).
+typedef struct binding_items {
+    PyObject *capsule;
+    Py_buffer in, out;
+    Py_ssize_t count;
+} binding_items;
+
+/// Fills `items` by arrays whose items have these sizes; false: an exception is set. binding_end_items in either case.
+bool binding_take_items(PyObject *args, size_t in_size, size_t out_size, binding_items *items);
+/// Gives the arrays back; None, or NULL where the function failed.
+PyObject *binding_end_items(binding_items *items, bool answered);
+
 // --- the host of a bake or batch ------------------------------------------------------------------------------------
 
 /// Runs a bake or a batch without the GIL, on `threads` threads, and asks Python now and then for signals and progress.

@@ -108,42 +108,31 @@ static PyObject *hull_parts(PyObject *self, PyObject *capsule)
 static PyObject *hull_contains(PyObject *self, PyObject *args)
 {
     (void)self;
-    PyObject *capsule;
-    Py_buffer b[2];
-    memset(b, 0, sizeof(b));
-    if (!PyArg_ParseTuple(args, "Oy*w*", &capsule, &b[0], &b[1])) {
-        return NULL;
+    binding_items items;
+    const tl_hull *hull = NULL;
+    if (binding_take_items(args, sizeof(tl_vec3), 1, &items) && (hull = hull_of(items.capsule)) != NULL) {
+        for (Py_ssize_t i = 0; i < items.count; i++) {
+            ((uint8_t *)items.out.buf)[i] = tl_hull_contains(hull, ((const tl_vec3 *)items.in.buf)[i]);
+        }
     }
-    const tl_hull *hull = hull_of(capsule);
-    Py_ssize_t count = hull != NULL ? binding_count(&b[0], sizeof(tl_vec3), "points") : -1;
-    bool good = count >= 0 && binding_has(&b[1], 1, count, false, "inside");
-    for (Py_ssize_t i = 0; i < count && good; i++) {
-        ((uint8_t *)b[1].buf)[i] = tl_hull_contains(hull, ((const tl_vec3 *)b[0].buf)[i]);
-    }
-    binding_release(b, 2);
-    return good ? Py_NewRef(Py_None) : NULL;
+    return binding_end_items(&items, hull != NULL);
 }
 
 // hull_support(hull, directions, vertices u32): each query starts from the answer before
 static PyObject *hull_support(PyObject *self, PyObject *args)
 {
     (void)self;
-    PyObject *capsule;
-    Py_buffer b[2];
-    memset(b, 0, sizeof(b));
-    if (!PyArg_ParseTuple(args, "Oy*w*", &capsule, &b[0], &b[1])) {
-        return NULL;
+    binding_items items;
+    const tl_hull *hull = NULL;
+    if (binding_take_items(args, sizeof(tl_vec3), sizeof(uint32_t), &items) &&
+        (hull = hull_of(items.capsule)) != NULL) {
+        uint32_t hint = TL_NO_VERTEX;
+        for (Py_ssize_t i = 0; i < items.count; i++) {
+            hint = tl_hull_support(hull, ((const tl_vec3 *)items.in.buf)[i], hint);
+            ((uint32_t *)items.out.buf)[i] = hint;
+        }
     }
-    const tl_hull *hull = hull_of(capsule);
-    Py_ssize_t count = hull != NULL ? binding_count(&b[0], sizeof(tl_vec3), "directions") : -1;
-    bool good = count >= 0 && binding_has(&b[1], sizeof(uint32_t), count, false, "vertices");
-    uint32_t hint = TL_NO_VERTEX;
-    for (Py_ssize_t i = 0; i < count && good; i++) {
-        hint = tl_hull_support(hull, ((const tl_vec3 *)b[0].buf)[i], hint);
-        ((uint32_t *)b[1].buf)[i] = hint;
-    }
-    binding_release(b, 2);
-    return good ? Py_NewRef(Py_None) : NULL;
+    return binding_end_items(&items, hull != NULL);
 }
 
 PyMethodDef binding_hull_methods[] = {

@@ -323,20 +323,15 @@ static PyObject *world_view(PyObject *self, PyObject *capsule)
 static PyObject *world_place_out(PyObject *self, PyObject *args)
 {
     (void)self;
-    PyObject *capsule;
-    Py_buffer b[2];
-    memset(b, 0, sizeof(b));
-    if (!PyArg_ParseTuple(args, "Oy*w*", &capsule, &b[0], &b[1])) {
-        return NULL;
+    binding_items items;
+    const binding_world *held = NULL;
+    if (binding_take_items(args, sizeof(tl_vec3), 3 * sizeof(double), &items) &&
+        (held = binding_world_of(items.capsule)) != NULL) {
+        for (Py_ssize_t i = 0; i < items.count; i++) {
+            tl_nav_world_place_out(held->world, ((const tl_vec3 *)items.in.buf)[i], (double *)items.out.buf + 3 * i);
+        }
     }
-    const binding_world *held = binding_world_of(capsule);
-    Py_ssize_t count = held != NULL ? binding_count(&b[0], sizeof(tl_vec3), "local") : -1;
-    bool good = count >= 0 && binding_has(&b[1], 24, count, false, "points");
-    for (Py_ssize_t i = 0; good && i < count; i++) {
-        tl_nav_world_place_out(held->world, ((const tl_vec3 *)b[0].buf)[i], (double *)b[1].buf + 3 * i);
-    }
-    binding_release(b, 2);
-    return good ? Py_NewRef(Py_None) : NULL;
+    return binding_end_items(&items, held != NULL);
 }
 
 PyMethodDef binding_world_query_methods[] = {
