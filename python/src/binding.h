@@ -158,6 +158,16 @@ bool binding_nav_def(PyObject *settings, tl_nav_def *def);
 /// The def as a dict of its fields.
 PyObject *binding_nav_def_dict(const tl_nav_def *def);
 
+/// A navmesh's off-mesh links as they are saved. All zero at first; free it in either case.
+typedef struct binding_saved_links {
+    const tl_nav_links *found; ///< NULL: none
+    tl_pack_offmesh *by_hand;  ///< NULL: none
+    tl_nav_links *own_found;   ///< `found` where some of them were removed
+} binding_saved_links;
+
+tl_result binding_links_to_save(const binding_navmesh *held, binding_saved_links *saved, tl_report *report);
+void binding_saved_links_free(binding_saved_links *saved);
+
 /// A filter from (include flags, exclude flags, 256 float costs or None); None: the default filter. False: an
 /// exception is set.
 bool binding_filter(PyObject *object, tl_nav_filter *filter);

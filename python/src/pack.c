@@ -15,7 +15,7 @@ typedef struct pack_writer {
     tl_pack_meta *meta;
     tl_pack_navmesh *navmesh;
     tl_pack_volumes *volumes;
-    tl_pack_offmesh *offmesh;
+    binding_saved_links links;
     PyObject *kept; // list of (type, id, bytes): chunks of the file read, which Python has no objects for
     char *at;       // where the next bytes go
 } pack_writer;
@@ -119,41 +119,6 @@ static tl_result add_navmesh(pack_writer *writer, const binding_navmesh *held)
     return result;
 }
 
-// Whether a link is one of those that were found, which are saved as such.
-static bool is_found(const tl_nav_links *links, const tl_nav_offmesh *link)
-{
-    if (links == NULL || link->user >= links->link_count) {
-        return false;
-    }
-    const tl_nav_jump_link *found = &tl_nav_links_array(links)[link->user];
-    return memcmp(&found->start, &link->start, sizeof(tl_vec3)) == 0 &&
-           memcmp(&found->end, &link->end, sizeof(tl_vec3)) == 0;
-}
-
-// The links set by hand: here, or before the file was read.
-static tl_result add_offmesh(pack_writer *writer, const binding_navmesh *held, tl_report *report)
-{
-    tl_nav_offmesh *links = calloc((size_t)tl_navmesh_offmesh_count(held->navmesh) + 1, sizeof(*links));
-    if (links == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    uint32_t count = 0;
-    uint32_t cursor = 0;
-    tl_result result = TL_OK;
-    for (tl_nav_ref ref; result == TL_OK && tl_navmesh_next_offmesh(held->navmesh, &cursor, &ref);) {
-        tl_nav_offmesh_state state;
-        result = tl_navmesh_offmesh_state(held->navmesh, ref, &state);
-        if (result == TL_OK && !is_found(held->links, &state.offmesh)) {
-            links[count++] = state.offmesh;
-        }
-    }
-    if (result == TL_OK && count > 0) {
-        result = tl_pack_offmesh_encode(links, count, NULL, &writer->offmesh, report);
-    }
-    free(links);
-    return result;
-}
-
 static size_t item_limit(const binding_navmesh *held, PyObject *kept)
 {
     size_t tiles = held == NULL ? 0 : tl_navmesh_tile_count(held->navmesh);
@@ -164,8 +129,8 @@ static size_t item_limit(const binding_navmesh *held, PyObject *kept)
 // What follows the tiles: links, volumes, and what was pruned.
 static tl_result add_rest(pack_writer *writer, const binding_navmesh *held)
 {
-    add_item(writer, TL_PACK_LINK, 0, held != NULL ? held->links : NULL);
-    add_item(writer, TL_PACK_OFFM, 0, writer->offmesh);
+    add_item(writer, TL_PACK_LINK, 0, writer->links.found);
+    add_item(writer, TL_PACK_OFFM, 0, writer->links.by_hand);
     add_kept(writer, 1);
     add_item(writer, TL_PACK_MARK, 0, writer->volumes);
     add_item(writer, TL_PACK_PRUN, 0, held != NULL ? held->pruning : NULL);
@@ -226,7 +191,7 @@ static PyObject *pack_write(PyObject *self, PyObject *args)
         result = tl_pack_volumes_encode(level.volumes, level.input.volume_count, NULL, &writer.volumes, &report);
     }
     if (result == TL_OK && held != NULL) {
-        result = add_offmesh(&writer, held, &report);
+        result = binding_links_to_save(held, &writer.links, &report);
     }
     PyObject *bytes = NULL;
     result = result == TL_OK ? add_rest(&writer, held) : result;
@@ -245,7 +210,7 @@ static PyObject *pack_write(PyObject *self, PyObject *args)
     tl_blob_free(writer.meta);
     tl_blob_free(writer.navmesh);
     tl_blob_free(writer.volumes);
-    tl_blob_free(writer.offmesh);
+    binding_saved_links_free(&writer.links);
     binding_level_free(&level);
     return bytes;
 }

@@ -67,6 +67,17 @@ def test_links_set_by_hand_are_saved(hall: Mesh) -> None:
     again = talus.load(level.to_bytes()).navmesh
     assert again is not None
     assert len(again.links()) == found
+    # So can those that were found; the others keep their kinds.
+    first, *others = again.links()
+    again.remove_link(first.ref)
+    fewer = talus.load(talus.Level(soup=soup, navmesh=again).to_bytes()).navmesh
+    assert fewer is not None
+    assert sorted((link.start, link.end) for link in fewer.links()) == sorted((link.start, link.end) for link in others)
+    for link in fewer.links():
+        fewer.remove_link(link.ref)
+    data = talus.Level(soup=soup, navmesh=fewer).to_bytes()
+    assert b"LINK" not in data
+    assert talus.load(data).navmesh.links() == []  # type: ignore[union-attr]
 
 
 def test_damage_is_named(hall: Mesh, tmp_path: Path) -> None:
