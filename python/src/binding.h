@@ -66,6 +66,10 @@ void binding_begin(binding_host *host, PyObject *callback, unsigned threads);
 /// Takes the GIL back.
 void binding_end(binding_host *host);
 
+#if defined(__SSE2__) || defined(_M_X64)
+#define BINDING_SSE2 1
+#endif
+
 // --- hits -----------------------------------------------------------------------------------------------------------
 
 /// The parts of many hits, an array each.

@@ -10,12 +10,8 @@
 #include <stddef.h>
 #include <string.h>
 
-#if defined(__SSE2__) || defined(_M_X64)
+#ifdef BINDING_SSE2
 #include <emmintrin.h>
-#define HAS_SSE2 1
-#endif
-
-#ifdef HAS_SSE2
 
 _Static_assert(sizeof(tl_ray_hit) == 32 && offsetof(tl_ray_hit, u) == 8 && offsetof(tl_ray_hit, normal) == 16 &&
                    offsetof(tl_ray_hit, material) == 28 && offsetof(tl_ray_hit, back) == 30,
@@ -57,7 +53,7 @@ static void scatter_four(const tl_ray_hit *hits, const binding_hit_arrays *out, 
 void binding_scatter_hits(const tl_ray_hit *hits, uint32_t count, const binding_hit_arrays *out, uint32_t first)
 {
     uint32_t i = 0;
-#ifdef HAS_SSE2
+#ifdef BINDING_SSE2
     for (; i + 4 <= count; i += 4) {
         scatter_four(hits + i, out, (size_t)first + i);
     }

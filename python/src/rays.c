@@ -4,14 +4,20 @@
 //
 // A task gathers some rays into the library's own form, casts them, and scatters the hits, all within the cache. So
 // arrays of any strides, of float or double, are read where they lie, and one row stands for many without a copy.
-// Beside tl_soup_cast_rays that costs 3 to 4 ns a ray, nearly all of it the stores of the hits. An array of tl_ray_hit,
-// written in place and seen through strides, would save them, and cost whoever reads it more: t alone would be spread
-// over all of its 32 bytes a ray. Groups of 64 to 4096 take the same time; prefetched outputs, stores past the caches,
-// and arrays that are used again instead of new ones gain nothing.
+// Beside tl_soup_cast_rays that costs 3 to 4.5 ns a ray: 2 to gather it, 1 to 2 to scatter its hit, 0.5 for calls in
+// groups. docs/notes/rays.md has what was tried.
 
 #include "binding.h"
 
+#include <stddef.h>
 #include <string.h>
+
+#ifdef BINDING_SSE2
+#include <emmintrin.h>
+
+_Static_assert(sizeof(tl_ray) == 28 && offsetof(tl_ray, direction) == 12 && offsetof(tl_ray, tmax) == 24,
+               "the shuffles know where the parts of a ray lie");
+#endif
 
 enum { GATHERED = 256, RAYS_A_TASK = 16384 };
 
@@ -59,18 +65,11 @@ static bool take_points(PyObject *array, const char *name, point_rows *rows)
     return true;
 }
 
-// Copies rows to points, `step` floats apart; with `spare` the float after each of them may be written too. By memcpy,
-// since a view into records may lie at any address.
-static void gather_points(const point_rows *rows, uint32_t first, uint32_t count, float *restrict points, size_t step,
-                          bool spare)
+// Copies rows to points, `step` floats apart. By memcpy, since a view into records may lie at any address.
+static void gather_points(const point_rows *rows, uint32_t first, uint32_t count, float *restrict points, size_t step)
 {
     const char *from = rows->first + (Py_ssize_t)first * rows->row;
     if (!rows->is_double && rows->column == (Py_ssize_t)sizeof(float)) {
-        // Of a dense array four floats are one load and one store; there is no fourth one after the last row.
-        for (bool dense = spare && rows->row == 3 * (Py_ssize_t)sizeof(float); dense && count > 1;
-             count--, from += rows->row, points += step) {
-            memcpy(points, from, 4 * sizeof(float));
-        }
         for (uint32_t i = 0; i < count; i++, from += rows->row, points += step) {
             memcpy(points, from, 3 * sizeof(float));
         }
@@ -89,15 +88,67 @@ static void gather_points(const point_rows *rows, uint32_t first, uint32_t count
     }
 }
 
+#ifdef BINDING_SSE2
+// Where rows of three floats begin, one after the other or one for all, that four floats may be loaded of: `spare`
+// holds the one for all. NULL: the array is another one.
+static const char *dense_rows(const point_rows *rows, uint32_t first, float spare[4])
+{
+    if (rows->is_double || rows->column != (Py_ssize_t)sizeof(float)) {
+        return NULL;
+    }
+    if (rows->row == 0) {
+        memcpy(spare, rows->first, 3 * sizeof(float));
+        return (const char *)spare;
+    }
+    return rows->row == 3 * (Py_ssize_t)sizeof(float) ? rows->first + (Py_ssize_t)first * rows->row : NULL;
+}
+
+// Rays of dense arrays in two loads and two stores each, instead of six; the last one is left out, since there may be
+// no fourth float behind its rows. Returns how many.
+static uint32_t gather_dense_rays(const ray_batch *batch, uint32_t first, uint32_t count, tl_ray *rays)
+{
+    float spare[2][4] = { { 0 } };
+    const char *origin = dense_rows(&batch->origins, first, spare[0]);
+    const char *direction = dense_rows(&batch->directions, first, spare[1]);
+    if (origin == NULL || direction == NULL) {
+        return 0;
+    }
+    const float *tmax = batch->tmax + (batch->each_tmax ? first : 0);
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        __m128 a = _mm_loadu_ps((const float *)(const void *)origin);
+        __m128 b = _mm_loadu_ps((const float *)(const void *)direction);
+        __m128 zzxx = _mm_shuffle_ps(a, b, _MM_SHUFFLE(0, 0, 2, 2));
+        _mm_storeu_ps(&rays[i].origin.x, _mm_shuffle_ps(a, zzxx, _MM_SHUFFLE(2, 0, 1, 0)));
+        // The fourth float is the next ray's first, which is written next.
+        _mm_storeu_ps(&rays[i].direction.y, _mm_shuffle_ps(b, _mm_load1_ps(tmax), _MM_SHUFFLE(0, 0, 2, 1)));
+        origin += batch->origins.row;
+        direction += batch->directions.row;
+        tmax += batch->each_tmax;
+    }
+    return count - 1;
+}
+#endif
+
+// `count` > 0 rays in the library's own form.
+static void gather_rays(const ray_batch *batch, uint32_t first, uint32_t count, tl_ray *rays)
+{
+    uint32_t done = 0;
+#ifdef BINDING_SSE2
+    done = gather_dense_rays(batch, first, count, rays);
+#endif
+    const size_t step = sizeof(tl_ray) / sizeof(float);
+    gather_points(&batch->origins, first + done, count - done, &rays[done].origin.x, step);
+    gather_points(&batch->directions, first + done, count - done, &rays[done].direction.x, step);
+    for (uint32_t i = done; i < count; i++) {
+        rays[i].tmax = batch->tmax[batch->each_tmax ? first + i : 0];
+    }
+}
+
 static void cast_rays(const ray_batch *batch, uint32_t first, uint32_t count)
 {
     tl_ray rays[GATHERED];
     tl_ray_hit hits[GATHERED];
-    gather_points(&batch->origins, first, count, &rays[0].origin.x, sizeof(tl_ray) / sizeof(float), true);
-    gather_points(&batch->directions, first, count, &rays[0].direction.x, sizeof(tl_ray) / sizeof(float), true);
-    for (uint32_t i = 0; i < count; i++) {
-        rays[i].tmax = batch->tmax[batch->each_tmax ? first + i : 0];
-    }
+    gather_rays(batch, first, count, rays);
     if (batch->kind == TEST_RAYS) {
         tl_soup_occluded_rays(batch->soup, rays, count, &batch->filter, NULL, batch->tests + first);
     } else {
@@ -110,8 +161,8 @@ static void cast_segments(const ray_batch *batch, uint32_t first, uint32_t count
 {
     tl_segment segments[GATHERED];
     tl_ray_hit hits[GATHERED];
-    gather_points(&batch->origins, first, count, &segments[0].a.x, sizeof(tl_segment) / sizeof(float), false);
-    gather_points(&batch->directions, first, count, &segments[0].b.x, sizeof(tl_segment) / sizeof(float), false);
+    gather_points(&batch->origins, first, count, &segments[0].a.x, sizeof(tl_segment) / sizeof(float));
+    gather_points(&batch->directions, first, count, &segments[0].b.x, sizeof(tl_segment) / sizeof(float));
     if (batch->kind == TEST_SEGMENTS) {
         tl_soup_lines_of_sight(batch->soup, segments, count, &batch->filter, NULL, batch->tests + first);
     } else {
