@@ -172,6 +172,9 @@ typedef struct binding_saved_links {
 tl_result binding_links_to_save(const binding_navmesh *held, binding_saved_links *saved, tl_report *report);
 void binding_saved_links_free(binding_saved_links *saved);
 
+/// NULL with a TypeError.
+tl_nav_crowd *binding_crowd_of(PyObject *capsule);
+
 /// A filter from (include flags, exclude flags, 256 float costs or None); None: the default filter. False: an
 /// exception is set.
 bool binding_filter(PyObject *object, tl_nav_filter *filter);
@@ -189,6 +192,7 @@ extern PyMethodDef binding_path_methods[];
 extern PyMethodDef binding_audit_methods[];
 extern PyMethodDef binding_pack_methods[];
 extern PyMethodDef binding_crowd_methods[];
+extern PyMethodDef binding_group_methods[];
 extern PyMethodDef binding_character_methods[];
 extern PyMethodDef binding_versions_methods[];
 

@@ -37,6 +37,12 @@ static binding_crowd *crowd_of(PyObject *capsule)
     return PyCapsule_GetPointer(capsule, CROWD_NAME);
 }
 
+tl_nav_crowd *binding_crowd_of(PyObject *capsule)
+{
+    const binding_crowd *held = crowd_of(capsule);
+    return held != NULL ? held->crowd : NULL;
+}
+
 static void free_crowd(PyObject *capsule)
 {
     binding_crowd *held = crowd_of(capsule);
@@ -56,15 +62,15 @@ static PyObject *raise_for(tl_result result, const tl_report *report, Py_ssize_t
 }
 
 // crowd_create((max agents, max path, max neighbors, paths per step, max nodes, neighbor distance, agent horizon, wall
-//              horizon, max shared goals), threads) -> crowd
+//              horizon, max shared goals, max groups, max members), threads) -> crowd
 static PyObject *crowd_create(PyObject *self, PyObject *args)
 {
     (void)self;
     tl_nav_crowd_def def = tl_default_nav_crowd_def();
     unsigned threads = 1;
-    if (!PyArg_ParseTuple(args, "(IIIIIfffI)I", &def.max_agents, &def.max_path, &def.max_neighbors, &def.paths_per_step,
-                          &def.max_nodes, &def.neighbor_distance, &def.agent_horizon, &def.wall_horizon,
-                          &def.max_shared_goals, &threads)) {
+    if (!PyArg_ParseTuple(args, "(IIIIIfffIII)I", &def.max_agents, &def.max_path, &def.max_neighbors,
+                          &def.paths_per_step, &def.max_nodes, &def.neighbor_distance, &def.agent_horizon,
+                          &def.wall_horizon, &def.max_shared_goals, &def.max_groups, &def.max_members, &threads)) {
         return NULL;
     }
     binding_crowd *held = calloc(1, sizeof(*held));

@@ -12,22 +12,12 @@ static PyMethodDef common_methods[] = {
 static int fill_module(PyObject *module)
 {
     PyMethodDef *const tables[] = {
-        common_methods,
-        binding_soup_methods,
-        binding_ray_methods,
-        binding_hull_methods,
-        binding_convex_methods,
-        binding_bake_methods,
-        binding_navmesh_methods,
-        binding_edit_methods,
-        binding_path_methods,
-        binding_audit_methods,
-        binding_pack_methods,
-        binding_crowd_methods,
-        binding_character_methods,
-        binding_versions_methods,
-        binding_world_methods,
-        binding_world_query_methods,
+        common_methods,          binding_soup_methods,        binding_ray_methods,
+        binding_hull_methods,    binding_convex_methods,      binding_bake_methods,
+        binding_navmesh_methods, binding_edit_methods,        binding_path_methods,
+        binding_audit_methods,   binding_pack_methods,        binding_crowd_methods,
+        binding_group_methods,   binding_character_methods,   binding_versions_methods,
+        binding_world_methods,   binding_world_query_methods,
     };
     for (size_t i = 0; i < sizeof(tables) / sizeof(tables[0]); i++) {
         if (PyModule_AddFunctions(module, tables[i]) != 0) {

@@ -11,7 +11,7 @@ Takes a level's loose triangles as numpy arrays, in metres with y up.
 
 from . import _talus
 from .characters import CHARACTER, CHARACTER_HIT, Characters, Moves
-from .crowd import AgentStates, Crowd, CrowdReport
+from .crowd import AgentStates, Crowd, CrowdReport, GroupState
 from .errors import Error
 from .hull import Hull
 from .level import Level, load
@@ -85,6 +85,7 @@ __all__ = [
     "Error",
     "Filter",
     "Finding",
+    "GroupState",
     "Hull",
     "Level",
     "Link",

@@ -6,7 +6,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -48,6 +48,11 @@ _STATE = np.dtype(
     ]
 )
 _STATUS = np.array(_talus.crowd_status_names())
+_FORMATIONS: tuple[str, ...] = _talus.crowd_formation_names()
+
+Formation = Literal["loose", "line", "column", "wedge", "ring", "slots"]
+"""How the others stand about their leader: wherever they are, but near to it; abreast, the leader in the middle; one
+behind the other; in two rows behind it at 45 degrees; on a circle around it; as ``slots`` say."""
 
 
 @dataclass(frozen=True)
@@ -98,6 +103,29 @@ class CrowdReport:
     """Paths that were taken from the search of a shared goal, in all steps."""
 
 
+@dataclass(frozen=True)
+class GroupState:
+    """A group as it is after the last step."""
+
+    formation: str
+    """How the others stand about their leader."""
+    agents: Agents
+    """(N,) its agents by their slots; the first one leads."""
+    in_place: int
+    """Those no farther than half the spacing from their slots; the leader is."""
+    on_trail: int
+    """Those who follow on the leader's trail, since a wall cuts off their slots."""
+    lag: float
+    """Metres: of those who are waited for, the largest distance to a slot."""
+    speed: float
+    """Metres a second: what the leader may walk."""
+    heading: tuple[float, float, float]
+    """Unit, in the plane: where the formation faces."""
+
+    def __len__(self) -> int:
+        return len(self.agents)
+
+
 class Crowd:
     """A crowd on a navmesh.
 
@@ -130,6 +158,8 @@ class Crowd:
         agent_horizon: float = 2.0,
         wall_horizon: float = 0.25,
         max_shared_goals: int = 4,
+        max_groups: int = 32,
+        max_members: int = 256,
         filters: Sequence[Filter] = (),
         threads: int | None = 1,
     ) -> None:
@@ -147,6 +177,8 @@ class Crowd:
             wall_horizon: seconds, > 0: walls are approached so that they are not reached sooner.
             max_shared_goals: goals whose paths are found by one search for all that walk there, 0 to 8: those that most
                 agents have. 0: each agent searches its own path.
+            max_groups: groups at a time, 0 to 2^20.
+            max_members: agents of all groups together, 0 to 2^20.
             filters: up to 16, which agents choose by index; without any, one that passes all.
             threads: of a step. One is enough for some hundreds of agents; None is all.
 
@@ -159,7 +191,8 @@ class Crowd:
         self._lock = threading.RLock()
         self._crowd = _talus.crowd_create(
             (int(max_agents), int(max_path), int(max_neighbors), int(paths_per_step), int(max_nodes),
-             float(neighbor_distance), float(agent_horizon), float(wall_horizon), int(max_shared_goals)),
+             float(neighbor_distance), float(agent_horizon), float(wall_horizon), int(max_shared_goals),
+             int(max_groups), int(max_members)),
             thread_count(threads),
         )  # fmt: skip
         for place, filter in enumerate(filters):
@@ -236,7 +269,7 @@ class Crowd:
 
         Raises:
             talus.Error: an agent that is not in the crowd (TL_ERR_STALE); then none is sent.
-            ValueError: an agent that is fixed; the same.
+            ValueError: an agent that is fixed, or follows in a group; the same.
         """
         given = _names(agents)
         wanted = as_points(goals, "goals")
@@ -248,13 +281,27 @@ class Crowd:
         with self._lock:
             if (self.states(given).status == "fixed").any():
                 raise ValueError("a fixed agent has no goal: its motion is the caller's")
+            self._refuse_followers(given)
             _talus.crowd_set_goals(self._crowd, given, refs, points)
         return np.asarray(refs != 0)
 
     def stop(self, agents: ArrayLike) -> None:
-        """Let (N,) agents stop where they are, without a goal."""
+        """Let (N,) agents stop where they are, without a goal.
+
+        Raises:
+            talus.Error: an agent that is not in the crowd (TL_ERR_STALE); those before it have stopped.
+            ValueError: an agent that follows in a group; then none stops.
+        """
+        given = _names(agents)
         with self._lock:
-            _talus.crowd_set_goals(self._crowd, _names(agents), None, None)
+            self._refuse_followers(given)
+            _talus.crowd_set_goals(self._crowd, given, None, None)
+
+    def _refuse_followers(self, agents: Agents) -> None:
+        groups, follows = np.empty(len(agents), np.uint64), np.empty(len(agents), np.bool_)
+        _talus.crowd_groups_of(self._crowd, agents, groups, follows)
+        if follows.any():
+            raise ValueError("an agent that follows in a group has no goal of its own: the leader's is the group's")
 
     def set_motion(self, agents: ArrayLike, positions: ArrayLike, velocities: ArrayLike) -> None:
         """Say where (N,) fixed agents are now, (N, 3) metres, and how fast they move, (N, 3) metres a second.
@@ -268,6 +315,89 @@ class Crowd:
             raise ValueError(f"{len(at)} positions and {len(speed)} velocities are given for {len(given)} agents")
         with self._lock:
             _talus.crowd_set_motion(self._crowd, given, at, speed)
+
+    # --- groups -------------------------------------------------------------------------------------------------------
+
+    def add_group(
+        self,
+        agents: ArrayLike,
+        formation: Formation = "loose",
+        *,
+        spacing: float = 1.2,
+        wait_distance: float = 4.0,
+        lost_distance: float = 30.0,
+        slots: ArrayLike | None = None,
+        keep_order: bool = False,
+    ) -> int:
+        """Make a group of (N,) agents, of which the first leads; the others follow it, and lose their goals.
+
+        The leader walks to a goal of its own, no faster than the slowest and slower while somebody is behind; or it is
+        fixed, a player. Where a wall cuts a slot off, as in a doorway, the agent follows on the leader's trail, so the
+        formation becomes a column until it has room again. Returns the group's name.
+
+        Args:
+            agents: (N,) that are in no group; none but the leader may be fixed.
+            formation: how the others stand about their leader.
+            spacing: metres, 0 to 1000: between neighbours.
+            wait_distance: metres, > 0: the leader stands while somebody is so far from its slot.
+            lost_distance: metres, > 0: who is farther from its slot is not waited for, nor who is held up for ten
+                seconds.
+            slots: (N - 1, 2) metres forward and left of the leader, for the formation ``slots``.
+            keep_order: agent k takes slot k. False: slots are dealt so that ways there are short and do not cross, and
+                anew when the leader gets a goal to the side or behind.
+
+        Raises:
+            talus.Error: a number out of its range; an agent that is in a group already (TL_ERR_ARGUMENT) or not in the
+                crowd (TL_ERR_STALE); more than max_groups or max_members (TL_ERR_LIMIT).
+            ValueError: a formation that is none, or slots of another shape.
+        """
+        given = _names(agents)
+        plan = _plan(formation, spacing, wait_distance, lost_distance, slots, keep_order)
+        with self._lock:
+            return int(_talus.crowd_add_group(self._crowd, given, plan))
+
+    def set_formation(
+        self,
+        group: int,
+        formation: Formation = "loose",
+        *,
+        spacing: float = 1.2,
+        wait_distance: float = 4.0,
+        lost_distance: float = 30.0,
+        slots: ArrayLike | None = None,
+        keep_order: bool = False,
+    ) -> None:
+        """Change how a group walks; its agents and their leader remain. Arguments and errors as in `add_group`."""
+        plan = _plan(formation, spacing, wait_distance, lost_distance, slots, keep_order)
+        with self._lock:
+            _talus.crowd_set_formation(self._crowd, int(group), plan)
+
+    def remove_group(self, group: int) -> None:
+        """Let the agents of a group go: the leader keeps its goal, the others stop.
+
+        Raises:
+            talus.Error: a group that is none (TL_ERR_STALE).
+        """
+        with self._lock:
+            _talus.crowd_remove_group(self._crowd, int(group))
+
+    def group(self, group: int) -> GroupState:
+        """A group as it is after the last step.
+
+        Raises:
+            talus.Error: a group that is none (TL_ERR_STALE).
+        """
+        with self._lock:
+            formation, *numbers, raw = _talus.crowd_group(self._crowd, int(group))
+        return GroupState(_FORMATIONS[formation], np.frombuffer(raw, np.uint64), *numbers)
+
+    def groups_of(self, agents: ArrayLike | None = None) -> npt.NDArray[np.uint64]:
+        """(N,) the groups that (N,) agents are in, 0 for those in none; None is all, in the order of `agents`."""
+        with self._lock:
+            given = self.agents if agents is None else _names(agents)
+            groups, follows = np.empty(len(given), np.uint64), np.empty(len(given), np.bool_)
+            _talus.crowd_groups_of(self._crowd, given, groups, follows)
+        return groups
 
     # --- steps --------------------------------------------------------------------------------------------------------
 
@@ -350,6 +480,17 @@ class Crowd:
         return f"<talus.Crowd: {len(self):,} agents>"
 
 
+def _plan(
+    formation: str, spacing: float, wait: float, lost: float, slots: ArrayLike | None, keep_order: bool
+) -> tuple[int, float, float, float, Floats, bool]:
+    if formation not in _FORMATIONS:
+        raise ValueError(f"formation is {formation!r}; it should be one of {', '.join(_FORMATIONS)}")
+    places = np.ascontiguousarray(np.zeros((0, 2)) if slots is None else slots, dtype=np.float32)
+    if places.size and (places.ndim != 2 or places.shape[1] != 2):
+        raise ValueError(f"slots has the shape {places.shape}; it should be (N - 1, 2): forward and left of the leader")
+    return _FORMATIONS.index(formation), float(spacing), float(wait), float(lost), places, bool(keep_order)
+
+
 def _names(agents: ArrayLike) -> Agents:
     given = np.asarray(agents)
     if given.size == 0:
@@ -361,4 +502,4 @@ def _names(agents: ArrayLike) -> Agents:
     return np.ascontiguousarray(given.reshape(-1), dtype=np.uint64)
 
 
-__all__ = ["AgentStates", "Agents", "Crowd", "CrowdReport"]
+__all__ = ["AgentStates", "Agents", "Crowd", "CrowdReport", "Formation", "GroupState"]

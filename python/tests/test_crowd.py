@@ -208,3 +208,91 @@ def test_shared_goals_are_searched_once(navmesh: talus.Navmesh) -> None:
     with pytest.raises(talus.Error) as refused:
         talus.Crowd(navmesh, max_shared_goals=9)
     assert refused.value.field == "max_shared_goals"
+
+
+def test_groups_walk_in_formation(navmesh: talus.Navmesh) -> None:
+    crowd = talus.Crowd(navmesh)
+    agents = crowd.add([[4 + 0.8 * (i % 3), 0, 32 + 0.8 * (i // 3)] for i in range(7)], max_speed=2)
+    crowd.set_goals(agents[3], [16, 0, 36])
+    group = crowd.add_group(agents, "line", spacing=2.5, keep_order=True)
+    state = crowd.group(group)
+    assert (state.formation, len(state)) == ("line", 7)
+    assert state.agents.tolist() == agents.tolist()
+    assert (crowd.states(agents).status == "idle").all()  # followers have lost their goals
+    assert crowd.groups_of().tolist() == [group] * 7
+    assert crowd.groups_of(crowd.add([3, 0, 20])).tolist() == [0]
+    crowd.set_goals(agents[0], [35, 0, 35])  # through a gap that is narrower than the line
+    trail = 0
+    for _ in range(800):
+        crowd.step(DT)
+        trail = max(trail, crowd.group(group).on_trail)
+        assert off_mesh(navmesh, crowd.positions) < 1e-3
+        if crowd.states(agents[:1]).status[0] == "arrived":
+            break
+    assert crowd.states(agents[:1]).status[0] == "arrived"
+    crowd.set_formation(group, "wedge", spacing=1.0, keep_order=True)
+    crowd.step(DT, count=200)
+    state = crowd.group(group)
+    assert state.formation == "wedge"
+    assert state.in_place == 7
+    assert state.lag < 0.5
+    assert trail > 0
+    assert abs(np.linalg.norm(state.heading) - 1) < 1e-5
+    # The others stand behind the leader, as far apart as was asked for.
+    at = crowd.states(agents).position
+    forward = (at[1:] - at[0]) @ np.array(state.heading)
+    assert (forward < -0.3).all()
+    assert np.linalg.norm(at[1:] - at[0], axis=1).max() < 6
+
+    crowd.set_formation(group, "slots", slots=[[-1 - i, 0] for i in range(6)], keep_order=True)
+    crowd.step(DT, count=200)
+    at = crowd.states(agents).position - crowd.states(agents[:1]).position
+    state = crowd.group(group)
+    np.testing.assert_allclose(at[1:] @ np.array(state.heading), [-1, -2, -3, -4, -5, -6], atol=0.3)
+    saved = crowd.save()
+    crowd.remove(agents[0])  # the next one leads
+    assert crowd.group(group).agents[0] == agents[1]
+    crowd.remove_group(group)
+    assert crowd.groups_of().tolist() == [0] * 7
+    with pytest.raises(talus.Error) as refused:
+        crowd.group(group)
+    assert refused.value.result == "TL_ERR_STALE"
+    crowd.restore(saved)
+    assert crowd.group(group).formation == "slots"
+
+
+def test_groups_that_are_refused(navmesh: talus.Navmesh) -> None:
+    crowd = talus.Crowd(navmesh, max_groups=2, max_members=6)
+    agents = crowd.add([[4, 0, 20 + i] for i in range(8)])
+    player = crowd.add([6, 0, 20], fixed=True)
+    group = crowd.add_group(agents[:3], "line")
+    for call, text in (
+        (lambda: crowd.add_group(agents[3:], "square"), "formation is 'square'"),  # type: ignore[arg-type]
+        (lambda: crowd.add_group(agents[3:5], "slots", slots=[1, 2, 3]), "slots has the shape"),
+        (lambda: crowd.add_group(agents[3:6], "slots", slots=[[1, 2]]), "slots has 8 bytes"),
+        (lambda: crowd.set_formation(group, "slots"), "slots has 0 bytes"),
+        (lambda: crowd.set_goals(agents[:3], [8, 0, 20]), "follows in a group"),
+        (lambda: crowd.stop(agents[1]), "follows in a group"),
+    ):
+        with pytest.raises(ValueError, match=text):
+            call()
+    assert (crowd.states(agents).status == "idle").all()
+    for call, result in (
+        (lambda: crowd.add_group(agents[2:5]), "TL_ERR_ARGUMENT"),
+        (lambda: crowd.add_group([agents[3], player[0]]), "TL_ERR_ARGUMENT"),
+        (lambda: crowd.add_group([]), "TL_ERR_ARGUMENT"),
+        (lambda: crowd.add_group(agents[3:5], spacing=-1), "TL_ERR_ARGUMENT"),
+        (lambda: crowd.add_group(agents[3:5], wait_distance=float("nan")), "TL_ERR_NOT_FINITE"),
+        (lambda: crowd.add_group([int(agents[3]), 12345]), "TL_ERR_STALE"),
+        (lambda: crowd.add_group(agents[3:8]), "TL_ERR_LIMIT"),
+        (lambda: crowd.remove_group(7), "TL_ERR_STALE"),
+        (lambda: crowd.set_formation(7), "TL_ERR_STALE"),
+    ):
+        with pytest.raises(talus.Error) as refused:
+            call()
+        assert refused.value.result == result, result
+    led = crowd.add_group([player[0], agents[3]])  # a fixed agent may lead
+    crowd.set_motion(player, [[10, 0, 20]], [[1, 0, 0]])
+    crowd.step(DT, count=100)
+    assert crowd.states(agents[3:4]).position[0, 0] > 6
+    crowd.remove_group(led)
