@@ -14,7 +14,7 @@ tl_js_navmesh *tl_js_navmesh_create(void)
         free(self);
         return NULL;
     }
-    self->max_nodes = tl_default_nav_query_def().max_nodes;
+    self->max_nodes = 1u << 30; // as in navmesh.js
     self->def = tl_default_nav_def();
     return self;
 }

@@ -179,7 +179,9 @@ namespace Talus
             this.navmesh = navmesh;
             tl_nav_query* query = null;
             tl_report report;
-            TalusException.Check(Api.tl_nav_query_create(null, &query, &report), &report);
+            tl_nav_query_def def = Api.tl_default_nav_query_def();
+            def.max_nodes = 1u << 30; // memory grows with need: no search is too large
+            TalusException.Check(Api.tl_nav_query_create(&def, &query, &report), &report);
             handle = new QueryHandle(query);
         }
 

@@ -45,7 +45,9 @@ static tl_result take_tiles(navmesh_node *node, tl_nav_tiles *tiles, tl_report *
     for (uint32_t i = 0; result == TL_OK && i < tiles->tile_count; i++) {
         tiles->tiles[i] = NULL; // they are the navmesh's now
     }
-    return result == TL_OK ? tl_nav_query_create(NULL, &node->query, report) : result;
+    tl_nav_query_def def = tl_default_nav_query_def();
+    def.max_nodes = 1u << 30; // memory grows with need: no search is too large
+    return result == TL_OK ? tl_nav_query_create(&def, &node->query, report) : result;
 }
 
 static void bake(void *at, const gd_method *method, const void *const *arguments, void *result)

@@ -29,7 +29,7 @@ function stopwatch() {
 }
 
 export class Navmesh extends Handle {
-  #maxNodes = 65536;
+  #maxNodes = 2 ** 30; // memory grows with need: no search is too large
   #options = null;
 
   constructor(key, address, report) {

@@ -50,10 +50,11 @@ test('paths', () => {
   assert.equal(navmesh.findWidePath(START, GOAL, 0.7).status, 'complete');
   assert.equal(navmesh.findWidePath(START, GOAL, 30).status, 'start blocked');
   assert.equal(navmesh.findPath(START, GOAL, { filter: { excludeFlags: 1n } }), null);
+  assert.equal(navmesh.maxNodes, 2 ** 30); // no search is too large unless it is told so
   navmesh.maxNodes = 4;
   assert.equal(navmesh.findPath(START, GOAL).status, 'out of nodes');
   assert.equal(errorOf(() => navmesh.isReachable(START, GOAL)).result, 'TL_ERR_NODES');
-  navmesh.maxNodes = 65536;
+  navmesh.maxNodes = 2 ** 30;
   const prepared = navmesh.prepare();
   assert.equal(prepared.kind, 'table');
   assert.ok(Math.abs(navmesh.findPath(START, GOAL).length - path.length) < 1e-4);

@@ -244,7 +244,11 @@ export class Navmesh implements Freeable {
   readonly options: Required<NavOptions>;
   /** Null where it was not baked here. */
   report: NavBakeReport | null;
-  /** Nodes that a search may use: a node takes 232 bytes. Default 65,536. `linkCount() + 2` is always enough. */
+  /**
+   * Nodes that a search may use, 2 to 2^30, 236 bytes each. Default 2^30: memory grows with need, and a search ends by
+   * `'out of nodes'` only where there is none left. `linkCount() + 2` finds a path wherever there is one, and may miss the
+   * shortest.
+   */
   maxNodes: number;
 
   readonly tileCount: number;
