@@ -57,6 +57,35 @@ static void test_round_trip(void **state)
     cli_do(0, "check hull.talus");
 }
 
+// A turned box, rounded to centimetres, with a second corner beside one of its own.
+static void test_nearly_flat_faces(void **state)
+{
+    (void)state;
+    cli_write_text("turned.txt",
+                   "-1.87 -0.05 -1.33\n-0.13 0.29 -2.27\n-1.87 0.89 -0.99\n-0.13 1.23 -1.93\n"
+                   "0.13 -1.23 1.93\n1.87 -0.89 0.99\n0.13 -0.29 2.27\n1.87 0.05 1.33\n1.872 0.05 1.329\n");
+    json_t *exact = cli_json(0, "hull turned.txt --json");
+    TEST_CHECK(cli_number(exact, "vertices") == 9 && cli_number(exact, "faces") > 6);
+    TEST_CHECK(json_object_get(exact, "corners_left_out") == NULL && json_object_get(exact, "max_outside") == NULL);
+    json_t *welded = cli_json(0, "hull turned.txt --weld-distance 0.01 --json");
+    TEST_CHECK(cli_number(welded, "vertices") == 8 && cli_number(welded, "faces") > 6);
+    TEST_CHECK(cli_number(welded, "corners_left_out") == 1);
+    double outside = cli_number(welded, "max_outside");
+    TEST_CHECK(outside > 0.0 && outside < 0.01);
+    json_t *merged = cli_json(0, "hull turned.txt --weld-distance 0.01 --merge-distance 0.02 --json");
+    TEST_CHECK(cli_number(merged, "vertices") == 8 && cli_number(merged, "faces") == 6);
+    TEST_CHECK(cli_number(merged, "max_outside") <= 0.03);
+    json_decref(exact);
+    json_decref(welded);
+    json_decref(merged);
+    cli_result text = cli_expect(0, "hull turned.txt --weld-distance 0.01 --merge-distance 0.02");
+    cli_check_part(text.out, "1 corners were left out; no point lies more than ");
+    cli_free(&text);
+    cli_result wrong = cli_expect(2, "hull turned.txt --merge-distance=-1");
+    cli_check_part(wrong.err, "merge-distance");
+    cli_free(&wrong);
+}
+
 static void test_several_clouds(void **state)
 {
     (void)state;
@@ -188,9 +217,13 @@ static void test_bad_points(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_measures),       cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_several_clouds), cmocka_unit_test(test_support_against_scan),
-        cmocka_unit_test(test_distance),       cmocka_unit_test(test_bad_points),
+        cmocka_unit_test(test_measures),
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_nearly_flat_faces),
+        cmocka_unit_test(test_several_clouds),
+        cmocka_unit_test(test_support_against_scan),
+        cmocka_unit_test(test_distance),
+        cmocka_unit_test(test_bad_points),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }
