@@ -247,6 +247,11 @@ impl Crowd {
         &self.navmesh
     }
 
+    /// Goes on to a newer version of the navmesh ([`NavVersions`](crate::NavVersions)); agents notice what has changed.
+    pub fn set_navmesh(&mut self, navmesh: Navmesh) {
+        self.navmesh = navmesh;
+    }
+
     /// Adds an agent without a goal, on the navmesh's point nearest to `position`; `None`: no floor is within its reach.
     ///
     /// # Errors

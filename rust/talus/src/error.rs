@@ -32,6 +32,10 @@ pub enum ErrorKind {
     Topology,
     /// Bytes are no baked file, of another version, cut off or altered.
     Format,
+    /// Bytes could not be read or written.
+    Io,
+    /// It is a kind of data that this function does not take; the advice says which one does.
+    Unsupported,
     /// A search ran out of nodes, or an iteration ended before its answer was proven.
     GaveUp,
     /// Any other failure; its text says which.
@@ -91,6 +95,8 @@ impl Error {
             sys::TL_ERR_DEGENERATE..=sys::TL_ERR_COPLANAR => ErrorKind::Degenerate,
             sys::TL_ERR_NON_MANIFOLD..=sys::TL_ERR_SELF_INTERSECTION => ErrorKind::Topology,
             sys::TL_ERR_FORMAT..=sys::TL_ERR_CORRUPT => ErrorKind::Format,
+            sys::TL_ERR_IO => ErrorKind::Io,
+            sys::TL_ERR_UNSUPPORTED => ErrorKind::Unsupported,
             sys::TL_ERR_ITERATIONS | sys::TL_ERR_NODES => ErrorKind::GaveUp,
             _ => ErrorKind::Other,
         };
@@ -110,11 +116,18 @@ impl Error {
         }
     }
 
+    /// An argument that the C interface would not see to be wrong.
+    pub(crate) fn argument(field: &'static str) -> Error {
+        Error::named(sys::TL_ERR_ARGUMENT, field)
+    }
+
     /// A caller's slice is longer than 32-bit counts reach.
     pub(crate) fn too_many(field: &'static str) -> Error {
-        let mut error = Error::new(sys::TL_ERR_LIMIT, None);
-        error.field = Some(field);
-        error
+        Error::named(sys::TL_ERR_LIMIT, field)
+    }
+
+    fn named(result: sys::tl_result, field: &'static str) -> Error {
+        Error { field: Some(field), ..Error::new(result, None) }
     }
 
     pub(crate) fn check(result: sys::tl_result, report: Option<&sys::tl_report>) -> Result<(), Error> {

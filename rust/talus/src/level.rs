@@ -34,6 +34,7 @@ const SOUP: u32 = sys::pack_type(b"SOUP");
 const HULL: u32 = sys::pack_type(b"HULL");
 const NAVM: u32 = sys::pack_type(b"NAVM");
 const NAVT: u32 = sys::pack_type(b"NAVT");
+const OFFM: u32 = sys::pack_type(b"OFFM");
 
 unsafe extern "C" fn append(bytes: *const c_void, size: usize, user: *mut c_void) -> sys::tl_result {
     // SAFETY: `user` is the vector of the to_bytes that writes, and `bytes` has `size` bytes.
@@ -104,7 +105,7 @@ impl Level {
         let mut items = Vec::new();
         items.extend(self.soup.as_ref().map(|soup| item(SOUP, 0, soup.blob.get())));
         items.extend(self.hull.as_ref().map(|hull| item(HULL, 0, hull.blob.get())));
-        let mut head = None;
+        let mut heads = Vec::new(); // until they were written
         if let Some(navmesh) = &self.navmesh {
             let tiles = navmesh.tiles();
             let mut encoded = null_mut();
@@ -118,16 +119,28 @@ impl Level {
             }
             items.push(item(NAVM, 0, encoded));
             items.extend((0..).zip(&tiles).map(|(id, &tile)| item(NAVT, id, tile)));
-            head = Some(Blob::owned(encoded)); // until it was written
+            heads.push(Blob::<c_void>::owned(encoded.cast()));
+            let links = navmesh.links();
+            if !links.is_empty() {
+                let mut encoded = null_mut();
+                // SAFETY: the links are those of a navmesh; outputs are valid.
+                unsafe {
+                    let (count, mut report) = (links.len() as u32, std::mem::zeroed());
+                    let result = sys::tl_pack_offmesh_encode(links.as_ptr(), count, null(), &mut encoded, &mut report);
+                    Error::check(result, Some(&report))?;
+                }
+                items.push(item(OFFM, 0, encoded));
+                heads.push(Blob::owned(encoded.cast()));
+            }
         }
-        // SAFETY: the items' blobs are held by self and `head`; the vector outlives the call.
+        // SAFETY: the items' blobs are held by self and `heads`; the vector outlives the call.
         unsafe {
             let mut out: Vec<u8> = Vec::with_capacity(sys::tl_pack_size(items.as_ptr(), items.len() as u32) as usize);
             let mut report = std::mem::zeroed();
             let user = (&mut out as *mut Vec<u8>).cast();
             let result =
                 sys::tl_pack_write(items.as_ptr(), items.len() as u32, null(), Some(append), user, &mut report);
-            drop(head);
+            drop(heads);
             Error::check(result, Some(&report))?;
             Ok(out)
         }

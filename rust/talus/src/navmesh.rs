@@ -9,6 +9,7 @@ use talus_sys as sys;
 use crate::memory::FileBytes;
 use crate::shapes::vec3;
 use crate::soup::{point_of, view};
+use crate::versions::HeldVersions;
 use crate::{Error, Point};
 
 /// What a navmesh is baked with. Lengths are metres.
@@ -47,9 +48,11 @@ impl Default for NavmeshSettings {
 }
 
 impl NavmeshSettings {
-    fn def(&self) -> sys::tl_nav_def {
+    /// For a bake of a mesh, whose bounds are in it: a file keeps them, and what is baked later too.
+    pub(crate) fn def(&self, vertices: &[Point], triangles: &[[u32; 3]]) -> sys::tl_nav_def {
         // SAFETY: gives a plain struct.
         let mut def = unsafe { sys::tl_default_nav_def() };
+        def.bounds = bounds(vertices, triangles);
         def.cell_size = self.cell_size;
         def.cell_height = self.cell_height;
         def.agent_height = self.agent_height;
@@ -59,6 +62,21 @@ impl NavmeshSettings {
         def.tile_size = self.tile_size;
         def
     }
+}
+
+// Of the vertices that triangles use, as a bake finds them. What is not finite or too large is the bake's to refuse.
+fn bounds(vertices: &[Point], triangles: &[[u32; 3]]) -> sys::tl_aabb {
+    // SAFETY: gives a plain struct.
+    let empty = unsafe { sys::tl_default_nav_def() }.bounds;
+    let used = triangles.iter().flatten().filter_map(|&index| vertices.get(index as usize));
+    let (mut min, mut max) = (point_of(empty.min), point_of(empty.max));
+    for vertex in used.filter(|vertex| vertex.iter().all(|coordinate| coordinate.is_finite())) {
+        for axis in 0..3 {
+            min[axis] = min[axis].min(vertex[axis]);
+            max[axis] = max[axis].max(vertex[axis]);
+        }
+    }
+    sys::tl_aabb { min: vec3(min), max: vec3(max) }
 }
 
 /// Where an agent can walk. Immutable here: threads may share it, each with a [`Query`] of its own.
@@ -74,7 +92,16 @@ struct Held {
     at: *mut sys::tl_navmesh,
     def: sys::tl_nav_def,
     grid: [u32; 2],
-    _file: Option<Arc<FileBytes>>, // borrowed tiles lie in it
+    owner: Owner,
+}
+
+/// Who ends a navmesh.
+enum Owner {
+    Itself,
+    /// Itself; its tiles lie in the file.
+    InFile(#[allow(dead_code)] Arc<FileBytes>),
+    /// The versions that it is one of.
+    Versions(Arc<HeldVersions>),
 }
 
 // SAFETY: nothing here changes a navmesh after it was made, and its const functions may run on any number of threads.
@@ -83,8 +110,11 @@ unsafe impl Sync for Held {}
 
 impl Drop for Held {
     fn drop(&mut self) {
-        // SAFETY: made by tl_navmesh_create or tl_pack_load_navmesh, destroyed once.
-        unsafe { sys::tl_navmesh_destroy(self.at) }
+        match &self.owner {
+            Owner::Versions(versions) => versions.release(self.at),
+            // SAFETY: made by tl_navmesh_create or tl_pack_load_navmesh, destroyed once.
+            Owner::Itself | Owner::InFile(_) => unsafe { sys::tl_navmesh_destroy(self.at) },
+        }
     }
 }
 
@@ -131,7 +161,7 @@ impl Navmesh {
             sys::tl_nav_input { mesh: view(vertices, triangles)?, areas: null(), volumes: null(), volume_count: 0 };
         let mut held = Progress { update: &mut progress, panic: None };
         let hook = sys::tl_progress { update: Some(call_update), user: (&mut held as *mut Progress<'_>).cast() };
-        let mut def = settings.def();
+        let mut def = settings.def(vertices, triangles);
         def.host.progress = &hook;
         // SAFETY: slices, hook and def outlive the bake; outputs are valid; tiles are freed, or given to the navmesh.
         unsafe {
@@ -150,22 +180,32 @@ impl Navmesh {
         }
     }
 
+    /// A new navmesh, filled by a function that has it alone.
+    pub(crate) fn filled(
+        def: sys::tl_nav_def,
+        grid: [u32; 2],
+        fill: impl FnOnce(*mut sys::tl_navmesh) -> Result<(), Error>,
+    ) -> Result<Navmesh, Error> {
+        let mut at = null_mut();
+        // SAFETY: a NULL allocator means the default one; the output is valid.
+        Error::check(unsafe { sys::tl_navmesh_create(null(), &mut at) }, None)?;
+        let navmesh = Navmesh::new(at, def, grid, Owner::Itself); // it is destroyed whatever happens
+        fill(at)?;
+        Ok(navmesh)
+    }
+
     // SAFETY: the tiles are those of a bake. Those that the navmesh took are no longer among them afterwards.
     unsafe fn from_tiles(tiles: &mut sys::tl_nav_tiles, def: sys::tl_nav_def) -> Result<Navmesh, Error> {
-        let mut at = null_mut();
-        // SAFETY: outputs are valid, and the navmesh is destroyed with `navmesh` whatever happens.
-        unsafe {
-            Error::check(sys::tl_navmesh_create(null(), &mut at), None)?;
-            let navmesh = Navmesh::new(at, def, [tiles.tiles_x, tiles.tiles_z], None);
+        let (count, owned) = (tiles.tile_count, sys::TL_NAV_TILE_OWNED);
+        // SAFETY: the navmesh is whole; so many tiles are there.
+        Navmesh::filled(def, [tiles.tiles_x, tiles.tiles_z], |at| unsafe {
             let mut report = std::mem::zeroed();
-            let result =
-                sys::tl_navmesh_add_tiles(at, tiles.tiles, tiles.tile_count, sys::TL_NAV_TILE_OWNED, &mut report);
-            Error::check(result, Some(&report))?;
-            for i in 0..tiles.tile_count as usize {
+            Error::check(sys::tl_navmesh_add_tiles(at, tiles.tiles, count, owned, &mut report), Some(&report))?;
+            for i in 0..count as usize {
                 *tiles.tiles.add(i) = null_mut();
             }
-            Ok(navmesh)
-        }
+            Ok(())
+        })
     }
 
     // SAFETY: `at` is a navmesh whose tiles lie in `file`.
@@ -175,11 +215,20 @@ impl Navmesh {
         grid: [u32; 2],
         file: &Arc<FileBytes>,
     ) -> Navmesh {
-        Navmesh::new(at, def, grid, Some(Arc::clone(file)))
+        Navmesh::new(at, def, grid, Owner::InFile(Arc::clone(file)))
     }
 
-    fn new(at: *mut sys::tl_navmesh, def: sys::tl_nav_def, grid: [u32; 2], file: Option<Arc<FileBytes>>) -> Navmesh {
-        Navmesh { held: Arc::new(Held { at, def, grid, _file: file }) }
+    // SAFETY: `at` is a version that was acquired from `versions`, and is released with the navmesh.
+    pub(crate) unsafe fn in_versions(
+        at: *const sys::tl_navmesh,
+        source: &Navmesh,
+        versions: &Arc<HeldVersions>,
+    ) -> Navmesh {
+        Navmesh::new(at.cast_mut(), source.held.def, source.held.grid, Owner::Versions(Arc::clone(versions)))
+    }
+
+    fn new(at: *mut sys::tl_navmesh, def: sys::tl_nav_def, grid: [u32; 2], owner: Owner) -> Navmesh {
+        Navmesh { held: Arc::new(Held { at, def, grid, owner }) }
     }
 
     /// For const functions: it is whole, and does not change.
@@ -217,6 +266,21 @@ impl Navmesh {
         }
     }
 
+    /// The off-mesh links.
+    pub(crate) fn links(&self) -> Vec<sys::tl_nav_offmesh> {
+        let (mut cursor, mut link) = (0, 0);
+        let mut links = Vec::new();
+        // SAFETY: the navmesh is whole, and does not change; a link that is iterated over is there.
+        unsafe {
+            while sys::tl_navmesh_next_offmesh(self.raw(), &mut cursor, &mut link) {
+                let mut state: sys::tl_nav_offmesh_state = std::mem::zeroed();
+                sys::tl_navmesh_offmesh_state(self.raw(), link, &mut state);
+                links.push(state.offmesh);
+            }
+        }
+        links
+    }
+
     /// How many polygons all tiles have.
     pub fn polygon_count(&self) -> u64 {
         // SAFETY: the tiles are those of this navmesh.
@@ -228,6 +292,27 @@ impl Navmesh {
     /// # Errors
     /// [`ErrorKind::Memory`](crate::ErrorKind).
     pub fn query(&self) -> Result<Query, Error> {
+        Ok(Query { search: Search::new()?, navmesh: self.clone(), search_extents: [1.0, 2.0, 1.0] })
+    }
+}
+
+/// The memory of searches, over any navmesh.
+pub(crate) struct Search {
+    at: *mut sys::tl_nav_query,
+}
+
+// SAFETY: its memory is its own; it may move to another thread, and is not shared (`&mut self`).
+unsafe impl Send for Search {}
+
+impl Drop for Search {
+    fn drop(&mut self) {
+        // SAFETY: made by tl_nav_query_create, destroyed once.
+        unsafe { sys::tl_nav_query_destroy(self.at) }
+    }
+}
+
+impl Search {
+    pub(crate) fn new() -> Result<Search, Error> {
         let mut at = null_mut();
         // SAFETY: the def is a plain struct; the outputs are valid.
         unsafe {
@@ -236,7 +321,35 @@ impl Navmesh {
             let mut report = std::mem::zeroed();
             Error::check(sys::tl_nav_query_create(&def, &mut at, &mut report), Some(&report))?;
         }
-        Ok(Query { at, navmesh: self.clone(), search_extents: [1.0, 2.0, 1.0] })
+        Ok(Search { at })
+    }
+
+    /// Searches by `find`, again with a larger buffer where the corners do not fit. The result is an outcome.
+    pub(crate) fn corners(
+        &mut self,
+        find: impl Fn(*mut sys::tl_nav_query, &sys::tl_nav_path_buffers, &mut sys::tl_nav_shortest_path) -> sys::tl_result,
+    ) -> Result<(sys::tl_result, sys::tl_nav_shortest_path, Vec<sys::tl_nav_corner>), Error> {
+        let mut corners: Vec<sys::tl_nav_corner> = Vec::with_capacity(64);
+        loop {
+            // SAFETY: a plain struct.
+            let mut path: sys::tl_nav_shortest_path = unsafe { std::mem::zeroed() };
+            let buffers = sys::tl_nav_path_buffers {
+                polygons: null_mut(),
+                polygon_capacity: 0,
+                corners: corners.as_mut_ptr(),
+                corner_capacity: corners.capacity() as u32,
+            };
+            let result = find(self.at, &buffers, &mut path);
+            if !matches!(result, sys::TL_OK | sys::TL_NOT_FOUND | sys::TL_INCOMPLETE | sys::TL_NOT_LOADED) {
+                return Err(Error::new(result, None));
+            }
+            if path.corner_count as usize <= corners.capacity() {
+                // SAFETY: so many were written.
+                unsafe { corners.set_len(path.corner_count as usize) };
+                return Ok((result, path, corners));
+            }
+            corners.reserve(path.corner_count as usize);
+        }
     }
 }
 
@@ -253,26 +366,21 @@ pub struct Path {
 
 /// The state of searches over a navmesh.
 pub struct Query {
-    at: *mut sys::tl_nav_query,
+    search: Search,
     navmesh: Navmesh,
     /// Half extents of the box in which start and goal look for a polygon, metres.
     pub search_extents: Point,
-}
-
-// SAFETY: its memory is its own; it may move to another thread, and is not shared (`&mut self`).
-unsafe impl Send for Query {}
-
-impl Drop for Query {
-    fn drop(&mut self) {
-        // SAFETY: made by tl_nav_query_create, destroyed once.
-        unsafe { sys::tl_nav_query_destroy(self.at) }
-    }
 }
 
 impl Query {
     /// The navmesh that is searched.
     pub fn navmesh(&self) -> &Navmesh {
         &self.navmesh
+    }
+
+    /// Goes on to another navmesh, such as a newer version ([`NavVersions`](crate::NavVersions)), with the same memory.
+    pub fn set_navmesh(&mut self, navmesh: Navmesh) {
+        self.navmesh = navmesh;
     }
 
     fn locate(&self, point: Point) -> Result<Option<sys::tl_nav_location>, Error> {
@@ -296,39 +404,19 @@ impl Query {
             return Ok(None);
         };
         let request = sys::tl_nav_path_request { filter: null(), start, goal };
-        let mut corners: Vec<sys::tl_nav_corner> = Vec::with_capacity(64);
-        loop {
-            // SAFETY: the buffer has room for its capacity; so many of its entries are filled as the count says.
-            let (result, path) = unsafe {
-                let buffers = sys::tl_nav_path_buffers {
-                    polygons: null_mut(),
-                    polygon_capacity: 0,
-                    corners: corners.as_mut_ptr(),
-                    corner_capacity: corners.capacity() as u32,
-                };
-                let mut path: sys::tl_nav_shortest_path = std::mem::zeroed();
-                let result =
-                    sys::tl_nav_query_find_shortest_path(self.at, self.navmesh.raw(), &request, &buffers, &mut path);
-                if result == sys::TL_OK {
-                    corners.set_len(path.corner_count as usize);
-                }
-                (result, path)
-            };
-            match result {
-                sys::TL_INCOMPLETE => corners.reserve(path.corner_count as usize),
-                sys::TL_OK if path.status == sys::TL_NAV_PATH_COMPLETE => {
-                    return Ok(Some(Path {
-                        points: corners.iter().map(|corner| point_of(corner.point)).collect(),
-                        length: path.length,
-                        lower_bound: path.lower_bound,
-                    }));
-                }
-                sys::TL_OK if path.status == sys::TL_NAV_PATH_OUT_OF_NODES => {
-                    return Err(Error::new(sys::TL_ERR_NODES, None))
-                }
-                sys::TL_OK | sys::TL_NOT_FOUND => return Ok(None),
-                _ => return Err(Error::new(result, None)),
-            }
+        let navmesh = self.navmesh.raw();
+        let (_, path, corners) = self.search.corners(|query, buffers, path| {
+            // SAFETY: query, navmesh and buffers are whole, and the output is valid.
+            unsafe { sys::tl_nav_query_find_shortest_path(query, navmesh, &request, buffers, path) }
+        })?;
+        match path.status {
+            sys::TL_NAV_PATH_COMPLETE => Ok(Some(Path {
+                points: corners.iter().map(|corner| point_of(corner.point)).collect(),
+                length: path.length,
+                lower_bound: path.lower_bound,
+            })),
+            sys::TL_NAV_PATH_OUT_OF_NODES => Err(Error::new(sys::TL_ERR_NODES, None)),
+            _ => Ok(None),
         }
     }
 }
