@@ -421,13 +421,14 @@ static tl_exit draw_job(tl_cli *cli, const draw_settings *settings)
     return draw_world(cli, job, &options);
 }
 
-// The one stage that a large world can be drawn of tile by tile, or -1: what is asked for needs all of it in memory.
-static int streamed_stage(const tl_cli *cli, const draw_settings *settings)
+// A large world tile by tile, unless what is asked for needs all of it in memory. False: nothing was drawn.
+static bool draw_large_world(tl_cli *cli, const draw_settings *settings, tl_exit *exit_out)
 {
     const int stage = settings->stages[STAGE_NAVMESH] ? STAGE_NAVMESH : STAGE_POLYGONS;
     const bool fits = settings->stage_count == 1 && settings->stages[stage] && settings->view != 2 &&
                       !settings->overview && !settings->has_ends;
-    return fits && tl_is_large_ground(cli->arguments.words[0]) ? stage : -1;
+    return fits && tl_draw_large_ground(cli, cli->arguments.words[0], STAGE_NAMES[stage], settings->output,
+                                        settings->size, exit_out);
 }
 
 static tl_exit run_draw(tl_cli *cli)
@@ -477,11 +478,7 @@ static tl_exit run_draw(tl_cli *cli)
     if (settings.output == NULL) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "say where to write with -o FILE.png");
     }
-    const int streamed = streamed_stage(cli, &settings);
-    if (streamed >= 0) {
-        return tl_draw_ground(cli, cli->arguments.words[0], STAGE_NAMES[streamed], settings.output, settings.size);
-    }
-    return draw_stages(cli, cli->arguments.words[0], &settings);
+    return draw_large_world(cli, &settings, &code) ? code : draw_stages(cli, cli->arguments.words[0], &settings);
 }
 
 const tl_command tl_draw_command = {

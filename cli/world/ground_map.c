@@ -155,6 +155,9 @@ tl_result tl_ground_map_paint(tl_ground_map *map, uint32_t size, const tl_progre
 {
     enum { STEP = 256 };
     const double longest = fmax(map->high[0] - map->low[0], map->high[1] - map->low[1]);
+    if (!(longest > 0.0)) {
+        return tl_io_fail(error_out, TL_ERR_EMPTY, map->reader->path, 0, "", "there is no ground to draw");
+    }
     map->pixels_per_metre = (double)size / longest;
     map->width = (uint32_t)fmax(1.0, ceil((map->high[0] - map->low[0]) * map->pixels_per_metre));
     map->height = (uint32_t)fmax(1.0, ceil((map->high[1] - map->low[1]) * map->pixels_per_metre));

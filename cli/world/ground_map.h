@@ -30,8 +30,9 @@ typedef struct tl_ground_map {
 /// or they are not sound), TL_ERR_MEMORY, and what reading returns. Close it in any case.
 tl_result tl_ground_map_open(tl_world_reader *reader, const tl_pack_index *index, tl_ground_map *map_out,
                              tl_io_error *error_out);
-/// Paints what lies between `low` and `high`, `size` pixels along the longer side. TL_ERR_CORRUPT (a tile that is not
-/// sound), TL_ERR_CANCELLED, TL_ERR_MEMORY, and what reading returns. `progress` may be NULL.
+/// Paints what lies between `low` and `high`, `size` pixels along the longer side. TL_ERR_EMPTY (nothing does),
+/// TL_ERR_CORRUPT (a tile that is not sound), TL_ERR_CANCELLED, TL_ERR_MEMORY, and what reading returns. `progress` may
+/// be NULL.
 tl_result tl_ground_map_paint(tl_ground_map *map, uint32_t size, const tl_progress *progress, tl_io_error *error_out);
 void tl_ground_map_close(tl_ground_map *map);
 

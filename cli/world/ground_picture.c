@@ -12,20 +12,13 @@
 
 enum { GROUND_WORDS = 128 };
 
-bool tl_is_large_ground(const char *path)
+static bool is_large_ground(const tl_pack_index *index)
 {
-    tl_world_reader reader;
-    if (!tl_input_is_baked(path) || tl_world_reader_open(path, &reader, NULL) != TL_OK) {
-        return false;
-    }
     uint32_t tiles = 0, soups = 0;
-    if (tl_world_reader_index(&reader, NULL) == TL_OK) {
-        for (uint32_t i = 0; i < reader.index.count; i++) {
-            tiles += reader.index.entries[i].type == TL_PACK_NAVT;
-            soups += reader.index.entries[i].type == TL_PACK_SOUP;
-        }
+    for (uint32_t i = 0; i < index->count; i++) {
+        tiles += index->entries[i].type == TL_PACK_NAVT;
+        soups += index->entries[i].type == TL_PACK_SOUP;
     }
-    tl_world_reader_close(&reader);
     return tiles > TL_GROUND_LEAST_TILES && soups == 0;
 }
 
@@ -79,25 +72,32 @@ static tl_exit answer_ground(tl_cli *cli, const tl_ground_map *map, const char *
     return TL_EXIT_OK;
 }
 
-tl_exit tl_draw_ground(tl_cli *cli, const char *path, const char *stage, const char *output, uint32_t size)
+static tl_exit draw_ground(tl_cli *cli, tl_world_reader *reader, const char *stage, const char *output, uint32_t size)
 {
-    tl_world_reader reader;
     tl_ground_map map;
     tl_io_error error;
-    memset(&map, 0, sizeof map);
     memset(&error, 0, sizeof error);
-    tl_result result = tl_world_reader_open(path, &reader, &error);
-    if (result == TL_OK) {
-        result = tl_world_reader_index(&reader, &error);
-    }
-    if (result == TL_OK) {
-        result = tl_ground_map_open(&reader, &reader.index, &map, &error);
-    }
+    tl_result result = tl_ground_map_open(reader, &reader->index, &map, &error);
     if (result == TL_OK) {
         result = draw_map(cli, &map, output, size, &error);
     }
     const tl_exit code = result == TL_OK ? answer_ground(cli, &map, stage, output) : tl_cli_fail_io(cli, &error);
     tl_ground_map_close(&map);
-    tl_world_reader_close(&reader);
     return code;
+}
+
+// A file that cannot be opened is left to those who draw all others, and say why.
+bool tl_draw_large_ground(tl_cli *cli, const char *path, const char *stage, const char *output, uint32_t size,
+                          tl_exit *exit_out)
+{
+    tl_world_reader reader;
+    if (!tl_input_is_baked(path) || tl_world_reader_open(path, &reader, NULL) != TL_OK) {
+        return false;
+    }
+    const bool large = tl_world_reader_index(&reader, NULL) == TL_OK && is_large_ground(&reader.index);
+    if (large) {
+        *exit_out = draw_ground(cli, &reader, stage, output, size);
+    }
+    tl_world_reader_close(&reader);
+    return large;
 }

@@ -10,10 +10,9 @@
 /// Files of more tiles than this are drawn tile by tile; smaller ones in memory, from all sides.
 enum { TL_GROUND_LEAST_TILES = 2048 };
 
-/// Whether a file is a sound one of so many tiles, without triangles.
-bool tl_is_large_ground(const char *path);
-
-/// Draws it, `size` pixels along the longer side. `stage` is what the answer calls it.
-tl_exit tl_draw_ground(tl_cli *cli, const char *path, const char *stage, const char *output, uint32_t size);
+/// Draws a file of so many tiles and no triangles, `size` pixels along the longer side. `stage` is what the answer
+/// calls it. False: it is another file, and nothing was done.
+bool tl_draw_large_ground(tl_cli *cli, const char *path, const char *stage, const char *output, uint32_t size,
+                          tl_exit *exit_out);
 
 #endif
