@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <talus/base.h>
+#include <talus/talus.h> // not a header of it: the amalgamation has this one alone
 
 /// Zeroed: empty. Freed with free(bytes).
 typedef struct memory_file {
