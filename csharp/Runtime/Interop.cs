@@ -2618,6 +2618,28 @@ namespace Talus.Interop
         public uint made_tile_count;
     }
 
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_scene_versions
+    {
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_scene_version
+    {
+        public tl_scene* scene;
+        public tl_scene_instance* instances;
+        public uint count;
+        public ulong number;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_scene_versions_state
+    {
+        public uint version_count;
+        public ulong newest;
+        public ulong oldest;
+    }
+
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void tl_task_fn(uint a0, uint a1, void* a2);
 
@@ -3424,5 +3446,17 @@ namespace Talus.Interop
         public static extern tl_result tl_nav_query_find_wide_place(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_around_request* request, float agent_radius, tl_nav_location* place_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_nav_query_path_clearance(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_filter* filter, tl_nav_corner* corners, uint count, float max_distance, float* clearance_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scene_versions_create(tl_scene_instance* instances, uint count, tl_allocator* allocator, tl_scene_versions** versions_out, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_scene_versions_destroy(tl_scene_versions* versions);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_scene_version* tl_scene_versions_acquire(tl_scene_versions* versions);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_scene_versions_release(tl_scene_versions* versions, tl_scene_version* version);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scene_versions_publish(tl_scene_versions* versions, tl_scene_instance* instances, uint count, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scene_versions_reclaim(tl_scene_versions* versions, tl_scene_versions_state* state_out);
     }
 }

@@ -1450,5 +1450,14 @@ static unsafe class Layout
         Test.Equal(56, (byte*)&((tl_nav_wide_report*)at)->wall_count - at, "tl_nav_wide_report.wall_count");
         Test.Equal(64, (byte*)&((tl_nav_wide_report*)at)->tile_count - at, "tl_nav_wide_report.tile_count");
         Test.Equal(68, (byte*)&((tl_nav_wide_report*)at)->made_tile_count - at, "tl_nav_wide_report.made_tile_count");
+        Test.Equal(32, sizeof(tl_scene_version), "tl_scene_version");
+        Test.Equal(0, (byte*)&((tl_scene_version*)at)->scene - at, "tl_scene_version.scene");
+        Test.Equal(8, (byte*)&((tl_scene_version*)at)->instances - at, "tl_scene_version.instances");
+        Test.Equal(16, (byte*)&((tl_scene_version*)at)->count - at, "tl_scene_version.count");
+        Test.Equal(24, (byte*)&((tl_scene_version*)at)->number - at, "tl_scene_version.number");
+        Test.Equal(24, sizeof(tl_scene_versions_state), "tl_scene_versions_state");
+        Test.Equal(0, (byte*)&((tl_scene_versions_state*)at)->version_count - at, "tl_scene_versions_state.version_count");
+        Test.Equal(8, (byte*)&((tl_scene_versions_state*)at)->newest - at, "tl_scene_versions_state.newest");
+        Test.Equal(16, (byte*)&((tl_scene_versions_state*)at)->oldest - at, "tl_scene_versions_state.oldest");
     }
 }

@@ -2291,6 +2291,25 @@ pub struct tl_nav_wide_report {
     pub tile_count: u32,
     pub made_tile_count: u32,
 }
+#[repr(C)]
+pub struct tl_scene_versions {
+    _private: [u8; 0],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_version {
+    pub scene: *const tl_scene,
+    pub instances: *const tl_scene_instance,
+    pub count: u32,
+    pub number: u64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_versions_state {
+    pub version_count: u32,
+    pub newest: u64,
+    pub oldest: u64,
+}
 extern "C" {
     pub fn tl_result_name(result: tl_result) -> *const c_char;
     pub fn tl_result_text(result: tl_result) -> *const c_char;
@@ -3993,6 +4012,29 @@ extern "C" {
         max_distance: f32,
         clearance_out: *mut f32,
     ) -> tl_result;
+    pub fn tl_scene_versions_create(
+        instances: *const tl_scene_instance,
+        count: u32,
+        allocator: *const tl_allocator,
+        versions_out: *mut *mut tl_scene_versions,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_scene_versions_destroy(versions: *mut tl_scene_versions);
+    pub fn tl_scene_versions_acquire(versions: *mut tl_scene_versions) -> *const tl_scene_version;
+    pub fn tl_scene_versions_release(
+        versions: *mut tl_scene_versions,
+        version: *const tl_scene_version,
+    );
+    pub fn tl_scene_versions_publish(
+        versions: *mut tl_scene_versions,
+        instances: *const tl_scene_instance,
+        count: u32,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_scene_versions_reclaim(
+        versions: *mut tl_scene_versions,
+        state_out: *mut tl_scene_versions_state,
+    ) -> tl_result;
 }
 
 #[cfg(all(test, target_pointer_width = "64"))]
@@ -5658,5 +5700,17 @@ mod layout {
             core::mem::offset_of!(tl_nav_wide_report, made_tile_count),
             68
         );
+        assert_eq!(core::mem::size_of::<tl_scene_version>(), 32);
+        assert_eq!(core::mem::offset_of!(tl_scene_version, scene), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_version, instances), 8);
+        assert_eq!(core::mem::offset_of!(tl_scene_version, count), 16);
+        assert_eq!(core::mem::offset_of!(tl_scene_version, number), 24);
+        assert_eq!(core::mem::size_of::<tl_scene_versions_state>(), 24);
+        assert_eq!(
+            core::mem::offset_of!(tl_scene_versions_state, version_count),
+            0
+        );
+        assert_eq!(core::mem::offset_of!(tl_scene_versions_state, newest), 8);
+        assert_eq!(core::mem::offset_of!(tl_scene_versions_state, oldest), 16);
     }
 }

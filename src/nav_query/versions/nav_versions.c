@@ -5,12 +5,10 @@
 // Counts of references, not epochs: a reader may hold a version for a search that is sliced over many frames. An epoch
 // would keep all that died since; a count for each version keeps what that version has, and no more. A reader is no
 // object to be registered, and what it holds may travel to another thread, as jobs do.
-// The count is split in two, so that one addition enters: the door holds the newest version's index and how many have
-// entered it; a version counts who has left. Publishing exchanges the door, which tells how many entered the version
-// before for good. It is free when as many have left. Nobody retries: entering and leaving are wait-free.
-// Looked at: hazard pointers and per-reader epochs (an announcement needs a fence that costs as much as the addition,
-// and readers that are registered); left-right (the writer waits for readers, each edit is made twice, and all derived
-// data, as large as the tiles, is there twice).
+// The count is split in two, so that one addition enters (base/version_door.h). Nobody retries: entering and leaving
+// are wait-free. Looked at: hazard pointers and per-reader epochs (an announcement needs a fence that costs as much as
+// the addition, and readers that are registered); left-right (the writer waits for readers, each edit is made twice,
+// and all derived data, as large as the tiles, is there twice).
 //
 // What died in a version is freed like a file system's snapshots: a version's list holds the blocks that it has and the
 // next newer version that is there has not. When it goes, blocks born after the version before it have no holder left;
@@ -24,15 +22,14 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/exact_floats.h"
+#include "base/version_door.h"
 #include "nav_query/versions/catch_up.h"
 
-#include <stdatomic.h>
 #include <string.h>
 #include <talus/nav_versions.h>
 
-// The door: a version's index in the upper bits, who entered in the lower ones. 2^54 entries at 20 million a second
-// take 28 years without a version being published.
-enum { DOOR_COUNT_BITS = 54, CACHE_LINE = 64, SPARE_VERSIONS = 2 };
+enum { SPARE_VERSIONS = 2 };
+static_assert(TL_NAV_MAX_VERSIONS <= TL_DOOR_MAX_VERSIONS, "indices fit the door");
 
 typedef struct nav_version {
     tl_navmesh navmesh; // first: a reader's pointer is the version's
@@ -42,15 +39,11 @@ typedef struct nav_version {
     struct nav_version *older, *newer;
     uint32_t index;
     bool is_there; // newest, or older and held
-    char before[CACHE_LINE];
-    atomic_uint_least64_t left; // readers, in a cache line of its own
-    char behind[CACHE_LINE];
+    tl_version_leavers leavers;
 } nav_version;
 
 struct tl_nav_versions {
-    char before[CACHE_LINE];
-    atomic_uint_least64_t door;
-    char behind[CACHE_LINE];
+    tl_version_door door;
     nav_version *versions[TL_NAV_MAX_VERSIONS]; // by index
     uint32_t count;                             // of them
     uint32_t there_count;
@@ -58,19 +51,13 @@ struct tl_nav_versions {
     tl_nav_history history;
 };
 
-static uint64_t door_to(const nav_version *version)
-{
-    return (uint64_t)version->index << DOOR_COUNT_BITS;
-}
-
 // ---------------------------------------------------------------------------------------------------------
 // Readers.
 
 const tl_navmesh *tl_nav_versions_acquire(tl_nav_versions *versions)
 {
     TL_ASSERT(versions != NULL);
-    const uint64_t door = atomic_fetch_add_explicit(&versions->door, 1, memory_order_acquire);
-    return &versions->versions[door >> DOOR_COUNT_BITS]->navmesh;
+    return &versions->versions[tl_version_enter(&versions->door)]->navmesh;
 }
 
 void tl_nav_versions_release(tl_nav_versions *versions, const tl_navmesh *navmesh)
@@ -82,7 +69,7 @@ void tl_nav_versions_release(tl_nav_versions *versions, const tl_navmesh *navmes
             const tl_navmesh *read;
             nav_version *write;
         } version = { navmesh };
-        (void)atomic_fetch_add_explicit(&version.write->left, 1, memory_order_release);
+        tl_version_leave(&version.write->leavers);
     }
 }
 
@@ -100,9 +87,7 @@ static nav_version *new_version(tl_nav_versions *versions)
         version->older = version->newer = NULL;
         version->index = versions->count;
         version->is_there = false;
-        memset(version->before, 0, sizeof version->before);
-        memset(version->behind, 0, sizeof version->behind);
-        atomic_init(&version->left, 0);
+        tl_version_leavers_init(&version->leavers);
         versions->versions[versions->count++] = version;
     }
     return version;
@@ -176,7 +161,7 @@ static void reclaim(tl_nav_versions *versions)
     nav_version *version = versions->oldest;
     while (version != versions->newest) {
         nav_version *newer = version->newer;
-        if (atomic_load_explicit(&version->left, memory_order_acquire) == version->entered) {
+        if (tl_version_left(&version->leavers) == version->entered) {
             let_go(versions, version);
         }
         version = newer;
@@ -188,17 +173,16 @@ static void reclaim(tl_nav_versions *versions)
 static void open_door(tl_nav_versions *versions, nav_version *version)
 {
     nav_version *before = versions->newest;
-    atomic_store_explicit(&version->left, 0, memory_order_relaxed);
     version->entered = 0;
     version->is_there = true;
     version->older = before;
     versions->newest = version;
     versions->there_count++;
     versions->history.draft = version->number + 1;
-    const uint64_t door = atomic_exchange_explicit(&versions->door, door_to(version), memory_order_acq_rel);
+    const uint64_t entered = tl_version_open(&versions->door, version->index, &version->leavers);
     if (before != NULL) {
         before->newer = version;
-        before->entered = door & (((uint64_t)1 << DOOR_COUNT_BITS) - 1);
+        before->entered = entered;
         before->dead = versions->history.dying;
         versions->history.dying = NULL;
     } else {
@@ -216,14 +200,12 @@ tl_result tl_nav_versions_create(const tl_allocator *allocator, tl_nav_versions 
     if (versions == NULL) {
         return TL_ERR_MEMORY;
     }
-    memset(versions->before, 0, sizeof versions->before);
-    memset(versions->behind, 0, sizeof versions->behind);
     memset(versions->versions, 0, sizeof versions->versions);
     memset(&versions->history, 0, sizeof versions->history);
     versions->count = versions->there_count = 0;
     versions->newest = versions->oldest = versions->draft = NULL;
     versions->history.host = tl_allocator_or_default(allocator);
-    atomic_init(&versions->door, 0);
+    tl_version_door_init(&versions->door);
     nav_version *first = new_version(versions);
     if (first == NULL) {
         tl_release_array(allocator, versions, 1, sizeof *versions);
@@ -245,8 +227,7 @@ void tl_nav_versions_destroy(tl_nav_versions *versions)
         return;
     }
     tl_nav_history *history = &versions->history;
-    const uint64_t door = atomic_load_explicit(&versions->door, memory_order_acquire);
-    versions->newest->entered = door & (((uint64_t)1 << DOOR_COUNT_BITS) - 1);
+    versions->newest->entered = tl_version_entered(&versions->door);
     // What is alive hangs on the draft, or on the newest version where there is none.
     nav_version *last = versions->draft != NULL ? versions->draft : versions->newest;
     free_dead(history, history->dying);
@@ -255,7 +236,7 @@ void tl_nav_versions_destroy(tl_nav_versions *versions)
     tl_nav_free_content(&last->navmesh);
     for (uint32_t i = 0; i < versions->count; i++) {
         nav_version *version = versions->versions[i];
-        TL_ASSERT(!version->is_there || atomic_load_explicit(&version->left, memory_order_acquire) == version->entered);
+        TL_ASSERT(!version->is_there || tl_version_left(&version->leavers) == version->entered);
         free_dead(history, version->dead);
         if (version != last) {
             tl_nav_free_arrays(history, &version->navmesh);
