@@ -3,8 +3,8 @@
 // The floors that obstacles have marked, in runs.
 //
 // A tile's bytes follow from its floors and from what is marked of them. So where an obstacle moves under a roof or
-// inside a wall, or only its box reaches a tile, nothing has to be baked: a quarter of the tiles of 64 cells that edits
-// of a city touch, four of ten of 32. Rejected: a hash of the marks, which may say "the same" of others.
+// inside a wall, or only its box reaches a tile, nothing has to be baked: a fifth of the tiles of 64 cells that edits
+// of a city reach, a third of 32. Rejected: a hash of the marks, which may say "the same" of others.
 
 #include "nav_obstacles/tile_marks.h"
 

@@ -184,7 +184,7 @@ void tl_distance_stages_free(tl_distance_stages *stages, uint32_t span_count, co
     memset(stages, 0, sizeof *stages);
 }
 
-// Bytes instead, which take over from `wide`. TL_ERR_MEMORY: nothing has changed.
+// Keeps a byte a value instead of two, for values that fit. TL_ERR_MEMORY: nothing has changed.
 static tl_result narrow_stages(tl_distance_stages *stages, uint32_t span_count, const tl_allocator *allocator)
 {
     const uint64_t count = 3 * (uint64_t)span_count;
