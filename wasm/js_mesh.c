@@ -89,6 +89,26 @@ void TL_JS_EXPORT(js_clear_input)(void)
     memset(&tl_js_input, 0, sizeof tl_js_input);
 }
 
+// One comparison an axis and side: this is seen beside the bake of a small level with many triangles.
+tl_aabb tl_js_input_bounds(void)
+{
+    const tl_mesh_view *mesh = &tl_js_input.mesh;
+    tl_aabb box = tl_aabb_empty();
+    for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++) {
+        if (mesh->indices[i] >= mesh->vertex_count) {
+            continue; // the bake refuses it by name
+        }
+        const tl_vec3 *p = &mesh->vertices[mesh->indices[i]];
+        box.min.x = p->x < box.min.x ? p->x : box.min.x;
+        box.min.y = p->y < box.min.y ? p->y : box.min.y;
+        box.min.z = p->z < box.min.z ? p->z : box.min.z;
+        box.max.x = p->x > box.max.x ? p->x : box.max.x;
+        box.max.y = p->y > box.max.y ? p->y : box.max.y;
+        box.max.z = p->z > box.max.z ? p->z : box.max.z;
+    }
+    return box;
+}
+
 // ---------------------------------------------------------------------------------------------------------
 // Options of a navmesh.
 

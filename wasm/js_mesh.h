@@ -19,4 +19,7 @@ uint32_t tl_js_put_nav_def(uint32_t at, const tl_nav_def *def);
 /// TL_OK where there are none. One block: free() frees it.
 tl_nav_volume *tl_js_volumes(const double *numbers, uint32_t count, tl_result *result_out);
 
+/// The bounds of the input's level, as tl_nav_bake takes them: of the vertices that triangles use.
+tl_aabb tl_js_input_bounds(void);
+
 #endif

@@ -67,21 +67,6 @@ void TL_JS_EXPORT(js_navmesh_set_nodes)(tl_js_navmesh *self, uint32_t max_nodes)
 // ---------------------------------------------------------------------------------------------------------
 // Baking.
 
-// Where the def leaves the bounds to the mesh: those of the vertices that triangles use.
-static void settle_bounds(tl_nav_def *def)
-{
-    if (!tl_aabb_is_empty(def->bounds)) {
-        return;
-    }
-    const tl_mesh_view *mesh = &tl_js_input.mesh;
-    def->bounds = tl_aabb_empty();
-    for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++) {
-        if (mesh->indices[i] < mesh->vertex_count) {
-            def->bounds = tl_aabb_add_point(def->bounds, mesh->vertices[mesh->indices[i]]);
-        }
-    }
-}
-
 double tl_js_pruned_area(const tl_js_navmesh *self)
 {
     return self->pruning != NULL ? self->pruning->min_area : 0.0;
@@ -179,7 +164,9 @@ tl_js_navmesh *TL_JS_FULL_EXPORT(js_navmesh_bake)(uint32_t prune_at, int32_t obs
         return NULL;
     }
     self->def = tl_js_nav_def(0);
-    settle_bounds(&self->def);
+    if (tl_aabb_is_empty(self->def.bounds)) {
+        self->def.bounds = tl_js_input_bounds();
+    }
     const tl_result result = obstacles ? bake_with_obstacles(self) : bake_tiles(self, prune_at);
     tl_js_put(0, result);
     if (result != TL_OK) {

@@ -11,16 +11,8 @@ static tl_nav_stages stages;
 
 static tl_result begin_config(uint32_t tile_x, uint32_t tile_z)
 {
-    // The level's bounds, as tl_nav_bake takes them: of the vertices that triangles use.
-    tl_nav_def def = tl_js_nav_def(0);
-    tl_aabb bounds = tl_aabb_empty();
-    const tl_mesh_view *mesh = &tl_js_input.mesh;
-    for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++) {
-        if (mesh->indices[i] < mesh->vertex_count) {
-            bounds = tl_aabb_add_point(bounds, mesh->vertices[mesh->indices[i]]);
-        }
-    }
-    return tl_nav_config_from_def(&def, bounds, tile_x, tile_z, &stage_config, &tl_js_report);
+    const tl_nav_def def = tl_js_nav_def(0);
+    return tl_nav_config_from_def(&def, tl_js_input_bounds(), tile_x, tile_z, &stage_config, &tl_js_report);
 }
 
 static uint32_t put_grid(uint32_t width, uint32_t height, tl_aabb bounds)
