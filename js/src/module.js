@@ -138,7 +138,7 @@ export function init(options = {}) {
 export const isReady = () => wasm !== null;
 export const hasSimd = () => wasm !== null && simdLoaded;
 
-const hasBakesIn = (exports) => Object.hasOwn(exports, 'js_navmesh_bake');
+const hasBakesIn = (exports) => 'js_navmesh_bake' in exports;
 export const hasBakes = () => wasm !== null && hasBakesIn(wasm);
 
 export function version() {
