@@ -219,7 +219,7 @@ static inline oracle_polygons oracle_merge(const oracle_point *p, const uint32_t
         uint32_t best_a = 0, best_b = 0, best_edge_a = 0, best_edge_b = 0;
         for (uint32_t a = 0; a < r.count; a++) {
             for (uint32_t b = a + 1; b < r.count; b++) {
-                uint32_t edge_a, edge_b;
+                uint32_t edge_a = 0, edge_b = 0;
                 int64_t value = oracle_merge_value(p, &r, a, b, max_corners, &edge_a, &edge_b);
                 if (value > best) {
                     best = value;
