@@ -63,11 +63,65 @@ static uint32_t random_segments(test_random *random, uint32_t side, tl_lattice_p
     return count;
 }
 
+// The segment that crosses the line just before a point, in the sweep's order, next below it; by rational heights.
+static uint32_t brute_below(const tl_lattice_point *points, const tl_lattice_segment *segments, uint32_t count,
+                            uint32_t point)
+{
+    uint32_t next = TL_NO_SEGMENT;
+    tl_lattice_segment best = { 0, 0 };
+    for (uint32_t i = 0; i < count; i++) {
+        const bool forward = tl_is_swept_first(points[segments[i].a], points[segments[i].b]);
+        const tl_lattice_segment e = { forward ? segments[i].a : segments[i].b,
+                                       forward ? segments[i].b : segments[i].a };
+        if (!tl_is_swept_first(points[e.a], points[point]) || !tl_is_swept_first(points[point], points[e.b]) ||
+            tl_turn(points[e.a], points[e.b], points[point]) < 0) {
+            continue;
+        }
+        // Both are below the point and apart: the one that begins later lies on one side of the other.
+        const bool later = next == TL_NO_SEGMENT || !tl_is_swept_first(points[best.a], points[e.a]);
+        int64_t side = 1;
+        if (next != TL_NO_SEGMENT && best.a == e.a) {
+            side = tl_turn(points[best.a], points[best.b], points[e.b]);
+        } else if (next != TL_NO_SEGMENT) {
+            side = later ? -tl_turn(points[e.a], points[e.b], points[best.a])
+                         : tl_turn(points[best.a], points[best.b], points[e.a]);
+        }
+        if (side > 0) {
+            next = i;
+            best = e;
+        }
+    }
+    return next;
+}
+
+static uint32_t check_record(const tl_sweep_record *record, const tl_lattice_point *points, uint32_t point_count,
+                             const tl_lattice_segment *segments, uint32_t count)
+{
+    uint32_t located = 0;
+    for (uint32_t i = 0; i < point_count; i++) {
+        const uint32_t p = record->order[i];
+        TEST_CHECK(i == 0 || tl_is_swept_first(points[record->order[i - 1]], points[p]));
+        bool begins = false, ends = false;
+        for (uint32_t k = 0; k < count; k++) {
+            if (segments[k].a == p || segments[k].b == p) {
+                const uint32_t other = segments[k].a == p ? segments[k].b : segments[k].a;
+                begins = begins || tl_is_swept_first(points[p], points[other]);
+                ends = ends || tl_is_swept_first(points[other], points[p]);
+            }
+        }
+        if (begins && !ends) {
+            TEST_CHECK(record->below[p] == brute_below(points, segments, count, p));
+            located += record->below[p] != TL_NO_SEGMENT;
+        }
+    }
+    return located;
+}
+
 static void finds_any_contact(void **state)
 {
     (void)state;
     test_random random = { 41 };
-    uint32_t apart = 0, touching = 0, large = 0;
+    uint32_t apart = 0, touching = 0, large = 0, located = 0;
     for (uint32_t round = 0; round < 20000; round++) {
         tl_lattice_point points[MAX_POINTS];
         tl_lattice_segment segments[MAX_SEGMENTS];
@@ -79,14 +133,17 @@ static void finds_any_contact(void **state)
         tl_arena arena;
         tl_arena_init(&arena, NULL);
         bool result = false;
-        TEST_RESULT(tl_sweep_segments(&arena, points, point_count, segments, count, &result), TL_OK);
+        tl_sweep_record record;
+        TEST_CHECK(tl_sweep_record_init(&record, &arena, point_count));
+        TEST_RESULT(tl_sweep_segments(&arena, points, point_count, segments, count, &record, &result), TL_OK);
         TEST_CHECK(result == brute_apart(points, segments, count));
         apart += result && count > 2;
         touching += !result;
         large += result && count > 15;
+        located += result ? check_record(&record, points, point_count, segments, count) : 0;
         tl_arena_free(&arena);
     }
-    TEST_CHECK(apart > 2000 && touching > 5000 && large > 30);
+    TEST_CHECK(apart > 2000 && touching > 5000 && large > 30 && located > 1000);
 }
 
 int main(void)

@@ -466,7 +466,7 @@ tl_result tl_outline_split_contacts(tl_arena *arena, tl_outline_nodes *nodes, tl
         TL_TRY(gather_segments(&s, *edges, *count));
         bool apart = false;
         if (s.segment_count >= SMALLEST_SWEEP) {
-            TL_TRY(tl_sweep_segments(arena, nodes->points, nodes->count, s.segments, s.segment_count, &apart));
+            TL_TRY(tl_sweep_segments(arena, nodes->points, nodes->count, s.segments, s.segment_count, NULL, &apart));
         }
         if (!apart) {
             TL_TRY(test_all_pairs(&s));

@@ -75,10 +75,14 @@ static bool is_plain_by_pairs(const tl_lattice_point *points, uint32_t count)
     return true;
 }
 
-static tl_result is_plain_by_sweep(tl_arena *scratch, const tl_lattice_point *points, uint32_t count, bool *is_plain)
+static tl_result is_plain_by_sweep(tl_arena *arena, const tl_lattice_point *points, uint32_t count,
+                                   tl_sweep_record *record, bool *is_plain)
 {
-    tl_arena_mark mark = tl_arena_get_mark(scratch);
-    tl_lattice_segment *segments = TL_PUSH(scratch, tl_lattice_segment, count);
+    if (!tl_sweep_record_init(record, arena, count)) {
+        return TL_ERR_MEMORY;
+    }
+    const tl_arena_mark mark = tl_arena_get_mark(arena);
+    tl_lattice_segment *segments = TL_PUSH(arena, tl_lattice_segment, count);
     if (segments == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -86,15 +90,18 @@ static tl_result is_plain_by_sweep(tl_arena *scratch, const tl_lattice_point *po
         segments[i].a = i;
         segments[i].b = i + 1 < count ? i + 1 : 0;
     }
-    TL_TRY(tl_sweep_segments(scratch, points, count, segments, count, is_plain));
-    tl_arena_rollback(scratch, mark);
+    TL_TRY(tl_sweep_segments(arena, points, count, segments, count, record, is_plain));
+    tl_arena_rollback(arena, mark);
     return TL_OK;
 }
 
-static tl_result is_plain_outline(tl_arena *scratch, const tl_lattice_point *points, uint32_t count, bool *plain_out)
+static tl_result is_plain_outline(tl_arena *arena, tl_outline *outline, bool *plain_out)
 {
-    if (count > MAX_PAIRED_VERTICES) {
-        return is_plain_by_sweep(scratch, points, count, plain_out);
+    const tl_lattice_point *points = outline->nodes.points;
+    const uint32_t count = outline->nodes.count;
+    outline->is_swept = count > MAX_PAIRED_VERTICES;
+    if (outline->is_swept) {
+        return is_plain_by_sweep(arena, points, count, &outline->sweep, plain_out);
     }
     *plain_out = is_plain_by_pairs(points, count);
     return TL_OK;
@@ -264,7 +271,7 @@ tl_result tl_outline_prepare(tl_arena *arena, const tl_contour_vertex *vertices,
     }
     bool plain = false;
     if (outline_out->area2 > 0) {
-        TL_TRY(is_plain_outline(arena, nodes->points, count, &plain));
+        TL_TRY(is_plain_outline(arena, outline_out, &plain));
     }
     if (plain) {
         return keep_as_it_is(arena, outline_out);

@@ -7,6 +7,7 @@
 
 #include "base/arena.h"
 #include "polygon/outline/lattice_point.h"
+#include "polygon/outline/sweep.h"
 
 #include <talus/polygon.h>
 
@@ -28,7 +29,9 @@ typedef struct tl_outline {
     uint32_t *corners;    // nodes in order
     uint32_t *edges; // the contour's edge that leaves each corner, TL_NO_EDGE_OF_CONTOUR where it runs none that way
     bool is_plain;   // one walk, over all nodes in order
-    uint32_t faults; // TL_CONTOUR_FAULT_ bits
+    bool is_swept;   // a plain one of many nodes
+    tl_sweep_record sweep; // over its edges
+    uint32_t faults;       // TL_CONTOUR_FAULT_ bits
     uint32_t fault_vertex;
     int64_t area2; // of the contour as it came
 } tl_outline;

@@ -13,9 +13,27 @@ typedef struct tl_lattice_segment {
     uint32_t a, b;
 } tl_lattice_segment;
 
+#define TL_NO_SEGMENT UINT32_MAX
+
+/// What a sweep that finds no contact has seen, for those who go the same way again.
+typedef struct tl_sweep_record {
+    uint32_t *order; // [point] the points by rising x, then z
+    uint32_t *below; // [point] of points where segments only begin: the next segment below it, or TL_NO_SEGMENT
+} tl_sweep_record;
+
+/// Room for `point_count` points. False: out of memory.
+bool tl_sweep_record_init(tl_sweep_record *record, tl_arena *arena, uint32_t point_count);
+
 /// Whether all points lie at different places and no two segments share a point that is not an end of both. Each
-/// segment is there once. Memory comes from `arena`; TL_ERR_MEMORY is the only error.
+/// segment is there once. `record` may be NULL. Memory comes from `arena`; TL_ERR_MEMORY is the only error.
 tl_result tl_sweep_segments(tl_arena *arena, const tl_lattice_point *points, uint32_t point_count,
-                            const tl_lattice_segment *segments, uint32_t segment_count, bool *apart_out);
+                            const tl_lattice_segment *segments, uint32_t segment_count, tl_sweep_record *record,
+                            bool *apart_out);
+
+/// Whether the sweep passes a before b.
+static inline bool tl_is_swept_first(tl_lattice_point a, tl_lattice_point b)
+{
+    return a.x != b.x ? a.x < b.x : a.z < b.z;
+}
 
 #endif
