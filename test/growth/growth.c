@@ -128,6 +128,11 @@ static bool make_outline(level *l, const char *family, uint32_t n)
             const float turn = -6.2831853f * (float)i / (float)n, radius = i % 2 == 0 ? 500000.0f : 300000.0f;
             add_corner(l, radius * cosf(turn), radius * sinf(turn));
         }
+    } else if (strcmp(family, "spikes") == 0) {
+        for (uint32_t i = 0; i < n; i++) {
+            const float turn = -6.2831853f * (float)i / (float)n, radius = random_between(1e7f, 1e8f);
+            add_corner(l, radius * cosf(turn), radius * sinf(turn));
+        }
     } else if (strcmp(family, "spiral") == 0) {
         for (uint32_t i = 0; i < n / 2; i++) {
             const float turn = -40.0f * (float)i / (float)n, radius = 1000 + 900000.0f * (float)i / (float)n;

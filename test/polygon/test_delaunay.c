@@ -96,7 +96,8 @@ static uint32_t make(uint32_t n, uint32_t shift)
     }
     tl_arena arena;
     tl_arena_init(&arena, NULL);
-    TEST_RESULT(tl_triangulate(&arena, lattice, n, NULL, triangles, twins), TL_OK);
+    const tl_triangulate_input input = { lattice, n, NULL, NULL, TL_EARS_BY_SIZE };
+    TEST_RESULT(tl_triangulate(&arena, &input, triangles, twins), TL_OK);
     uint32_t before[3 * MAX_POINTS];
     memcpy(before, triangles, 3 * (n - 2) * sizeof *before);
     TEST_RESULT(tl_make_delaunay(&arena, lattice, triangles, twins, n - 2), TL_OK);

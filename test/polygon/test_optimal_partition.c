@@ -3,7 +3,7 @@
 #include "polygon/optimal/optimal_partition.h"
 
 #include "polygon/triangulate/triangulate.h"
-#include "polygon_shapes.h"
+#include "polygon_random_shapes.h"
 
 enum { MAX_POINTS = 128, MAX_EXHAUSTED = 12, MAX_CAP = 12 };
 
@@ -157,7 +157,8 @@ static uint32_t partition(uint32_t n, uint32_t max_corners, uint64_t max_steps)
     bool found;
     tl_visibility visibility;
     tl_convex_parts parts;
-    TEST_RESULT(tl_triangulate(&arena, lattice, n, NULL, triangles, twins), TL_OK);
+    const tl_triangulate_input input = { lattice, n, NULL, NULL, TL_EARS_BY_SIZE };
+    TEST_RESULT(tl_triangulate(&arena, &input, triangles, twins), TL_OK);
     const tl_triangulated_outline outline = { lattice, n, triangles, twins };
     TEST_RESULT(tl_find_visibility(&arena, &outline, UINT32_MAX, &visibility, &found), TL_OK);
     TEST_CHECK(found);
@@ -214,18 +215,6 @@ static void equals_exhaustion(void **state)
     TEST_CHECK(compared > 1500 && large > 200 && better > 100 && straight > 40);
 }
 
-// Corners all around at random distances: many see each other.
-static void random_star(test_random *random, uint32_t n, double least)
-{
-    const double turn = 6.283185307179586 / n;
-    for (uint32_t i = 0; i < n; i++) {
-        double radius = 1e6 * (least + (1.0 - least) * (double)test_random_unit(random));
-        points[i].x = (int64_t)(radius * cos(turn * i));
-        points[i].z = (int64_t)(radius * sin(turn * i));
-    }
-    shape_make_outer(points, n);
-}
-
 static void equals_the_plain_program(void **state)
 {
     (void)state;
@@ -237,10 +226,10 @@ static void equals_the_plain_program(void **state)
         switch (round % 4) {
         case 0: // the plain program is a check of the other oracle too
             n = 3 + n % (MAX_EXHAUSTED - 2);
-            random_star(&random, n, 0.2);
+            shape_random_star(&random, points, n, 1e6, 0.2);
             break;
         case 1:
-            random_star(&random, n, 0.1);
+            shape_random_star(&random, points, n, 1e6, 0.1);
             break;
         case 2:
             n = n % 48 + 3;
@@ -266,7 +255,7 @@ static void equals_the_plain_program(void **state)
     // The largest size promised, with the most chords.
     shape_star(points, MAX_POINTS, 1e8, 1e8);
     TEST_CHECK(partition(MAX_POINTS, 6, UINT64_MAX) == 32);
-    random_star(&random, MAX_POINTS, 0.9);
+    shape_random_star(&random, points, MAX_POINTS, 1e6, 0.9);
     TEST_CHECK(partition(MAX_POINTS, 6, UINT64_MAX) == fewest_by_plain_program(MAX_POINTS, 6));
 }
 

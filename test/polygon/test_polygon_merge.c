@@ -11,6 +11,12 @@ static oracle_point points[MAX_POINTS];
 static tl_lattice_point lattice[MAX_POINTS];
 static uint32_t triangles[3 * MAX_POINTS], twins[3 * MAX_POINTS];
 
+static void triangulate(tl_arena *arena, uint32_t n)
+{
+    const tl_triangulate_input input = { lattice, n, NULL, NULL, TL_EARS_BY_SIZE };
+    TEST_RESULT(tl_triangulate(arena, &input, triangles, twins), TL_OK);
+}
+
 // Triangulates, merges, compares with the plain form place by place. Returns the number of polygons.
 static uint32_t compare(uint32_t n, uint32_t max_corners)
 {
@@ -20,7 +26,7 @@ static uint32_t compare(uint32_t n, uint32_t max_corners)
     }
     tl_arena arena;
     tl_arena_init(&arena, NULL);
-    TEST_RESULT(tl_triangulate(&arena, lattice, n, NULL, triangles, twins), TL_OK);
+    triangulate(&arena, n);
     tl_convex_parts parts;
     const tl_merge_input input = { lattice, triangles, twins, n - 2, max_corners, NULL, NULL };
     TEST_RESULT(tl_merge_triangles(&arena, &input, &parts), TL_OK);

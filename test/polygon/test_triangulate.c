@@ -2,7 +2,7 @@
 
 #include "polygon/triangulate/triangulate.h"
 
-#include "polygon_shapes.h"
+#include "polygon_random_shapes.h"
 
 enum { MAX_POINTS = 512 };
 
@@ -14,7 +14,7 @@ typedef struct fixture {
 
 static fixture f;
 
-static tl_result run(uint32_t n)
+static tl_result run(uint32_t n, tl_ear_test ear_test)
 {
     for (uint32_t i = 0; i < n; i++) {
         f.lattice[i].x = (int32_t)f.points[i].x;
@@ -22,7 +22,8 @@ static tl_result run(uint32_t n)
     }
     tl_arena arena;
     tl_arena_init(&arena, NULL);
-    tl_result result = tl_triangulate(&arena, f.lattice, n, NULL, f.triangles, f.twins);
+    const tl_triangulate_input input = { f.lattice, n, NULL, NULL, ear_test };
+    tl_result result = tl_triangulate(&arena, &input, f.triangles, f.twins);
     tl_arena_free(&arena);
     return result;
 }
@@ -43,11 +44,13 @@ static void check_twins(uint32_t n)
     TEST_CHECK(open == n);
 }
 
-// The fast form against the plain one, triangle by triangle, in order.
+// The fast forms against the plain one, triangle by triangle, in order.
 static void compare(uint32_t n)
 {
-    TEST_RESULT(run(n), TL_OK);
     TEST_CHECK(oracle_triangulate(f.points, n, f.expected));
+    TEST_RESULT(run(n, TL_EARS_BY_MESH), TL_OK);
+    TEST_CHECK(memcmp(f.triangles, f.expected, 3 * (n - 2) * sizeof(uint32_t)) == 0);
+    TEST_RESULT(run(n, TL_EARS_BY_TREE), TL_OK);
     TEST_CHECK(memcmp(f.triangles, f.expected, 3 * (n - 2) * sizeof(uint32_t)) == 0);
     check_twins(n);
     int64_t area = 0;
@@ -168,22 +171,118 @@ static void refuses_what_is_no_outline(void **state)
     (void)state;
     const oracle_point inverted[4] = { { 0, 0 }, { 4, 0 }, { 4, 4 }, { 0, 4 } };
     memcpy(f.points, inverted, sizeof inverted);
-    TEST_RESULT(run(4), TL_ERR_SELF_INTERSECTION);
+    TEST_RESULT(run(4, TL_EARS_BY_TREE), TL_ERR_SELF_INTERSECTION);
+    TEST_RESULT(run(4, TL_EARS_BY_MESH), TL_ERR_SELF_INTERSECTION);
     const oracle_point flat[3] = { { 0, 0 }, { 4, 0 }, { 8, 0 } };
     memcpy(f.points, flat, sizeof flat);
-    TEST_RESULT(run(3), TL_ERR_SELF_INTERSECTION);
+    TEST_RESULT(run(3, TL_EARS_BY_TREE), TL_ERR_SELF_INTERSECTION);
+    TEST_RESULT(run(3, TL_EARS_BY_MESH), TL_ERR_SELF_INTERSECTION);
     // Scribbles end in some result, with triangles of positive area when it is TL_OK.
     test_random random = { 4 };
     for (uint32_t round = 0; round < 2000; round++) {
         uint32_t n = 3 + test_random_below(&random, 12);
         shape_random_points(&random, f.points, n, 6);
-        if (run(n) == TL_OK) {
+        if (run(n, round % 2 == 0 ? TL_EARS_BY_TREE : TL_EARS_BY_MESH) == TL_OK) {
             for (uint32_t t = 0; t < n - 2; t++) {
                 const uint32_t *c = f.triangles + 3 * t;
                 TEST_CHECK(oracle_area2(f.points[c[0]], f.points[c[1]], f.points[c[2]]) < 0);
             }
         }
     }
+}
+
+// Hangs a triangular hole on some of the outline's convex corners, which it passes twice then. Edges are along the axes
+// and longer than 8. Returns the number of points.
+static uint32_t hang_holes(test_random *random, oracle_point *p, uint32_t n)
+{
+    static oracle_point plain[MAX_POINTS];
+    memcpy(plain, p, n * sizeof *p);
+    uint32_t made = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const oracle_point a = plain[(i + n - 1) % n], b = plain[i], c = plain[(i + 1) % n];
+        p[made++] = b;
+        if (oracle_area2(a, b, c) >= 0 || test_random_below(random, 3) != 0) {
+            continue;
+        }
+        const int64_t back_x = oracle_sign(a.x - b.x), back_z = oracle_sign(a.z - b.z);
+        const int64_t on_x = oracle_sign(c.x - b.x), on_z = oracle_sign(c.z - b.z);
+        const oracle_point hole[2] = { { b.x + 4 * back_x + 2 * on_x, b.z + 4 * back_z + 2 * on_z },
+                                       { b.x + 2 * back_x + 4 * on_x, b.z + 2 * back_z + 4 * on_z } };
+        p[made++] = hole[0];
+        p[made++] = hole[1];
+        p[made++] = b;
+    }
+    return made;
+}
+
+static void equals_the_plain_form_where_outlines_touch_themselves(void **state)
+{
+    (void)state;
+    test_random random = { 5 };
+    uint32_t compared = 0;
+    for (uint32_t round = 0; round < 1500; round++) {
+        const uint32_t n = shape_cells(&random, 12, 3 + test_random_below(&random, 60), f.points, 120);
+        if (n < 4 || !oracle_is_simple(f.points, n)) {
+            continue;
+        }
+        for (uint32_t i = 0; i < n; i++) {
+            f.points[i].x *= 16;
+            f.points[i].z *= 16;
+        }
+        const uint32_t with_holes = hang_holes(&random, f.points, n);
+        compare(with_holes);
+        compared += with_holes > n + 6;
+    }
+    TEST_CHECK(compared > 200);
+}
+
+// Too large for the plain form: the tree, which is proven by it, against the mesh.
+static void compare_large(const oracle_point *points, uint32_t n)
+{
+    tl_lattice_point *lattice = malloc(n * sizeof *lattice);
+    uint32_t *out[4];
+    for (uint32_t k = 0; k < 4; k++) {
+        out[k] = malloc(3 * (size_t)n * sizeof *out[k]);
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        lattice[i].x = (int32_t)points[i].x;
+        lattice[i].z = (int32_t)points[i].z;
+    }
+    tl_arena arena;
+    tl_arena_init(&arena, NULL);
+    for (uint32_t k = 0; k < 2; k++) {
+        const tl_triangulate_input input = { lattice, n, NULL, NULL, k == 0 ? TL_EARS_BY_TREE : TL_EARS_BY_MESH };
+        TEST_RESULT(tl_triangulate(&arena, &input, out[2 * k], out[2 * k + 1]), TL_OK);
+    }
+    tl_arena_free(&arena);
+    TEST_CHECK(memcmp(out[0], out[2], 3 * ((size_t)n - 2) * sizeof(uint32_t)) == 0);
+    TEST_CHECK(memcmp(out[1], out[3], 3 * ((size_t)n - 2) * sizeof(uint32_t)) == 0);
+    for (uint32_t k = 0; k < 4; k++) {
+        free(out[k]);
+    }
+    free(lattice);
+}
+
+static void tree_and_mesh_agree_on_large_random_outlines(void **state)
+{
+    (void)state;
+    enum { LARGEST = 6000 };
+    oracle_point *points = malloc(2 * LARGEST * sizeof *points);
+    test_random random = { 6 };
+    for (uint32_t round = 0; round < 60; round++) {
+        const uint32_t n = 64 + 2 * test_random_below(&random, (LARGEST - 64) / 2);
+        // From lattices on which many lengths are equal to the whole range.
+        const double radius = 1000.0 * n * (1u << test_random_below(&random, 6));
+        shape_random_star(&random, points, n, radius, round % 8 / 10.0 + 0.1);
+        compare_large(points, n);
+        shape_random_comb(&random, points, n, 2u << test_random_below(&random, 24));
+        compare_large(points, n);
+        shape_random_spiral(&random, points, n, radius);
+        compare_large(points, n);
+        const uint32_t side = 1 + test_random_below(&random, 30);
+        compare_large(points, shape_random_holes(&random, points, side, 1 + test_random_below(&random, 30)));
+    }
+    free(points);
 }
 
 int main(void)
@@ -197,6 +296,8 @@ int main(void)
         cmocka_unit_test(equals_the_plain_form_on_hard_families),
         cmocka_unit_test(computes_exactly_at_the_limits),
         cmocka_unit_test(refuses_what_is_no_outline),
+        cmocka_unit_test(equals_the_plain_form_where_outlines_touch_themselves),
+        cmocka_unit_test(tree_and_mesh_agree_on_large_random_outlines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,12 +16,15 @@
 #include "polygon/merge/polygon_merge.h"
 
 #include "base/assert.h"
+#include "base/compiler.h"
 #include "base/radix_sort.h"
 #include "polygon/triangulate/triangulate.h"
 
 #include <string.h>
 
 #define NOT_WAITING UINT32_MAX
+
+enum { EDGES_AHEAD = 12 };
 
 // An edge and the places of its two polygons, the lower one in the high bits.
 typedef struct waiting_edge {
@@ -201,6 +204,11 @@ static tl_result sort_edges(polygon_merger *m, tl_arena *arena, uint32_t edge_co
     }
     uint32_t count = 0;
     for (uint32_t edge = 0; edge < edge_count; edge++) {
+        if (EDGES_AHEAD < edge_count - edge) { // triangles come as they were cut, so their neighbours are anywhere
+            const merge_edge *later = &m->edges[edge + EDGES_AHEAD];
+            tl_prefetch(&m->edges[later->twin != TL_NO_EDGE ? later->twin : 0]);
+            tl_prefetch(&m->points[later->origin]);
+        }
         uint32_t twin = m->edges[edge].twin;
         if (twin != TL_NO_EDGE && edge < twin && stays_convex(m, edge) && stays_convex(m, twin)) {
             int64_t length2 = tl_distance2(m->points[m->edges[edge].origin], m->points[m->edges[twin].origin]);
@@ -281,6 +289,23 @@ static bool allocate_parts(tl_convex_parts *parts, tl_arena *arena, const tl_mer
     return parts->first != NULL && parts->corners != NULL && (input->joined_first == NULL || parts->part_of != NULL);
 }
 
+// Edges come by length, so from anywhere: what they need is fetched before their turn.
+static void fetch_edges_ahead(const polygon_merger *m, const tl_sort_item *items, uint32_t at, uint32_t count)
+{
+    if (2 * EDGES_AHEAD < count - at) {
+        const uint32_t edge = items[at + 2 * EDGES_AHEAD].value;
+        tl_prefetch(&m->edges[edge]);
+        tl_prefetch(&m->parts[edge / 3]);
+    }
+    if (EDGES_AHEAD < count - at) {
+        const merge_edge *e = &m->edges[items[at + EDGES_AHEAD].value];
+        tl_prefetch(&m->edges[e->twin]);
+        tl_prefetch(&m->parts[e->twin / 3]);
+        tl_prefetch(&m->points[e->origin]);
+        tl_prefetch(&m->edges[e->previous]);
+    }
+}
+
 static tl_result merge(polygon_merger *m, tl_arena *scratch)
 {
     const uint32_t edge_count = 3 * m->input->triangle_count;
@@ -294,6 +319,7 @@ static tl_result merge(polygon_merger *m, tl_arena *scratch)
     for (uint32_t low = 0; low < count;) {
         uint32_t high = low;
         for (; high < count && items[high].key == items[low].key; high++) {
+            fetch_edges_ahead(m, items, high, count);
             m->heap[high - low] = (waiting_edge){ 0, items[high].value };
             m->edges[items[high].value].heap_place = high - low;
         }

@@ -68,8 +68,9 @@ static tl_result triangulate_walks(tl_arena *arena, const tl_outline *outline, c
             }
             points = copy;
         }
-        TL_TRY(
-            tl_triangulate(arena, points, count, tracer, triangles->corners + 3 * made, triangles->twins + 3 * made));
+        const tl_sweep_record *record = outline->is_plain && outline->is_swept ? &outline->sweep : NULL;
+        const tl_triangulate_input input = { points, count, record, tracer, TL_EARS_BY_SIZE };
+        TL_TRY(tl_triangulate(arena, &input, triangles->corners + 3 * made, triangles->twins + 3 * made));
         for (uint32_t i = 3 * made; i < 3 * (made + count - 2) && !outline->is_plain; i++) {
             triangles->corners[i] = walk[triangles->corners[i]];
             triangles->twins[i] += triangles->twins[i] != TL_NO_EDGE ? 3 * made : 0;

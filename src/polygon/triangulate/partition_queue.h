@@ -45,6 +45,7 @@ static inline bool tl_partition_comes_first(const tl_partition *a, const tl_part
 #define TL_HEAP(name)                 tl_partition_heap_##name
 #define TL_HEAP_ITEM                  tl_partition
 #define TL_HEAP_BEFORE(context, a, b) tl_partition_comes_first(&(a), &(b))
+#define TL_HEAP_ARITY                 4u
 #include "base/heap.inl"
 
 static inline void tl_partition_queue_push(tl_partition_queue *queue, tl_partition item)

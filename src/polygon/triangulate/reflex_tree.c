@@ -6,7 +6,8 @@
 // points are removed and never added. A node is skipped when it is empty or lies outside one edge of the triangle. The
 // node nearer to the corner that would be cut off is searched first: where the outline turns, a large triangle is
 // mostly blocked by a point near there, and is full of nodes. A uniform grid was rejected: the long thin triangles of
-// combs and spirals cross too many of its cells.
+// combs and spirals cross too many of its cells. Those of random stars cross too many nodes as well, so large outlines
+// keep a triangulation instead (ear_mesh.c).
 
 #include "polygon/triangulate/reflex_tree.h"
 

@@ -13,14 +13,21 @@
 //
 // A partition edge is valid when it lies in the interior angle at both ends (the internal angle test) and the triangle
 // it cuts off holds no other vertex (the edge intersection test): the part of the outline that would intrude has a
-// vertex in the triangle, and its foremost one is reflex or straight. So only such vertices are kept, in a k-d tree.
-// All is exact; ties go to the lowest vertex before the corner.
+// vertex in the triangle, and its foremost one is reflex or straight. Of a small outline only such vertices are kept,
+// in a k-d tree, which is a plain loop for the few that most have. Of a large one a triangulation is kept, whose
+// triangles around the corner tell; both give the same answers. All is exact; ties go to the lowest vertex before the
+// corner.
 
 #include "polygon/triangulate/triangulate.h"
 
 #include "base/assert.h"
+#include "base/compiler.h"
+#include "polygon/triangulate/ear_mesh.h"
 #include "polygon/triangulate/partition_queue.h"
 #include "polygon/triangulate/reflex_tree.h"
+
+// From so many points on the mesh is the faster one.
+enum { SMALLEST_MESH = 256, CUTS_AHEAD = 8 };
 
 // A vertex with the ones next to it in what is left of the outline.
 typedef struct outline_vertex {
@@ -33,7 +40,9 @@ typedef struct triangulation {
     const tl_lattice_point *points;
     outline_vertex *vertices;
     uint8_t *is_reflex; // or straight
-    tl_reflex_tree reflex;
+    bool has_mesh;
+    tl_ear_mesh mesh;      // of large outlines
+    tl_reflex_tree reflex; // of small ones
     tl_partition_queue queue;
 } triangulation;
 
@@ -75,7 +84,9 @@ static void update_angle(triangulation *t, uint32_t b)
     const outline_vertex *v = &t->vertices[b];
     if (t->is_reflex[b] && tl_turn(t->vertices[v->previous].position, v->position, t->vertices[v->next].position) > 0) {
         t->is_reflex[b] = 0;
-        tl_reflex_tree_remove(&t->reflex, b);
+        if (!t->has_mesh) {
+            tl_reflex_tree_remove(&t->reflex, b);
+        }
     }
 }
 
@@ -92,8 +103,32 @@ static bool is_current(const triangulation *t, const tl_partition *item)
 static bool is_free_partition(const triangulation *t, const tl_partition *item)
 {
     const outline_vertex *a = &t->vertices[item->value];
+    if (t->has_mesh) {
+        return tl_ear_mesh_is_free(&t->mesh, item->value, a->next, a->position, t->vertices[item->extra].position);
+    }
     return !tl_reflex_tree_any_in_triangle(&t->reflex, a->position, t->vertices[a->next].position,
                                            t->vertices[item->extra].position);
+}
+
+// Corners are cut off in no order of place. Those of the sorted list are known long before their turn, the next one of
+// the heap is while the one before it is cut: what they need is fetched meanwhile.
+static void fetch_cuts_ahead(const triangulation *t)
+{
+    const tl_partition_queue *queue = &t->queue;
+    if (queue->sorted_count > 2 * CUTS_AHEAD) {
+        const uint32_t a = queue->sorted[2 * CUTS_AHEAD].value;
+        tl_prefetch(&t->vertices[a]);
+        tl_prefetch(&t->vertices[queue->sorted[2 * CUTS_AHEAD].extra]);
+        tl_prefetch(&t->mesh.outer[a]);
+    }
+    if (queue->sorted_count > CUTS_AHEAD) {
+        const uint32_t b = t->vertices[queue->sorted[CUTS_AHEAD].value].next;
+        tl_prefetch(&t->mesh.edges[t->mesh.outer[b]]);
+    }
+    if (queue->heap_count > 0) {
+        tl_prefetch(&t->vertices[queue->heap[0].value]);
+        tl_prefetch(&t->vertices[queue->heap[0].extra]);
+    }
 }
 
 static bool is_left_turn(const triangulation *t, uint32_t b)
@@ -114,28 +149,41 @@ static void emit_triangle(triangulation *t, uint32_t triangle, const uint32_t co
     }
 }
 
-static bool start_triangulation(triangulation *t, tl_arena *scratch, const tl_lattice_point *points, uint32_t count)
+static tl_result start_ear_test(triangulation *t, tl_arena *scratch, const tl_triangulate_input *input)
 {
+    t->has_mesh =
+        input->ear_test == TL_EARS_BY_SIZE ? input->count >= SMALLEST_MESH : input->ear_test == TL_EARS_BY_MESH;
+    if (t->has_mesh) {
+        return tl_ear_mesh_init(&t->mesh, scratch, input->points, input->count, input->record);
+    }
+    return tl_reflex_tree_init(&t->reflex, scratch, input->points, t->is_reflex, input->count) ? TL_OK : TL_ERR_MEMORY;
+}
+
+static tl_result start_triangulation(triangulation *t, tl_arena *scratch, const tl_triangulate_input *input)
+{
+    const tl_lattice_point *points = input->points;
+    const uint32_t count = input->count;
     t->points = points;
     t->vertices = TL_PUSH(scratch, outline_vertex, count);
     t->is_reflex = TL_PUSH(scratch, uint8_t, count);
-    if (t->vertices == NULL || t->is_reflex == NULL || !tl_partition_queue_init(&t->queue, scratch, count)) {
-        return false;
+    if (t->vertices == NULL || t->is_reflex == NULL) {
+        return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < count; i++) {
         outline_vertex v = { points[i], i > 0 ? i - 1 : count - 1, i + 1 < count ? i + 1 : 0, TL_NO_EDGE };
         t->vertices[i] = v;
         t->is_reflex[i] = tl_turn(points[v.previous], points[i], points[v.next]) <= 0;
     }
-    if (!tl_reflex_tree_init(&t->reflex, scratch, points, t->is_reflex, count)) {
-        return false;
-    }
+    TL_TRY(start_ear_test(t, scratch, input));
     tl_partition_queue *queue = &t->queue;
+    if (!tl_partition_queue_init(queue, scratch, count)) {
+        return TL_ERR_MEMORY;
+    }
     for (uint32_t a = 0; a < count && count > 3; a++) {
         queue->sorted_count += find_partition(t, a + 1 < count ? a + 1 : 0, &queue->sorted[queue->sorted_count]);
     }
     tl_partition_queue_sort(queue);
-    return true;
+    return TL_OK;
 }
 
 static void add_potential(const triangulation *t, const tl_partition *items, uint32_t count, uint32_t *partitions,
@@ -187,6 +235,9 @@ static tl_result triangulate(triangulation *t, tl_arena *scratch, uint32_t count
             if (!tl_partition_queue_pop(&t->queue, &chosen)) {
                 return TL_ERR_SELF_INTERSECTION;
             }
+            if (t->has_mesh) {
+                fetch_cuts_ahead(t);
+            }
         } while (!is_current(t, &chosen) || !is_free_partition(t, &chosen));
         const uint32_t a = chosen.value, c = chosen.extra;
         const uint32_t corners[3] = { a, t->vertices[a].next, c };
@@ -194,6 +245,9 @@ static tl_result triangulate(triangulation *t, tl_arena *scratch, uint32_t count
             TL_TRY(trace_cut(t, scratch, tracer, left, corners));
         }
         emit_triangle(t, triangle, corners, 2, triangles_out, twins_out);
+        if (t->has_mesh) {
+            tl_ear_mesh_cut(&t->mesh, a, corners[1]);
+        }
         t->vertices[a].across = 3 * triangle + 2;
         t->vertices[a].next = c;
         t->vertices[c].previous = a;
@@ -219,15 +273,13 @@ static tl_result triangulate(triangulation *t, tl_arena *scratch, uint32_t count
     return tracer != NULL ? trace_cut(t, scratch, tracer, 3, corners) : TL_OK;
 }
 
-tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint32_t count,
-                         const tl_step_tracer *tracer, uint32_t *triangles_out, uint32_t *twins_out)
+tl_result tl_triangulate(tl_arena *scratch, const tl_triangulate_input *input, uint32_t *triangles_out,
+                         uint32_t *twins_out)
 {
     const tl_arena_mark mark = tl_arena_get_mark(scratch);
     triangulation t;
-    if (!start_triangulation(&t, scratch, points, count)) {
-        return TL_ERR_MEMORY;
-    }
-    TL_TRY(triangulate(&t, scratch, count, tracer, triangles_out, twins_out));
+    TL_TRY(start_triangulation(&t, scratch, input));
+    TL_TRY(triangulate(&t, scratch, input->count, input->tracer, triangles_out, twins_out));
     tl_arena_rollback(scratch, mark);
     return TL_OK;
 }

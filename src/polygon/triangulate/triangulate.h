@@ -7,9 +7,26 @@
 
 #include "base/arena.h"
 #include "polygon/outline/lattice_point.h"
+#include "polygon/outline/sweep.h"
 #include "polygon/outline/trace_steps.h"
 
 #define TL_NO_EDGE UINT32_MAX
+
+/// How it is found out which ears are free. All ways give the same triangles in the same order.
+typedef enum tl_ear_test {
+    TL_EARS_BY_SIZE, ///< the one that is faster for so many points
+    TL_EARS_BY_TREE, ///< a search among the reflex vertices
+    TL_EARS_BY_MESH  ///< a triangulation of what is left
+} tl_ear_test;
+
+/// What to triangulate.
+typedef struct tl_triangulate_input {
+    const tl_lattice_point *points;
+    uint32_t count;
+    const tl_sweep_record *record; // of a sweep over edges from each point to the next, or NULL
+    const tl_step_tracer *tracer;  // or NULL
+    tl_ear_test ear_test;
+} tl_triangulate_input;
 
 /// Cuts a weakly simple outline of `count` >= 3 points into count - 2 triangles, all of positive area.
 ///
@@ -18,9 +35,8 @@
 /// Triangle t has the corners triangles_out[3t .. 3t + 2], indices of points, in the order (before, cut corner, after);
 /// triangles come in the order they were cut. twins_out[3t + k] is the number (3 * triangle + edge) of the same
 /// partition edge seen from the other triangle, or TL_NO_EDGE on the outline; edge k runs from corner k to corner k
-/// + 1. `tracer` may be NULL. TL_ERR_SELF_INTERSECTION: no valid partition was left, so the outline was not as
-/// described.
-tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint32_t count,
-                         const tl_step_tracer *tracer, uint32_t *triangles_out, uint32_t *twins_out);
+/// + 1. TL_ERR_SELF_INTERSECTION: no valid partition was left, so the outline was not as described.
+tl_result tl_triangulate(tl_arena *scratch, const tl_triangulate_input *input, uint32_t *triangles_out,
+                         uint32_t *twins_out);
 
 #endif

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: MIT
+//
+// The triangulation that ears are cut from, by one sweep: O(n log n), or O(n) after a sweep that was recorded.
+//
+// A line sweeps over the vertices by rising x, then z. Between two edges next to each other on it, with floor between
+// them, lies a region; what of it is not triangulated yet is bounded by the two edges and a chain of vertices from the
+// lower edge's begin to the upper edge's, none of which bends into the region. A vertex is joined to those of a chain
+// that it sees, from the end where it stands on or, where it splits the region, from the last vertex put there on.
+// Source: Hertel and Mehlhorn, "Fast triangulation of simple polygons", 1983; the cases as in de Berg et al.,
+// Computational Geometry, section 3.2.
+//
+// Which edges bound a region is known by their numbers; coordinates only give the order, and the segment below a vertex
+// where two edges begin. So vertices at one place (the sides of bridges, and outlines that touch themselves) need no
+// care: each has an angle of its own, and is swept by itself.
+
+#include "polygon/triangulate/ear_mesh.h"
+
+#include "base/assert.h"
+#include "base/compiler.h"
+#include "polygon/outline/key_table.h"
+
+#include <string.h>
+
+// The far side of a link of a chain: an edge of the mesh, an edge of the outline by the vertex where it starts, or a
+// diagonal by the region that began with it. The mesh has fewer than 2^30 edges: MAX_CONTOUR_VERTICES.
+#define OUTLINE_SIDE  0x40000000u
+#define DIAGONAL_SIDE 0x80000000u
+#define SIDE_NUMBER   0x3fffffffu
+
+#define NO_REGION     UINT32_MAX
+
+enum { VERTICES_AHEAD = 16 };
+
+// A vertex that splits a region, and the one it is joined to, stand in two chains: once in each.
+typedef struct chain_node {
+    uint32_t vertex;
+    uint32_t up, down;
+    uint32_t beyond; // far side of the link up
+} chain_node;
+
+typedef struct sweep_region {
+    uint32_t low, high, newest; // nodes
+    uint32_t upper;             // edge
+    uint32_t diagonal;          // the edge of the mesh on the first known side of the diagonal it began with
+} sweep_region;
+
+typedef struct ear_sweep {
+    tl_ear_mesh *mesh;
+    const tl_lattice_point *points;
+    uint32_t count;
+    uint32_t triangle_count;
+    chain_node *nodes;
+    uint32_t node_count;
+    sweep_region *regions;
+    uint32_t region_count;
+    uint32_t *region_of; // [edge]
+    bool is_broken;      // this is no outline
+} ear_sweep;
+
+static uint32_t vertex_before(const ear_sweep *s, uint32_t v)
+{
+    return v > 0 ? v - 1 : s->count - 1;
+}
+
+static uint32_t vertex_after(const ear_sweep *s, uint32_t v)
+{
+    return v + 1 < s->count ? v + 1 : 0;
+}
+
+// Joins an edge of a new triangle to what lies beyond it.
+static void join_side(ear_sweep *s, uint32_t edge, uint32_t side)
+{
+    tl_ear_edge *edges = s->mesh->edges;
+    edges[edge].twin = TL_NO_EAR_EDGE;
+    if (side & OUTLINE_SIDE) {
+        s->mesh->outer[side & SIDE_NUMBER] = edge;
+        return;
+    }
+    uint32_t twin = side;
+    if (side & DIAGONAL_SIDE) {
+        uint32_t *first = &s->regions[side & SIDE_NUMBER].diagonal;
+        twin = *first;
+        *first = edge;
+    }
+    if (twin != TL_NO_EAR_EDGE) {
+        edges[edge].twin = twin;
+        edges[twin].twin = edge;
+    }
+}
+
+// The first edge of a new triangle, from a to b.
+static uint32_t add_ear_triangle(ear_sweep *s, uint32_t a, uint32_t b, uint32_t c)
+{
+    s->is_broken = s->is_broken || s->triangle_count == s->count - 2;
+    const uint32_t edge = s->is_broken ? 0 : 4 * s->triangle_count++;
+    s->mesh->edges[edge].origin = s->nodes[a].vertex;
+    s->mesh->edges[edge + 1].origin = s->nodes[b].vertex;
+    s->mesh->edges[edge + 2].origin = s->nodes[c].vertex;
+    return edge;
+}
+
+static uint32_t add_chain_node(ear_sweep *s, uint32_t v)
+{
+    s->nodes[s->node_count].vertex = v;
+    return s->node_count++;
+}
+
+static bool is_left_of(const ear_sweep *s, uint32_t a, uint32_t b, uint32_t c)
+{
+    return tl_turn(s->points[s->nodes[a].vertex], s->points[s->nodes[b].vertex], s->points[s->nodes[c].vertex]) > 0;
+}
+
+// Joins vertex v to a region's chain from its lower end on. `side`: the far side of the edge between these two.
+static void join_from_below(ear_sweep *s, sweep_region *region, uint32_t v, uint32_t side)
+{
+    const uint32_t node = add_chain_node(s, v);
+    uint32_t u = region->low;
+    for (uint32_t w; u != region->high; u = w) {
+        w = s->nodes[u].up;
+        if (!is_left_of(s, u, node, w)) {
+            break;
+        }
+        const uint32_t edge = add_ear_triangle(s, u, node, w);
+        join_side(s, edge, side);
+        join_side(s, edge + 2, s->nodes[u].beyond);
+        side = edge + 1;
+    }
+    s->nodes[node].up = u;
+    s->nodes[node].beyond = side;
+    s->nodes[u].down = node;
+    region->low = region->newest = node;
+}
+
+static void join_from_above(ear_sweep *s, sweep_region *region, uint32_t v, uint32_t side)
+{
+    const uint32_t node = add_chain_node(s, v);
+    uint32_t u = region->high;
+    for (uint32_t w; u != region->low; u = w) {
+        w = s->nodes[u].down;
+        if (!is_left_of(s, node, u, w)) {
+            break;
+        }
+        const uint32_t edge = add_ear_triangle(s, node, u, w);
+        join_side(s, edge, side);
+        join_side(s, edge + 1, s->nodes[w].beyond);
+        side = edge + 2;
+    }
+    s->nodes[node].down = u;
+    s->nodes[u].up = node;
+    s->nodes[u].beyond = side;
+    region->high = region->newest = node;
+}
+
+static sweep_region *region_at(ear_sweep *s, uint32_t edge)
+{
+    s->is_broken = s->is_broken || edge >= s->count || s->region_of[edge] == NO_REGION;
+    return &s->regions[s->is_broken ? 0 : s->region_of[edge]];
+}
+
+// Vertex v between the edges `in` and `out` = v: the case is who of them lies before it on the sweep's way.
+static void continue_below(ear_sweep *s, uint32_t in, uint32_t v)
+{
+    sweep_region *region = region_at(s, in);
+    if (!s->is_broken) {
+        join_from_below(s, region, v, OUTLINE_SIDE | in);
+        s->region_of[v] = s->region_of[in];
+    }
+}
+
+static void continue_above(ear_sweep *s, uint32_t in, uint32_t v)
+{
+    sweep_region *region = region_at(s, v);
+    if (!s->is_broken) {
+        join_from_above(s, region, v, OUTLINE_SIDE | v);
+        region->upper = in;
+        s->region_of[in] = s->region_of[v];
+    }
+}
+
+static void end_or_merge(ear_sweep *s, uint32_t in, uint32_t v)
+{
+    sweep_region *above = region_at(s, in), *below = region_at(s, v);
+    if (s->is_broken) {
+        return;
+    }
+    join_from_below(s, above, v, OUTLINE_SIDE | in);
+    const chain_node joined = s->nodes[above->low];
+    if (above == below) {
+        s->is_broken = s->is_broken || joined.up != above->high || (joined.beyond & OUTLINE_SIDE) != 0;
+        join_side(s, s->is_broken ? 0 : joined.beyond, OUTLINE_SIDE | v);
+        return;
+    }
+    s->node_count--; // both chains go on from one node
+    join_from_above(s, below, v, OUTLINE_SIDE | v);
+    s->nodes[below->high].up = joined.up;
+    s->nodes[below->high].beyond = joined.beyond;
+    s->nodes[joined.up].down = below->high;
+    below->high = above->high;
+    below->upper = above->upper;
+    s->region_of[below->upper] = s->region_of[v];
+}
+
+static sweep_region *begin_region(ear_sweep *s, uint32_t lower, uint32_t upper, uint32_t low, uint32_t high)
+{
+    sweep_region *region = &s->regions[s->region_count];
+    const sweep_region begun = { low, high, high, upper, TL_NO_EAR_EDGE };
+    *region = begun;
+    s->region_of[lower] = s->region_of[upper] = s->region_count++;
+    return region;
+}
+
+// `lower`: the edge below v.
+static void split_sweep_region(ear_sweep *s, uint32_t in, uint32_t v, uint32_t lower)
+{
+    sweep_region *below = region_at(s, lower);
+    if (s->is_broken) {
+        return;
+    }
+    // The region above begins with a node of its own for the vertex that v is joined to.
+    const uint32_t last = below->newest, low = add_chain_node(s, s->nodes[last].vertex);
+    s->nodes[low] = s->nodes[last];
+    if (last != below->high) {
+        s->nodes[s->nodes[low].up].down = low;
+    }
+    sweep_region *above = begin_region(s, v, below->upper, low, last != below->high ? below->high : low);
+    const uint32_t side = DIAGONAL_SIDE | s->region_of[v];
+    below->high = last;
+    below->upper = in;
+    s->region_of[in] = s->region_of[lower];
+    join_from_above(s, below, v, side);
+    join_from_below(s, above, v, side);
+}
+
+static void sweep_vertex(ear_sweep *s, uint32_t v, uint32_t lower)
+{
+    const uint32_t in = vertex_before(s, v);
+    const tl_lattice_point p = s->points[v], a = s->points[in], c = s->points[vertex_after(s, v)];
+    const bool ends_in = tl_is_swept_first(a, p), ends_out = tl_is_swept_first(c, p);
+    if (ends_in && ends_out) {
+        end_or_merge(s, in, v);
+    } else if (ends_in) {
+        continue_below(s, in, v);
+    } else if (ends_out) {
+        continue_above(s, in, v);
+    } else if (tl_turn(a, p, c) > 0) {
+        const uint32_t node = add_chain_node(s, v);
+        (void)begin_region(s, v, in, node, node);
+    } else {
+        split_sweep_region(s, in, v, lower);
+    }
+}
+
+// An outline whose vertices stand at different places: edges are the sweep's segments.
+static void sweep_plain_outline(ear_sweep *s, const tl_sweep_record *record)
+{
+    for (uint32_t i = 0; i < s->count && !s->is_broken; i++) {
+        if (VERTICES_AHEAD < s->count - i) {
+            const uint32_t later = record->order[i + VERTICES_AHEAD];
+            tl_prefetch(&s->points[later]);
+            tl_prefetch(&s->region_of[later]);
+            tl_prefetch(&record->below[later]);
+        }
+        sweep_vertex(s, record->order[i], record->below[record->order[i]]);
+    }
+}
+
+// Vertices by their places, and edges by the segments along which they run.
+typedef struct united_outline {
+    tl_lattice_point *places;
+    uint32_t place_count;
+    uint32_t *first;      // [place] vertex there
+    uint32_t *next_there; // [vertex] the next one at its place, or TL_NO_VALUE
+    uint32_t *place_of;   // [vertex]
+    tl_lattice_segment *segments;
+    uint32_t segment_count;
+    uint32_t *forward; // [segment] the edge that runs along it on the sweep's way, or TL_NO_VALUE
+} united_outline;
+
+static bool unite_places(united_outline *u, tl_arena *arena, const ear_sweep *s)
+{
+    u->places = TL_PUSH(arena, tl_lattice_point, s->count);
+    u->first = TL_PUSH(arena, uint32_t, s->count);
+    u->next_there = TL_PUSH(arena, uint32_t, s->count);
+    u->place_of = TL_PUSH(arena, uint32_t, s->count);
+    tl_key_table table;
+    if (u->places == NULL || u->first == NULL || u->next_there == NULL || u->place_of == NULL ||
+        !tl_key_table_init(&table, arena, s->count)) {
+        return false;
+    }
+    for (uint32_t v = s->count; v-- > 0;) {
+        const tl_lattice_point p = s->points[v];
+        uint32_t *place = tl_key_table_at(&table, tl_pair_key((uint32_t)p.x, (uint32_t)p.z));
+        const bool is_new = *place == TL_NO_VALUE;
+        if (is_new) {
+            u->places[u->place_count] = p;
+            *place = u->place_count++;
+        }
+        u->next_there[v] = is_new ? TL_NO_VALUE : u->first[*place];
+        u->first[*place] = v;
+        u->place_of[v] = *place;
+    }
+    return true;
+}
+
+static bool unite_segments(united_outline *u, tl_arena *arena, ear_sweep *s)
+{
+    u->segments = TL_PUSH(arena, tl_lattice_segment, s->count);
+    u->forward = TL_PUSH(arena, uint32_t, s->count);
+    tl_key_table table;
+    if (u->segments == NULL || u->forward == NULL || !tl_key_table_init(&table, arena, s->count)) {
+        return false;
+    }
+    for (uint32_t v = 0; v < s->count; v++) {
+        const uint32_t from = u->place_of[v], to = u->place_of[vertex_after(s, v)];
+        if (from == to) {
+            s->is_broken = true;
+            continue;
+        }
+        const bool is_forward = tl_is_swept_first(u->places[from], u->places[to]);
+        const tl_lattice_segment segment = { is_forward ? from : to, is_forward ? to : from };
+        uint32_t *number = tl_key_table_at(&table, tl_pair_key(segment.a, segment.b));
+        if (*number == TL_NO_VALUE) {
+            u->segments[u->segment_count] = segment;
+            u->forward[u->segment_count] = TL_NO_VALUE;
+            *number = u->segment_count++;
+        }
+        if (is_forward) {
+            u->forward[*number] = v;
+        }
+    }
+    return true;
+}
+
+static tl_result sweep_united_outline(ear_sweep *s, tl_arena *arena)
+{
+    united_outline u;
+    memset(&u, 0, sizeof u);
+    tl_sweep_record record;
+    if (!unite_places(&u, arena, s) || !unite_segments(&u, arena, s) ||
+        !tl_sweep_record_init(&record, arena, u.place_count)) {
+        return TL_ERR_MEMORY;
+    }
+    bool is_apart = false;
+    if (s->is_broken) {
+        return TL_OK;
+    }
+    TL_TRY(tl_sweep_segments(arena, u.places, u.place_count, u.segments, u.segment_count, &record, &is_apart));
+    s->is_broken = !is_apart;
+    for (uint32_t i = 0; i < u.place_count && !s->is_broken; i++) {
+        const uint32_t place = record.order[i], below = record.below[place];
+        const uint32_t lower = below < u.segment_count ? u.forward[below] : TL_NO_VALUE;
+        for (uint32_t v = u.first[place]; v != TL_NO_VALUE && !s->is_broken; v = u.next_there[v]) {
+            sweep_vertex(s, v, lower);
+        }
+    }
+    return TL_OK;
+}
+
+tl_result tl_ear_mesh_init(tl_ear_mesh *mesh, tl_arena *arena, const tl_lattice_point *points, uint32_t count,
+                           const tl_sweep_record *record)
+{
+    mesh->points = points;
+    mesh->edges = TL_PUSH(arena, tl_ear_edge, 4 * ((uint64_t)count - 2));
+    mesh->outer = TL_PUSH(arena, uint32_t, count);
+    const tl_arena_mark mark = tl_arena_get_mark(arena);
+    ear_sweep s = { mesh, points, count, 0, NULL, 0, NULL, 0, NULL, false };
+    // A vertex that splits makes three nodes and two edges begin, so at most every other one does.
+    s.nodes = TL_PUSH(arena, chain_node, 2 * (uint64_t)count + 1);
+    s.regions = TL_PUSH(arena, sweep_region, (uint64_t)count / 2 + 1);
+    s.region_of = TL_PUSH(arena, uint32_t, count);
+    if (mesh->edges == NULL || mesh->outer == NULL || s.nodes == NULL || s.regions == NULL || s.region_of == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(s.region_of, 0xff, count * sizeof *s.region_of);
+    if (record != NULL) {
+        sweep_plain_outline(&s, record);
+    } else {
+        TL_TRY(sweep_united_outline(&s, arena));
+    }
+    tl_arena_rollback(arena, mark);
+    return s.is_broken || s.triangle_count != count - 2 ? TL_ERR_SELF_INTERSECTION : TL_OK;
+}
