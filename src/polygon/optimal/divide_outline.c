@@ -21,6 +21,7 @@ tl_result tl_pair_edges(tl_arena *arena, const uint32_t *corners, uint32_t *twin
     for (uint32_t edge = 0; edge < edge_count; edge++) {
         open_count += twins[edge] == TL_NO_EDGE;
     }
+    const tl_arena_mark mark = tl_arena_get_mark(arena);
     tl_key_table table;
     if (!tl_key_table_init(&table, arena, open_count)) {
         return TL_ERR_MEMORY;
@@ -39,6 +40,7 @@ tl_result tl_pair_edges(tl_arena *arena, const uint32_t *corners, uint32_t *twin
             }
         }
     }
+    tl_arena_rollback(arena, mark);
     return TL_OK;
 }
 

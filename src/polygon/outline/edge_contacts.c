@@ -463,6 +463,7 @@ tl_result tl_outline_split_contacts(tl_arena *arena, tl_outline_nodes *nodes, tl
         s.arena = arena;
         s.nodes = nodes;
         s.first_contact = UINT32_MAX;
+        const tl_arena_mark mark = tl_arena_get_mark(arena);
         TL_TRY(gather_segments(&s, *edges, *count));
         bool apart = false;
         if (s.segment_count >= SMALLEST_SWEEP) {
@@ -479,8 +480,12 @@ tl_result tl_outline_split_contacts(tl_arena *arena, tl_outline_nodes *nodes, tl
             *faults |= s.split_count > 0 ? TL_CONTOUR_FAULT_TOUCH : 0;
             *faults |= s.crossings > 0 ? TL_CONTOUR_FAULT_CROSSING : 0;
         }
+        if (s.crossings == 0 && s.split_count == 0) {
+            tl_arena_rollback(arena, mark);
+            return TL_OK;
+        }
         if (s.crossings == 0) {
-            return s.split_count > 0 ? split_edges(&s, edges, count) : TL_OK;
+            return split_edges(&s, edges, count);
         }
         TL_TRY(tl_outline_unite_nodes(s.arena, s.nodes, NULL)); // crossings may fall on other nodes
         TL_TRY(snap_segments(&s));

@@ -137,6 +137,7 @@ static tl_result keep_as_it_is(tl_arena *arena, tl_outline *outline)
 
 tl_result tl_outline_unite_nodes(tl_arena *arena, tl_outline_nodes *nodes, uint32_t *places)
 {
+    const tl_arena_mark mark = tl_arena_get_mark(arena);
     tl_key_table table;
     if (!tl_key_table_init(&table, arena, nodes->count)) {
         return TL_ERR_MEMORY;
@@ -159,6 +160,7 @@ tl_result tl_outline_unite_nodes(tl_arena *arena, tl_outline_nodes *nodes, uint3
         }
     }
     nodes->count = united;
+    tl_arena_rollback(arena, mark);
     return TL_OK;
 }
 

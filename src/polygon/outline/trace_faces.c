@@ -44,6 +44,7 @@ static tl_result gather_half_edges(graph *g, tl_arena *arena, const tl_outline_e
     g->net = TL_PUSH_ZERO(arena, int32_t, count);
     g->half_of = TL_PUSH(arena, uint32_t, count);
     g->edge_of = TL_PUSH(arena, uint32_t, 2 * (uint64_t)count);
+    const tl_arena_mark mark = tl_arena_get_mark(arena);
     if (g->origin == NULL || g->net == NULL || g->half_of == NULL || g->edge_of == NULL ||
         !tl_key_table_init(&table, arena, count)) {
         return TL_ERR_MEMORY;
@@ -68,6 +69,7 @@ static tl_result gather_half_edges(graph *g, tl_arena *arena, const tl_outline_e
         }
     }
     g->half_count = 2 * made;
+    tl_arena_rollback(arena, mark);
     return TL_OK;
 }
 
