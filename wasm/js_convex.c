@@ -80,7 +80,7 @@ tl_result TL_JS_FULL_EXPORT(js_hull_check)(const void *bytes, uint32_t size)
     return tl_hull_check(bytes, size, &tl_js_report);
 }
 
-/// Slot: size, counts, arrays, bounds, mass.
+/// Slot: size, counts, vertices, bounds, mass.
 void TL_JS_FULL_EXPORT(js_hull_info)(const tl_hull *hull)
 {
     uint32_t at = tl_js_put(0, (double)hull->blob.size);
@@ -88,14 +88,28 @@ void TL_JS_FULL_EXPORT(js_hull_info)(const tl_hull *hull)
     at = tl_js_put(at, hull->face_count);
     at = tl_js_put(at, hull->half_edge_count);
     at = tl_js_put_pointer(at, tl_hull_vertices(hull));
-    at = tl_js_put_pointer(at, tl_hull_sources(hull));
-    at = tl_js_put_pointer(at, tl_hull_vertex_edges(hull));
-    at = tl_js_put_pointer(at, tl_hull_half_edges(hull));
-    at = tl_js_put_pointer(at, tl_hull_faces(hull));
     at = tl_js_put_aabb(at, hull->bounds);
     at = tl_js_put(tl_js_put(at, hull->mass.volume), hull->mass.area);
     memcpy(&tl_js_slot[at], hull->mass.center, sizeof hull->mass.center);
     memcpy(&tl_js_slot[at + 3], hull->mass.inertia, sizeof hull->mass.inertia);
+}
+
+/// The sources, V words; then of each vertex a half-edge; of each half-edge origin, twin, next and face; of each face
+/// its first half-edge and how many it has.
+void TL_JS_FULL_EXPORT(js_hull_topology)(const tl_hull *hull, uint32_t *words)
+{
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        words[v] = tl_hull_source(hull, v);
+        words[hull->vertex_count + v] = tl_hull_vertex_edge(hull, v);
+    }
+    tl_hull_half_edge *half_edges = (tl_hull_half_edge *)(words + 2 * hull->vertex_count);
+    for (uint32_t h = 0; h < hull->half_edge_count; h++) {
+        half_edges[h] = tl_hull_edge_at(hull, h);
+    }
+    tl_hull_face *faces = (tl_hull_face *)(half_edges + hull->half_edge_count);
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        faces[f] = tl_hull_face_at(hull, f);
+    }
 }
 
 uint32_t TL_JS_FULL_EXPORT(js_hull_support)(const tl_hull *hull, float x, float y, float z, uint32_t hint)

@@ -209,12 +209,12 @@ static bool make_chou_mesh(peer_hull *peer, const tl_hull *hull)
         uint32_t unused;
         made = made && tl_halfedge_mesh_add_vertex(&mesh, tl_hull_vertices(hull)[v], &unused) == TL_OK;
     }
-    const tl_hull_half_edge *h = tl_hull_half_edges(hull);
     for (uint32_t f = 0; f < hull->face_count; f++) {
-        tl_hull_face face = tl_hull_faces(hull)[f];
+        tl_hull_face face = tl_hull_face_at(hull, f);
         for (uint32_t k = 1; k + 1 < face.count; k++) {
-            made = made && tl_halfedge_mesh_add_triangle(&mesh, h[face.first].origin, h[face.first + k].origin,
-                                                         h[face.first + k + 1].origin, NULL) == TL_OK;
+            made = made && tl_halfedge_mesh_add_triangle(&mesh, tl_hull_edge_origin(hull, face.first),
+                                                         tl_hull_edge_origin(hull, face.first + k),
+                                                         tl_hull_edge_origin(hull, face.first + k + 1), NULL) == TL_OK;
         }
     }
     peer->chou_verts = malloc(mesh.vertex_end * sizeof *peer->chou_verts);

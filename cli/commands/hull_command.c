@@ -71,13 +71,10 @@ static tl_result write_hull_obj(const tl_hull *hull, const char *output, tl_io_e
     }
     tl_obj_writer_object(writer, "hull");
     tl_obj_writer_vertices(writer, tl_hull_vertices(hull), hull->vertex_count);
-    const tl_hull_half_edge *edges = tl_hull_half_edges(hull);
     for (uint32_t i = 0; i < hull->face_count; ++i) {
-        tl_hull_face face = tl_hull_faces(hull)[i];
-        uint32_t edge = face.first;
+        tl_hull_face face = tl_hull_face_at(hull, i);
         for (uint32_t k = 0; k < face.count; ++k) {
-            corners[k] = edges[edge].origin;
-            edge = edges[edge].next;
+            corners[k] = tl_hull_edge_origin(hull, face.first + k);
         }
         tl_obj_writer_face(writer, corners, face.count);
     }

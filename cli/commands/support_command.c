@@ -21,7 +21,7 @@ static bool answer_direction(const float *n, uint32_t count, tl_text *text, uint
     (void)worker;
     uint32_t vertex = tl_hull_support(query->hull, tl_vec3_make(n[0], n[1], n[2]), TL_NO_VERTEX);
     tl_vec3 p = tl_hull_vertices(query->hull)[vertex];
-    uint32_t source = tl_hull_sources(query->hull)[vertex];
+    uint32_t source = tl_hull_source(query->hull, vertex);
     double at[3]; // as the level has it, and so the direction
     tl_pack_place_out(query->frame, p, at);
     const tl_vec3 own = tl_vec3_make(n[0], n[1], n[2]);

@@ -452,15 +452,6 @@ namespace Talus.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_hull_plane_block
-    {
-        public fixed double x[8];
-        public fixed double y[8];
-        public fixed double z[8];
-        public fixed double offset[8];
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_hull_mass
     {
         public double volume;
@@ -474,28 +465,31 @@ namespace Talus.Interop
     {
         public tl_blob blob;
         public uint vertex_count;
-        public uint scan_count;
+        public uint face_count;
+        public uint half_edge_count;
         public float scan_error;
+        public byte index_bytes;
+        public byte flags;
+        public ushort vertices;
+        public float merge_distance;
+        public tl_aabb bounds;
+        public tl_hull_mass mass;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_hull_climb
+    {
         public uint table_side;
         public tl_vec3 table_scale;
+        public uint planes;
         public uint blocks;
-        public uint scan;
         public uint table;
         public uint rings;
+        public uint cell_bytes;
         public uint block_count;
         public uint ring_count;
         public uint ring_cells;
-        public uint face_count;
-        public uint half_edge_count;
-        public tl_aabb bounds;
-        public tl_hull_mass mass;
-        public ulong vertices;
-        public ulong sources;
-        public ulong vertex_edges;
-        public ulong half_edges;
-        public ulong faces;
-        public ulong planes;
-        public double merge_distance;
+        public fixed uint unused[4];
     }
 
     [StructLayout(LayoutKind.Sequential)]

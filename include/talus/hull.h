@@ -20,7 +20,7 @@ extern "C" {
 #endif
 
 #define TL_HULL_MAGIC   0x4c554854u ///< "THUL"
-#define TL_HULL_VERSION 3u          ///< of the layout
+#define TL_HULL_VERSION 4u          ///< of the layout
 
 /// Largest absolute coordinate of a hull's points: edges and their dot products stay finite floats.
 #define TL_MAX_HULL_COORDINATE 1e30f
@@ -85,13 +85,6 @@ typedef struct tl_hull_plane {
     double offset;    ///< metres from the origin, along the normal
 } tl_hull_plane;
 
-/// The planes of eight faces, as queries read them: face f is lane f % 8 of block f / 8. Lanes beyond the last face are
-/// zero, planes that everything is on.
-typedef struct tl_hull_plane_block {
-    double x[8], y[8], z[8]; ///< normals
-    double offset[8];        ///< metres
-} tl_hull_plane_block;
-
 /// For density 1. Computed in double about a point inside, so it is as good far from the origin. A body thinner than
 /// double rounding of its length has volume and inertia 0, and the mean of its vertices as centre.
 typedef struct tl_hull_mass {
@@ -101,36 +94,52 @@ typedef struct tl_hull_mass {
     double inertia[6]; ///< about the centre of mass: xx, yy, zz, xy, xz, yz of the tensor (products carry their minus)
 } tl_hull_mass;
 
-/// The baked hull: a blob. Read it through the functions below; offsets are bytes from its beginning.
-/// Vertices are in the order of their points in the input, so "lowest vertex" is "earliest point".
+/// The baked hull: a blob. Read it through the functions below: the layout of its parts is private. Vertices are in the
+/// order of their points in the input, so "lowest vertex" is "earliest point". A box takes 640 bytes.
 typedef struct tl_hull {
-    tl_blob blob; ///< the head; free the hull with tl_blob_free
-    // All that tl_hull_support reads of the head lies in its first cache line; the layout of these parts is private.
-    // Offsets here are in units of TL_BLOB_ALIGNMENT.
-    uint32_t vertex_count; ///< V >= 4
-    uint32_t scan_count;   ///< length of the scan's rows, 8 or a multiple of 16; 0: the hull is too large to be scanned
-    float scan_error;      ///< error of the scan's dot products for a direction with |x| + |y| + |z| = 1
-    uint32_t table_side;   ///< cells along a side of the direction table's two squares, 0 when the hull is scanned
-    tl_vec3 table_scale;   ///< what a direction is multiplied by before it is looked up
-    uint32_t blocks;       ///< edge vectors and neighbours
-    uint32_t scan;         ///< float [3][scan_count]: x, y, z from the middle of the bounds
-    uint32_t table;        ///< uint32_t [2 table_side^2 + ring_cells] a vertex to start from, or a ring to look in
-    uint32_t rings;        ///< maps of large faces
-    uint32_t block_count;  ///< V, and one for every seven neighbours of a vertex beyond eight
-    uint32_t ring_count;   ///< large faces with a ring
-    uint32_t ring_cells;   ///< of all rings
-    uint32_t face_count;   ///< F
+    tl_blob blob;             ///< the head; free the hull with tl_blob_free
+    uint32_t vertex_count;    ///< V >= 4
+    uint32_t face_count;      ///< F
     uint32_t half_edge_count; ///< 2 E; V - E + F = 2
+    float scan_error;         ///< private: of a scan's dot products for a direction with |x| + |y| + |z| = 1
+    uint8_t index_bytes;      ///< private: 1, 2 or 4, of a word of the topology
+    uint8_t flags;            ///< private: bytes of a source, and TL_HULL_HAS_SIDES
+    uint16_t vertices;        ///< private: bytes from the beginning to the vertices, a multiple of 4
+    float merge_distance;     ///< metres; a face's corners lie within this of its plane. 0: exactly in it
     tl_aabb bounds;           ///< of the vertices, exact
     tl_hull_mass mass;        ///< for density 1
-    uint64_t vertices;        ///< tl_vec3 [V]
-    uint64_t sources;         ///< uint32_t [V] index of the input point
-    uint64_t vertex_edges;    ///< uint32_t [V] a half-edge that starts there
-    uint64_t half_edges;      ///< tl_hull_half_edge [2 E]
-    uint64_t faces;           ///< tl_hull_face [F]
-    uint64_t planes;          ///< tl_hull_plane_block [(F + 7) / 8]
-    double merge_distance;    ///< metres; a face's corners lie within this of its plane. 0: exactly in it
 } tl_hull;
+
+/// Private: the bytes of a source, 1, 2 or 4; 0: every vertex is the point of the same index.
+#define TL_HULL_SOURCE_BYTES 7u
+/// Two neighbouring faces lie in one plane, to the rounding of coordinates: a side may have several faces.
+#define TL_HULL_HAS_SIDES 8u
+/// Where corners lie in the plane of a face: no more below it than this share of the largest coordinate. A coordinate
+/// is off by half an ulp in each component, and so are the three that the plane goes through; eight roundings cover a
+/// plane whose points were rounded to floats, as in tl_hull_def.flatness.
+#define TL_HULL_SIDE_GAP 4.76837158203125e-7
+
+/// Private: hulls of more vertices than this have a tl_hull_climb.
+#define TL_HULL_FEW 16u
+
+/// Private: what the support query of a larger hull needs of its head, one cache line. `planes` and on are in units of
+/// TL_BLOB_ALIGNMENT.
+typedef struct tl_hull_climb {
+    uint32_t table_side;  ///< cells along a side of the direction table's two squares, 0 when the hull is scanned
+    tl_vec3 table_scale;  ///< what a direction is multiplied by before it is looked up
+    uint32_t planes;      ///< of the faces
+    uint32_t blocks;      ///< edge vectors and neighbours
+    uint32_t table;       ///< [2 table_side^2 + ring_cells] a vertex to start from, or a ring to look in
+    uint32_t rings;       ///< maps of large faces
+    uint32_t cell_bytes;  ///< 2 or 4, of a cell of the table
+    uint32_t block_count; ///< V, and one for every seven neighbours of a vertex beyond eight
+    uint32_t ring_count;  ///< large faces with a ring
+    uint32_t ring_cells;  ///< of all rings
+    uint32_t unused[4];   ///< zero
+} tl_hull_climb;
+
+/// Private: where it lies.
+#define TL_HULL_CLIMB_OFFSET 192u
 
 /// No limit of vertices, no thickness, flatness 8, nothing welded or merged but what is exactly equal, malloc.
 TL_API tl_hull_def tl_default_hull_def(void);
@@ -223,48 +232,125 @@ static inline const tl_vec3 *tl_hull_vertices(const tl_hull *hull)
     return (const tl_vec3 *)(const void *)((const char *)hull + hull->vertices);
 }
 
-/// V indices into the points that the hull was baked from. A thickened hull names a point more than once.
-static inline const uint32_t *tl_hull_sources(const tl_hull *hull)
+/// Private: word `at` of the topology, which stands behind the vertices: of each half-edge origin, twin and face; the
+/// first half-edge of each face, and 2 E; of each vertex a half-edge; from a multiple of four bytes on the sources.
+static inline uint32_t tl_hull_word(const tl_hull *hull, size_t at)
 {
-    return (const uint32_t *)(const void *)((const char *)hull + hull->sources);
+    const char *words = (const char *)(tl_hull_vertices(hull) + hull->vertex_count);
+    return hull->index_bytes == 1   ? ((const uint8_t *)words)[at]
+           : hull->index_bytes == 2 ? ((const uint16_t *)(const void *)words)[at]
+                                    : ((const uint32_t *)(const void *)words)[at];
 }
 
-/// For each vertex one half-edge that starts there. The others follow by `half_edges[twin].next`.
-static inline const uint32_t *tl_hull_vertex_edges(const tl_hull *hull)
+/// Private: how many words.
+static inline uint64_t tl_hull_word_count(const tl_hull *hull)
 {
-    return (const uint32_t *)(const void *)((const char *)hull + hull->vertex_edges);
+    return 3 * (uint64_t)hull->half_edge_count + hull->face_count + 1 + hull->vertex_count;
 }
 
-/// 2 E half-edges, those of a face one after the other.
-static inline const tl_hull_half_edge *tl_hull_half_edges(const tl_hull *hull)
+/// Index of a vertex among the points that the hull was baked from. A thickened hull names a point more than once.
+static inline uint32_t tl_hull_source(const tl_hull *hull, uint32_t vertex)
 {
-    return (const tl_hull_half_edge *)(const void *)((const char *)hull + hull->half_edges);
+    const size_t words = (size_t)(tl_hull_word_count(hull) * hull->index_bytes + 3) / 4 * 4;
+    const char *sources = (const char *)(tl_hull_vertices(hull) + hull->vertex_count) + words;
+    const uint32_t bytes = hull->flags & TL_HULL_SOURCE_BYTES;
+    return bytes == 0   ? vertex
+           : bytes == 1 ? ((const uint8_t *)sources)[vertex]
+           : bytes == 2 ? ((const uint16_t *)(const void *)sources)[vertex]
+                        : ((const uint32_t *)(const void *)sources)[vertex];
 }
 
-/// F faces.
-static inline const tl_hull_face *tl_hull_faces(const tl_hull *hull)
+/// A half-edge that starts at a vertex. The others follow by tl_hull_edge_next of the twin.
+static inline uint32_t tl_hull_vertex_edge(const tl_hull *hull, uint32_t vertex)
 {
-    return (const tl_hull_face *)(const void *)((const char *)hull + hull->faces);
+    return tl_hull_word(hull, 3 * (size_t)hull->half_edge_count + hull->face_count + 1 + vertex);
 }
 
-/// Blocks of eight planes for so many faces.
-static inline uint32_t tl_hull_plane_block_count(uint32_t face_count)
+/// A face's first half-edge; that of face F would be 2 E.
+static inline uint32_t tl_hull_face_first(const tl_hull *hull, uint32_t face)
 {
-    return face_count / 8 + (face_count % 8 != 0);
+    return tl_hull_word(hull, 3 * (size_t)hull->half_edge_count + face);
 }
 
-/// The planes of all faces, in blocks of eight.
-static inline const tl_hull_plane_block *tl_hull_plane_blocks(const tl_hull *hull)
+/// A face's half-edges.
+static inline tl_hull_face tl_hull_face_at(const tl_hull *hull, uint32_t face)
 {
-    return (const tl_hull_plane_block *)(const void *)((const char *)hull + hull->planes);
+    const uint32_t first = tl_hull_face_first(hull, face);
+    const tl_hull_face result = { first, tl_hull_face_first(hull, face + 1) - first };
+    return result;
+}
+
+/// The vertex that a half-edge starts at.
+static inline uint32_t tl_hull_edge_origin(const tl_hull *hull, uint32_t half_edge)
+{
+    return tl_hull_word(hull, 3 * (size_t)half_edge);
+}
+
+/// The same edge in the other direction.
+static inline uint32_t tl_hull_edge_twin(const tl_hull *hull, uint32_t half_edge)
+{
+    return tl_hull_word(hull, 3 * (size_t)half_edge + 1);
+}
+
+/// The face to a half-edge's left.
+static inline uint32_t tl_hull_edge_face(const tl_hull *hull, uint32_t half_edge)
+{
+    return tl_hull_word(hull, 3 * (size_t)half_edge + 2);
+}
+
+/// The half-edge that follows in the loop of `face`, which it belongs to.
+static inline uint32_t tl_hull_edge_next_in(const tl_hull *hull, uint32_t half_edge, uint32_t face)
+{
+    return half_edge + 1 < tl_hull_face_first(hull, face + 1) ? half_edge + 1 : tl_hull_face_first(hull, face);
+}
+
+/// The half-edge that follows in the face's loop, counter-clockwise.
+static inline uint32_t tl_hull_edge_next(const tl_hull *hull, uint32_t half_edge)
+{
+    return tl_hull_edge_next_in(hull, half_edge, tl_hull_edge_face(hull, half_edge));
+}
+
+/// All of a half-edge.
+static inline tl_hull_half_edge tl_hull_edge_at(const tl_hull *hull, uint32_t half_edge)
+{
+    const tl_hull_half_edge result = { tl_hull_edge_origin(hull, half_edge), tl_hull_edge_twin(hull, half_edge),
+                                       tl_hull_edge_next(hull, half_edge), tl_hull_edge_face(hull, half_edge) };
+    return result;
+}
+
+/// Lanes of a block of planes: 8, of a hull of up to six faces 4 or 6.
+static inline uint32_t tl_hull_plane_lanes(const tl_hull *hull)
+{
+    return hull->face_count > 6 ? 8 : (hull->face_count + 1) / 2 * 2;
+}
+
+/// The planes of eight faces as queries read them, block f / 8 of face f: rows x, y, z and offset of so many lanes one
+/// behind the other. Lanes beyond the last face are zero, planes that everything is on. From any row eight lanes can be
+/// read; behind short rows those of the offsets are infinite, so that what is read too much is out of reach.
+static inline const double *tl_hull_plane_block(const tl_hull *hull, uint32_t block)
+{
+    const char *bytes = (const char *)hull;
+    const uint32_t climbed = TL_HULL_CLIMB_OFFSET;
+    const size_t planes =
+        hull->vertex_count <= 8 ? sizeof(tl_hull) + 3 * 8 * sizeof(float)
+        : hull->vertex_count <= TL_HULL_FEW
+            ? sizeof(tl_hull) + 3 * 16 * sizeof(float)
+            : (size_t)((const tl_hull_climb *)(const void *)(bytes + climbed))->planes * TL_BLOB_ALIGNMENT;
+    return (const double *)(const void *)(bytes + planes) + 32 * (size_t)block;
+}
+
+/// Blocks of planes.
+static inline uint32_t tl_hull_plane_block_count(const tl_hull *hull)
+{
+    return hull->face_count / 8 + (hull->face_count % 8 != 0);
 }
 
 /// The outward plane of a face.
 static inline tl_hull_plane tl_hull_face_plane(const tl_hull *hull, uint32_t face)
 {
-    const tl_hull_plane_block *block = &tl_hull_plane_blocks(hull)[face / 8];
-    uint32_t lane = face % 8;
-    tl_hull_plane plane = { { block->x[lane], block->y[lane], block->z[lane] }, block->offset[lane] };
+    const uint32_t lanes = tl_hull_plane_lanes(hull);
+    const double *at = tl_hull_plane_block(hull, face / 8) + face % 8;
+    const tl_hull_plane plane = { { at[0], at[lanes], at[2 * lanes] }, at[3 * lanes] };
     return plane;
 }
 

@@ -61,8 +61,23 @@ export class Hull extends Handle {
   #info() {
     wasm.js_hull_info(this._address);
     const s = SLOT;
-    return { size: F64[s], vertexCount: F64[s + 1], faceCount: F64[s + 2], halfEdgeCount: F64[s + 3], vertices: F64[s + 4],
-             sources: F64[s + 5], vertexEdges: F64[s + 6], halfEdges: F64[s + 7], faces: F64[s + 8] };
+    return { size: F64[s], vertexCount: F64[s + 1], faceCount: F64[s + 2], halfEdgeCount: F64[s + 3], vertices: F64[s + 4] };
+  }
+
+  // Words as js_hull_topology writes them.
+  #topology() {
+    const { vertexCount, halfEdgeCount, faceCount } = this.#info();
+    const words = new Uint32Array(2 * vertexCount + 4 * halfEdgeCount + 2 * faceCount);
+    const address = copyIn(words);
+    try {
+      wasm.js_hull_topology(this._address, address);
+      const filled = copyOut(Uint32Array, address, words.length), edges = 2 * vertexCount;
+      return { vertexCount, halfEdgeCount, faceCount, sources: filled.slice(0, vertexCount),
+               vertexEdges: filled.subarray(vertexCount, edges), halfEdges: filled.subarray(edges, edges + 4 * halfEdgeCount),
+               faces: filled.subarray(edges + 4 * halfEdgeCount) };
+    } finally {
+      release(address);
+    }
   }
 
   toBytes() {
@@ -80,13 +95,13 @@ export class Hull extends Handle {
 
   bounds() {
     this.#info();
-    return slotAabb(9);
+    return slotAabb(5);
   }
 
   mass() {
     this.#info();
     const s = SLOT;
-    return { volume: F64[s + 15], area: F64[s + 16], center: slotVec3(17), inertia: F64.slice(s + 20, s + 26) };
+    return { volume: F64[s + 11], area: F64[s + 12], center: slotVec3(13), inertia: F64.slice(s + 16, s + 22) };
   }
 
   vertices() {
@@ -95,18 +110,15 @@ export class Hull extends Handle {
   }
 
   sources() {
-    const info = this.#info();
-    return copyOut(Uint32Array, info.sources, info.vertexCount);
+    return this.#topology().sources;
   }
 
   faces() {
-    const info = this.#info();
-    const faces = copyOut(Uint32Array, info.faces, 2 * info.faceCount);
-    const edges = copyOut(Uint32Array, info.halfEdges, 4 * info.halfEdgeCount);
-    const first = new Uint32Array(info.faceCount + 1), indices = new Uint32Array(info.halfEdgeCount);
+    const { faces, halfEdges, faceCount, halfEdgeCount } = this.#topology();
+    const first = new Uint32Array(faceCount + 1), indices = new Uint32Array(halfEdgeCount);
     let at = 0;
-    for (let f = 0; f < info.faceCount; f++) {
-      for (let e = faces[2 * f]; e < faces[2 * f] + faces[2 * f + 1]; e++) indices[at++] = edges[4 * e];
+    for (let f = 0; f < faceCount; f++) {
+      for (let e = faces[2 * f]; e < faces[2 * f] + faces[2 * f + 1]; e++) indices[at++] = halfEdges[4 * e];
       first[f + 1] = at;
     }
     return { first, indices };
@@ -122,10 +134,9 @@ export class Hull extends Handle {
   }
 
   edges() {
-    const info = this.#info();
-    const half = copyOut(Uint32Array, info.halfEdges, 4 * info.halfEdgeCount);
+    const { halfEdges: half, halfEdgeCount } = this.#topology();
     const edges = [];
-    for (let e = 0; e < info.halfEdgeCount; e++) {
+    for (let e = 0; e < halfEdgeCount; e++) {
       const twin = half[4 * e + 1];
       if (e < twin) edges.push(half[4 * e], half[4 * twin]);
     }
@@ -139,8 +150,7 @@ export class Hull extends Handle {
   supportClimb(direction, start = 0) {
     const info = this.#info();
     const v = copyOut(Float32Array, info.vertices, 3 * info.vertexCount);
-    const half = copyOut(Uint32Array, info.halfEdges, 4 * info.halfEdgeCount);
-    const anyEdge = copyOut(Uint32Array, info.vertexEdges, info.vertexCount);
+    const { halfEdges: half, vertexEdges: anyEdge } = this.#topology();
     // Products of floats are exact in doubles; the sum of three is rounded twice.
     const [x, y, z] = [0, 1, 2].map((i) => Math.fround(direction[i]));
     const height = (i) => v[3 * i] * x + v[3 * i + 1] * y + v[3 * i + 2] * z;

@@ -81,27 +81,35 @@ static PyObject *hull_parts(PyObject *self, PyObject *capsule)
     if (hull == NULL) {
         return NULL;
     }
+    PyObject *sources = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)hull->vertex_count * 4);
     PyObject *origins = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)hull->half_edge_count * 4);
-    PyObject *planes =
-        PyBytes_FromStringAndSize(NULL, (Py_ssize_t)hull->face_count * (Py_ssize_t)sizeof(tl_hull_plane));
-    if (origins == NULL || planes == NULL) {
+    PyObject *faces = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)(hull->face_count * sizeof(tl_hull_face)));
+    PyObject *planes = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)(hull->face_count * sizeof(tl_hull_plane)));
+    if (sources == NULL || origins == NULL || faces == NULL || planes == NULL) {
+        Py_XDECREF(sources);
         Py_XDECREF(origins);
+        Py_XDECREF(faces);
         Py_XDECREF(planes);
         return NULL;
     }
+    uint32_t *source = (uint32_t *)(void *)PyBytes_AsString(sources);
+    for (uint32_t i = 0; i < hull->vertex_count; i++) {
+        source[i] = tl_hull_source(hull, i);
+    }
     uint32_t *origin = (uint32_t *)(void *)PyBytes_AsString(origins);
     for (uint32_t i = 0; i < hull->half_edge_count; i++) {
-        origin[i] = tl_hull_half_edges(hull)[i].origin;
+        origin[i] = tl_hull_edge_origin(hull, i);
     }
     for (uint32_t i = 0; i < hull->face_count; i++) {
+        tl_hull_face face = tl_hull_face_at(hull, i);
         tl_hull_plane plane = tl_hull_face_plane(hull, i);
+        memcpy(PyBytes_AsString(faces) + i * sizeof(face), &face, sizeof(face));
         memcpy(PyBytes_AsString(planes) + i * sizeof(plane), &plane, sizeof(plane));
     }
     return Py_BuildValue("{sNsNsNsNsNsN}", "vertices",
-                         bytes_of(tl_hull_vertices(hull), hull->vertex_count * sizeof(tl_vec3)), "sources",
-                         bytes_of(tl_hull_sources(hull), hull->vertex_count * sizeof(uint32_t)), "origins", origins,
-                         "faces", bytes_of(tl_hull_faces(hull), hull->face_count * sizeof(tl_hull_face)), "planes",
-                         planes, "mass", bytes_of(&hull->mass, sizeof(hull->mass)));
+                         bytes_of(tl_hull_vertices(hull), hull->vertex_count * sizeof(tl_vec3)), "sources", sources,
+                         "origins", origins, "faces", faces, "planes", planes, "mass",
+                         bytes_of(&hull->mass, sizeof(hull->mass)));
 }
 
 // hull_contains(hull, points, inside u8)

@@ -149,10 +149,10 @@ static uint32_t check_manifold(const test_body *a, tl_transform pose_a, const te
 
 static tl_vec3 middle_of_face(const tl_hull *hull, uint32_t face)
 {
-    tl_hull_face f = tl_hull_faces(hull)[face];
+    tl_hull_face f = tl_hull_face_at(hull, face);
     tl_vec3 sum = tl_vec3_make(0, 0, 0);
     for (uint32_t i = 0; i < f.count; i++) {
-        sum = tl_add(sum, tl_hull_vertices(hull)[tl_hull_half_edges(hull)[f.first + i].origin]);
+        sum = tl_add(sum, tl_hull_vertices(hull)[tl_hull_edge_origin(hull, f.first + i)]);
     }
     return tl_scale(sum, 1.0f / (float)f.count);
 }

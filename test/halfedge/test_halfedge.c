@@ -30,7 +30,6 @@ static void from_hull(tl_halfedge_mesh *mesh, text_mesh *text, uint32_t count, f
         tl_blob_free(hull);
         return;
     }
-    const tl_hull_half_edge *h = tl_hull_half_edges(hull);
     uint32_t unused;
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
         TEST_RESULT(tl_halfedge_mesh_add_vertex(mesh, tl_hull_vertices(hull)[v], &unused), TL_OK);
@@ -39,9 +38,10 @@ static void from_hull(tl_halfedge_mesh *mesh, text_mesh *text, uint32_t count, f
         }
     }
     for (uint32_t f = 0; f < hull->face_count; f++) {
-        tl_hull_face face = tl_hull_faces(hull)[f];
+        tl_hull_face face = tl_hull_face_at(hull, f);
         for (uint32_t k = 1; k + 1 < face.count; k++) {
-            uint32_t a = h[face.first].origin, b = h[face.first + k].origin, c = h[face.first + k + 1].origin;
+            uint32_t a = tl_hull_edge_origin(hull, face.first), b = tl_hull_edge_origin(hull, face.first + k);
+            uint32_t c = tl_hull_edge_origin(hull, face.first + k + 1);
             TEST_RESULT(tl_halfedge_mesh_add_triangle(mesh, a, b, c, NULL), TL_OK);
             if (text != NULL) {
                 text_add_face(text, (int)a, (int)b, (int)c);
@@ -368,10 +368,10 @@ static void test_a_hull_can_be_edited(void **state)
             memory.fail_at = 0;
             TEST_RESULT(tl_halfedge_mesh_check(&mesh, NULL), TL_OK);
             TEST_CHECK(mesh.boundary_count == 0 && mesh.half_edge_count == hull->half_edge_count);
-            const tl_hull_half_edge *h = tl_hull_half_edges(hull);
             for (uint32_t e = 0; e < hull->half_edge_count; e++) {
-                uint32_t edge = tl_halfedge_mesh_find_edge(&mesh, h[e].origin, h[h[e].next].origin);
-                TEST_CHECK(edge != TL_HALFEDGE_NONE && tl_halfedge_left_face(&mesh, edge) == h[e].face);
+                const tl_hull_half_edge h = tl_hull_edge_at(hull, e);
+                uint32_t edge = tl_halfedge_mesh_find_edge(&mesh, h.origin, tl_hull_edge_origin(hull, h.next));
+                TEST_CHECK(edge != TL_HALFEDGE_NONE && tl_halfedge_left_face(&mesh, edge) == h.face);
             }
             for (int i = 0; i < 50; i++) {
                 tl_vec3 d = test_random_direction(&random);

@@ -76,10 +76,9 @@ static bool make_hull_mesh(subject *s, shape_kind kind, uint32_t count, float si
         TEST_RESULT(tl_halfedge_mesh_add_vertex(&s->mesh, tl_hull_vertices(hull)[i], &v), TL_OK);
     }
     for (uint32_t f = 0; f < hull->face_count; f++) {
-        tl_hull_face face = tl_hull_faces(hull)[f];
-        const tl_hull_half_edge *h = tl_hull_half_edges(hull) + face.first;
+        tl_hull_face face = tl_hull_face_at(hull, f);
         for (uint32_t k = 0; k < face.count; k++) {
-            corners[k] = h[k].origin;
+            corners[k] = tl_hull_edge_origin(hull, face.first + k);
         }
         for (uint32_t k = 1; fans && k + 1 < face.count; k++) {
             uint32_t made;

@@ -5,6 +5,7 @@
 #include "talus_test.h"
 
 #include "hull/bake/quickhull.h"
+#include "hull/support/hull_support.h"
 #include "hull_shapes.h"
 
 #include <talus/hull.h>
@@ -93,8 +94,8 @@ static void test_altered_planes_and_mass_are_refused(void **state)
     shape_make(SHAPE_SPHERE, &random, points, 40);
     tl_hull *hull;
     TEST_RESULT(tl_hull_bake(points, 40, NULL, &hull, NULL), TL_OK);
-    uint64_t planes = hull->planes,
-             plane_bytes = tl_hull_plane_block_count(hull->face_count) * sizeof(tl_hull_plane_block);
+    const uint64_t planes = (uint64_t)((const char *)tl_hull_plane_block(hull, 0) - (const char *)hull),
+                   plane_bytes = tl_hull_plane_bytes(hull);
     uint8_t *bytes = (uint8_t *)hull;
     for (uint64_t bit = 0; bit < 8 * (sizeof hull->mass + plane_bytes); bit++) {
         bool in_mass = bit / 8 < sizeof hull->mass;
@@ -123,12 +124,17 @@ static tl_hull *bake_pyramid(const tl_hull *right, float height, float bottom, t
     corners[0].y = bottom;
     tl_hull_half_edge half_edges[64];
     tl_hull_face faces[32];
-    memcpy(half_edges, tl_hull_half_edges(right), right->half_edge_count * sizeof *half_edges);
-    memcpy(faces, tl_hull_faces(right), right->face_count * sizeof *faces);
-    tl_hull_polygons polygons = { 9,  right->face_count, right->half_edge_count, numbers, half_edges, faces, NULL, NULL,
-                                  0.0 };
+    for (uint32_t h = 0; h < right->half_edge_count; h++) {
+        half_edges[h] = tl_hull_edge_at(right, h);
+    }
+    for (uint32_t f = 0; f < right->face_count; f++) {
+        faces[f] = tl_hull_face_at(right, f);
+    }
+    tl_hull_polygons polygons = {
+        9, right->face_count, right->half_edge_count, numbers, half_edges, faces, NULL, NULL, 0.0f
+    };
     tl_hull *hull;
-    TEST_RESULT(tl_hull_encode(&polygons, corners, 1, arena, NULL, &hull), TL_OK);
+    TEST_RESULT(tl_hull_encode(&polygons, corners, NULL, 1, arena, NULL, &hull), TL_OK);
     return hull;
 }
 

@@ -172,7 +172,7 @@ static void prove(const tl_hull *hull, const tl_vec3 *points, uint32_t count, bo
     tl_hull_validate(hull, points, count, &found);
     TEST_CHECK(found.max_outside <= (thickened ? 1e-6 * (double)largest_size(points, count) : 0.0));
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
-        TEST_CHECK(tl_hull_sources(hull)[v] < count);
+        TEST_CHECK(tl_hull_source(hull, v) < count);
     }
 }
 

@@ -9,6 +9,7 @@
 #include "talus_test.h"
 
 #include "base/hash.h"
+#include "hull/support/hull_support.h"
 #include "hull_shapes.h"
 #include "math/predicates.h"
 
@@ -75,17 +76,17 @@ static void prove(const tl_hull *hull, const tl_vec3 *points, uint32_t count, fl
     const tl_vec3 *vertices = tl_hull_vertices(hull);
     for (uint32_t f = 0; f < hull->face_count; f++) {
         tl_hull_plane plane = tl_hull_face_plane(hull, f);
-        tl_hull_face face = tl_hull_faces(hull)[f];
+        tl_hull_face face = tl_hull_face_at(hull, f);
         for (uint32_t v = 0; v < hull->vertex_count; v++) {
             double height = plane.normal[0] * (double)vertices[v].x + plane.normal[1] * (double)vertices[v].y +
                             plane.normal[2] * (double)vertices[v].z - plane.offset;
             TEST_CHECK(height <= 1e-12 * size); // no plane cuts the body
         }
         for (uint32_t k = 0; k < face.count; k++) {
-            tl_vec3 p = vertices[tl_hull_half_edges(hull)[face.first + k].origin];
+            tl_vec3 p = vertices[tl_hull_edge_origin(hull, face.first + k)];
             double height = plane.normal[0] * (double)p.x + plane.normal[1] * (double)p.y +
                             plane.normal[2] * (double)p.z - plane.offset;
-            TEST_CHECK(height >= -hull->merge_distance - 1e-12 * size);
+            TEST_CHECK(height >= -(double)hull->merge_distance - 1e-12 * size);
         }
     }
 }
@@ -230,7 +231,7 @@ static void test_promises_hold_for_all_clouds(void **state)
         prove(merged, points, count, weld + merge, &report);
         compare_supports(merged, &random, 40);
         left_out += report.corners_left_out;
-        merged_faces += merged->merge_distance > 0.0;
+        merged_faces += merged->merge_distance > 0.0f;
         same += merged->face_count == exact->face_count;
         TEST_CHECK(merged->face_count <= exact->face_count);
         // The same again, byte for byte.
@@ -253,7 +254,7 @@ static void test_welding_alone_keeps_faces_exact(void **state)
     uint32_t count = shape_make(SHAPE_SPHERE, &random, points, 300);
     tl_hull_report report;
     tl_hull *hull = bake(points, count, 0.2f, 0.0f, &report);
-    TEST_CHECK(hull->merge_distance == 0.0 && report.corners_left_out > 100 && report.max_outside > 0.0);
+    TEST_CHECK(hull->merge_distance == 0.0f && report.corners_left_out > 100 && report.max_outside > 0.0);
     prove(hull, points, count, 0.2f, &report);
     const tl_vec3 *vertices = tl_hull_vertices(hull);
     for (uint32_t a = 0; a < hull->vertex_count; a++) {
@@ -339,15 +340,15 @@ static void test_changed_bytes_are_found(void **state)
     uint32_t count = shape_make(SHAPE_PRISM, &random, points, 120);
     turn(points, count, any_rotation(&random), tl_vec3_make(0.0f, 1.0f, 0.0f));
     tl_hull *hull = bake(points, count, 0.0f, 1e-5f, NULL);
-    TEST_CHECK(hull->merge_distance > 0.0);
+    TEST_CHECK(hull->merge_distance > 0.0f);
     unsigned char *bytes = test_blob_alloc(hull->blob.size);
     uint32_t found = 0;
     for (uint32_t i = 0; i < 40 * rounds; i++) {
         memcpy(bytes, hull, hull->blob.size);
         const uint64_t at = 16 + test_random_below(&random, (uint32_t)hull->blob.size - 16);
-        const uint64_t distance = offsetof(tl_hull, merge_distance), sources = hull->sources;
+        const uint64_t distance = offsetof(tl_hull, merge_distance), sources = tl_hull_sources_offset(hull);
         // Other sources, or a little more distance, would be as right.
-        if ((at >= sources && at < sources + 4 * (uint64_t)hull->vertex_count) ||
+        if ((at >= sources && at < sources + tl_hull_source_bytes(hull) * (uint64_t)hull->vertex_count) ||
             (at >= distance && at < distance + sizeof hull->merge_distance)) {
             continue;
         }

@@ -58,13 +58,6 @@ static tl_hull *build_exactly(const tl_vec3 *points, uint32_t count)
     return hull;
 }
 
-static bool same_faces(const tl_hull *a, const tl_hull *b)
-{
-    return a->vertex_count == b->vertex_count && a->half_edge_count == b->half_edge_count &&
-           memcmp(tl_hull_half_edges(a), tl_hull_half_edges(b), a->half_edge_count * sizeof(tl_hull_half_edge)) == 0 &&
-           memcmp(tl_hull_sources(a), tl_hull_sources(b), a->vertex_count * sizeof(uint32_t)) == 0;
-}
-
 static bool is_same_scaled(const tl_hull *hull, const tl_vec3 *points, uint32_t count, tl_vec3 *scratch)
 {
     bool same = true;
@@ -73,8 +66,8 @@ static bool is_same_scaled(const tl_hull *hull, const tl_vec3 *points, uint32_t 
             scratch[i] = tl_scale(points[i], ldexpf(1.0f, exponents[e]));
         }
         tl_hull *other = build_exactly(scratch, count);
-        same =
-            same && other != NULL && same_faces(hull, other) && tl_hull_check(other, other->blob.size, NULL) == TL_OK;
+        same = same && other != NULL && shape_is_same_topology(hull, other) &&
+               tl_hull_check(other, other->blob.size, NULL) == TL_OK;
         tl_blob_free(other);
     }
     return same;
@@ -97,7 +90,7 @@ static void compare_moved(const tl_vec3 *points, uint32_t count, float size, tl_
         scratch[i] = tl_sub(scratch[i], offset);
     }
     tl_hull *near = build_exactly(scratch, count);
-    r->same_moved += proven && near != NULL && same_faces(far, near);
+    r->same_moved += proven && near != NULL && shape_is_same_topology(far, near);
     tl_blob_free(near);
     tl_blob_free(far);
 }

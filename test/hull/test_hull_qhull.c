@@ -77,7 +77,7 @@ static void compare(const tl_vec3 *points, uint32_t count, bool general, tally *
         TEST_CHECK(volume <= 1e-9 && area <= 1e-6);
         bool same = peer.vertex_count == hull->vertex_count;
         for (uint32_t v = 0; v < hull->vertex_count && same; v++) {
-            same = peer.is_vertex[tl_hull_sources(hull)[v]];
+            same = peer.is_vertex[tl_hull_source(hull, v)];
         }
         TEST_CHECK(same || !general);
         seen->same_vertices += same;

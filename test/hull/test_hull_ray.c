@@ -31,7 +31,6 @@ static void test_rays_agree_with_sidedness(void **state)
         TEST_RESULT(tl_hull_bake(points, 60, &def, &hull, NULL), TL_OK);
         tl_vec3 middle = tl_aabb_center(hull->bounds), size = tl_aabb_size(hull->bounds);
         const tl_vec3 *v = tl_hull_vertices(hull);
-        const tl_hull_half_edge *h = tl_hull_half_edges(hull);
         for (int i = 0; i < 4000; i++) {
             tl_vec3 u = test_random_point(&random, tl_vec3_make(-1, -1, -1), tl_vec3_make(1, 1, 1));
             tl_vec3 w = test_random_point(&random, tl_vec3_make(-0.6f, -0.6f, -0.6f), tl_vec3_make(0.6f, 0.6f, 0.6f));
@@ -42,10 +41,11 @@ static void test_rays_agree_with_sidedness(void **state)
             uint32_t entry = TL_NO_VERTEX;
             bool edge = false;
             for (uint32_t f = 0; f < hull->face_count; f++) {
-                tl_hull_face face = tl_hull_faces(hull)[f];
+                tl_hull_face face = tl_hull_face_at(hull, f);
                 bool all = true;
                 for (uint32_t k = 0; k < face.count && all; k++) {
-                    tl_vec3 a = v[h[face.first + k].origin], b = v[h[h[face.first + k].next].origin];
+                    const tl_hull_half_edge h = tl_hull_edge_at(hull, face.first + k);
+                    tl_vec3 a = v[h.origin], b = v[tl_hull_edge_origin(hull, h.next)];
                     int side = tl_line_side(origin, direction, a, b);
                     // Entering, the line passes the counter-clockwise edges on the right of its direction.
                     all = side <= 0;

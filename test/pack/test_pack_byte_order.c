@@ -5,6 +5,7 @@
 
 #include "nav_fixture.h"
 
+#include "hull/support/hull_support.h"
 #include "nav_format/detour_read.h"
 #include "pack/pack_format.h"
 
@@ -121,25 +122,28 @@ static void test_soups(void **state)
 static void test_hulls(void **state)
 {
     (void)state;
-    // Scanned; with a table; with a table and rings, for its two large faces.
+    // Scanned, and with blocks and sources too; with a table; with a table and rings, for its two large faces.
     tl_vec3 points[HULL_POINTS];
     test_random random = { 6 };
-    for (int kind = 0; kind < 3; kind++) {
-        const uint32_t count = kind == 0 ? 12 : HULL_POINTS;
+    for (int kind = 0; kind < 4; kind++) {
+        const uint32_t count = kind == 0 ? 12 : kind == 1 ? 30 : HULL_POINTS;
         for (uint32_t i = 0; i < count; i++) {
             const tl_vec3 p =
                 tl_vec3_make(test_random_range(&random, -1.0f, 1.0f), test_random_range(&random, -1.0f, 1.0f),
                              test_random_range(&random, -1.0f, 1.0f));
             points[i] = tl_normalize(p);
-            if (kind == 2) {
+            if (kind == 3) {
                 points[i] = tl_normalize(tl_vec3_make(p.x, 0.0f, p.z));
                 points[i].y = i % 2 == 0 ? 1.0f : -1.0f;
             }
         }
+        points[1] = kind == 1 ? points[0] : points[1];
         tl_hull *hull;
         TEST_RESULT(tl_hull_bake(points, count, NULL, &hull, NULL), TL_OK);
-        TEST_CHECK(kind == 0 ? hull->scan_count > 0 : hull->table_side > 0);
-        TEST_CHECK((hull->ring_count > 0) == (kind == 2));
+        TEST_CHECK((hull->vertex_count > TL_HULL_FEW) == (kind > 0) &&
+                   (tl_hull_source_bytes(hull) == 1) == (kind == 1));
+        TEST_CHECK((hull->vertex_count > TL_HULL_SCAN_LIMIT) == (kind > 1));
+        TEST_CHECK(kind == 0 || (tl_hull_climb_head(hull)->ring_count > 0) == (kind == 3));
         go(hull, tl_hull_check);
     }
 }

@@ -38,7 +38,6 @@ static inline tl_vec3d oracle_transform(tl_transform pose, tl_vec3 p)
 
 static inline void oracle_from_hull(oracle_body *body, const tl_hull *hull, tl_transform pose)
 {
-    const tl_hull_half_edge *h = tl_hull_half_edges(hull);
     body->vertex_count = hull->vertex_count;
     body->edge_count = body->triangle_count = 0;
     body->solid = true;
@@ -46,18 +45,19 @@ static inline void oracle_from_hull(oracle_body *body, const tl_hull *hull, tl_t
         body->vertices[v] = oracle_transform(pose, tl_hull_vertices(hull)[v]);
     }
     for (uint32_t e = 0; e < hull->half_edge_count; e++) {
-        if (e < h[e].twin) {
-            body->edges[2 * body->edge_count] = h[e].origin;
-            body->edges[2 * body->edge_count++ + 1] = h[h[e].next].origin;
+        const tl_hull_half_edge h = tl_hull_edge_at(hull, e);
+        if (e < h.twin) {
+            body->edges[2 * body->edge_count] = h.origin;
+            body->edges[2 * body->edge_count++ + 1] = tl_hull_edge_origin(hull, h.next);
         }
     }
     for (uint32_t f = 0; f < hull->face_count; f++) {
-        tl_hull_face face = tl_hull_faces(hull)[f];
+        tl_hull_face face = tl_hull_face_at(hull, f);
         for (uint32_t k = 1; k + 1 < face.count; k++) {
             uint32_t *t = &body->triangles[3 * body->triangle_count++];
-            t[0] = h[face.first].origin;
-            t[1] = h[face.first + k].origin;
-            t[2] = h[face.first + k + 1].origin;
+            t[0] = tl_hull_edge_origin(hull, face.first);
+            t[1] = tl_hull_edge_origin(hull, face.first + k);
+            t[2] = tl_hull_edge_origin(hull, face.first + k + 1);
         }
     }
 }

@@ -7,8 +7,11 @@
 
 #include "talus_test.h"
 
+#include <talus/hull.h>
+
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef enum shape_kind {
     SHAPE_SPHERE,       ///< on a sphere
@@ -25,6 +28,21 @@ typedef enum shape_kind {
     SHAPE_CLUSTER,      ///< few distinct points, many times
     SHAPE_COUNT
 } shape_kind;
+
+/// Whether two hulls have the same faces of the same points.
+static inline bool shape_is_same_topology(const tl_hull *a, const tl_hull *b)
+{
+    bool same = a->vertex_count == b->vertex_count && a->face_count == b->face_count &&
+                a->half_edge_count == b->half_edge_count;
+    for (uint32_t h = 0; same && h < a->half_edge_count; h++) {
+        const tl_hull_half_edge e = tl_hull_edge_at(a, h), f = tl_hull_edge_at(b, h);
+        same = memcmp(&e, &f, sizeof e) == 0;
+    }
+    for (uint32_t v = 0; same && v < a->vertex_count; v++) {
+        same = tl_hull_source(a, v) == tl_hull_source(b, v);
+    }
+    return same;
+}
 
 static inline tl_vec3 shape_on_ring(uint32_t i, uint32_t count)
 {

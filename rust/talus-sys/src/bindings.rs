@@ -363,14 +363,6 @@ pub struct tl_hull_plane {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
-pub struct tl_hull_plane_block {
-    pub x: [f64; 8],
-    pub y: [f64; 8],
-    pub z: [f64; 8],
-    pub offset: [f64; 8],
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
 pub struct tl_hull_mass {
     pub volume: f64,
     pub area: f64,
@@ -382,28 +374,30 @@ pub struct tl_hull_mass {
 pub struct tl_hull {
     pub blob: tl_blob,
     pub vertex_count: u32,
-    pub scan_count: u32,
+    pub face_count: u32,
+    pub half_edge_count: u32,
     pub scan_error: f32,
+    pub index_bytes: u8,
+    pub flags: u8,
+    pub vertices: u16,
+    pub merge_distance: f32,
+    pub bounds: tl_aabb,
+    pub mass: tl_hull_mass,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_hull_climb {
     pub table_side: u32,
     pub table_scale: tl_vec3,
+    pub planes: u32,
     pub blocks: u32,
-    pub scan: u32,
     pub table: u32,
     pub rings: u32,
+    pub cell_bytes: u32,
     pub block_count: u32,
     pub ring_count: u32,
     pub ring_cells: u32,
-    pub face_count: u32,
-    pub half_edge_count: u32,
-    pub bounds: tl_aabb,
-    pub mass: tl_hull_mass,
-    pub vertices: u64,
-    pub sources: u64,
-    pub vertex_edges: u64,
-    pub half_edges: u64,
-    pub faces: u64,
-    pub planes: u64,
-    pub merge_distance: f64,
+    pub unused: [u32; 4],
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -4141,41 +4135,35 @@ mod layout {
         assert_eq!(core::mem::size_of::<tl_hull_plane>(), 32);
         assert_eq!(core::mem::offset_of!(tl_hull_plane, normal), 0);
         assert_eq!(core::mem::offset_of!(tl_hull_plane, offset), 24);
-        assert_eq!(core::mem::size_of::<tl_hull_plane_block>(), 256);
-        assert_eq!(core::mem::offset_of!(tl_hull_plane_block, x), 0);
-        assert_eq!(core::mem::offset_of!(tl_hull_plane_block, y), 64);
-        assert_eq!(core::mem::offset_of!(tl_hull_plane_block, z), 128);
-        assert_eq!(core::mem::offset_of!(tl_hull_plane_block, offset), 192);
         assert_eq!(core::mem::size_of::<tl_hull_mass>(), 88);
         assert_eq!(core::mem::offset_of!(tl_hull_mass, volume), 0);
         assert_eq!(core::mem::offset_of!(tl_hull_mass, area), 8);
         assert_eq!(core::mem::offset_of!(tl_hull_mass, center), 16);
         assert_eq!(core::mem::offset_of!(tl_hull_mass, inertia), 40);
-        assert_eq!(core::mem::size_of::<tl_hull>(), 248);
+        assert_eq!(core::mem::size_of::<tl_hull>(), 152);
         assert_eq!(core::mem::offset_of!(tl_hull, blob), 0);
         assert_eq!(core::mem::offset_of!(tl_hull, vertex_count), 16);
-        assert_eq!(core::mem::offset_of!(tl_hull, scan_count), 20);
-        assert_eq!(core::mem::offset_of!(tl_hull, scan_error), 24);
-        assert_eq!(core::mem::offset_of!(tl_hull, table_side), 28);
-        assert_eq!(core::mem::offset_of!(tl_hull, table_scale), 32);
-        assert_eq!(core::mem::offset_of!(tl_hull, blocks), 44);
-        assert_eq!(core::mem::offset_of!(tl_hull, scan), 48);
-        assert_eq!(core::mem::offset_of!(tl_hull, table), 52);
-        assert_eq!(core::mem::offset_of!(tl_hull, rings), 56);
-        assert_eq!(core::mem::offset_of!(tl_hull, block_count), 60);
-        assert_eq!(core::mem::offset_of!(tl_hull, ring_count), 64);
-        assert_eq!(core::mem::offset_of!(tl_hull, ring_cells), 68);
-        assert_eq!(core::mem::offset_of!(tl_hull, face_count), 72);
-        assert_eq!(core::mem::offset_of!(tl_hull, half_edge_count), 76);
-        assert_eq!(core::mem::offset_of!(tl_hull, bounds), 80);
-        assert_eq!(core::mem::offset_of!(tl_hull, mass), 104);
-        assert_eq!(core::mem::offset_of!(tl_hull, vertices), 192);
-        assert_eq!(core::mem::offset_of!(tl_hull, sources), 200);
-        assert_eq!(core::mem::offset_of!(tl_hull, vertex_edges), 208);
-        assert_eq!(core::mem::offset_of!(tl_hull, half_edges), 216);
-        assert_eq!(core::mem::offset_of!(tl_hull, faces), 224);
-        assert_eq!(core::mem::offset_of!(tl_hull, planes), 232);
-        assert_eq!(core::mem::offset_of!(tl_hull, merge_distance), 240);
+        assert_eq!(core::mem::offset_of!(tl_hull, face_count), 20);
+        assert_eq!(core::mem::offset_of!(tl_hull, half_edge_count), 24);
+        assert_eq!(core::mem::offset_of!(tl_hull, scan_error), 28);
+        assert_eq!(core::mem::offset_of!(tl_hull, index_bytes), 32);
+        assert_eq!(core::mem::offset_of!(tl_hull, flags), 33);
+        assert_eq!(core::mem::offset_of!(tl_hull, vertices), 34);
+        assert_eq!(core::mem::offset_of!(tl_hull, merge_distance), 36);
+        assert_eq!(core::mem::offset_of!(tl_hull, bounds), 40);
+        assert_eq!(core::mem::offset_of!(tl_hull, mass), 64);
+        assert_eq!(core::mem::size_of::<tl_hull_climb>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, table_side), 0);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, table_scale), 4);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, planes), 16);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, blocks), 20);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, table), 24);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, rings), 28);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, cell_bytes), 32);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, block_count), 36);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, ring_count), 40);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, ring_cells), 44);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, unused), 48);
         assert_eq!(core::mem::size_of::<tl_hull_validation>(), 64);
         assert_eq!(core::mem::offset_of!(tl_hull_validation, base), 0);
         assert_eq!(core::mem::offset_of!(tl_hull_validation, euler), 48);

@@ -21,42 +21,42 @@
 
 typedef struct candidate {
     const tl_hull *hull;
-    tl_vec3d direction;
+    const double *planes; // the hull's first block
+    uint32_t lanes;       // of a row of it
     uint32_t face;
+    tl_vec3d direction;
     double dot;
 } candidate;
 
 // Makes a face the best one when its normal is closer to the direction; of equals the lower.
 static void consider_face(candidate *best, uint32_t face)
 {
-    const tl_hull_plane_block *block = &tl_hull_plane_blocks(best->hull)[face / 8];
-    uint32_t lane = face % 8;
-    double dot =
-        best->direction.x * block->x[lane] + best->direction.y * block->y[lane] + best->direction.z * block->z[lane];
+    const double *x = best->planes + 32 * (size_t)(face / 8) + face % 8, *y = x + best->lanes, *z = y + best->lanes;
+    double dot = best->direction.x * *x + best->direction.y * *y + best->direction.z * *z;
     if (dot > best->dot || (dot == best->dot && face < best->face)) {
         best->face = face;
         best->dot = dot;
     }
 }
 
-// Of the planes of a block the largest product with the direction; all of them are kept.
-static double block_products(const tl_hull_plane_block *block, tl_vec3d d, double dots[8])
+// Of the planes of a block the largest product with the direction; all of them are kept. `lanes` is even.
+static double block_products(const double *rows, uint32_t lanes, tl_vec3d d, double dots[8])
 {
 #if TL_HAS_F64X2
     const tl_f64x2 x = tl_f64x2_all(d.x), y = tl_f64x2_all(d.y), z = tl_f64x2_all(d.z);
     tl_f64x2 most = tl_f64x2_all(-2.0);
-    for (int i = 0; i < 8; i += 2) {
+    for (uint32_t i = 0; i < lanes; i += 2) {
         tl_f64x2 xy =
-            tl_f64x2_add(tl_f64x2_mul(x, tl_f64x2_load(&block->x[i])), tl_f64x2_mul(y, tl_f64x2_load(&block->y[i])));
-        tl_f64x2 dot = tl_f64x2_add(xy, tl_f64x2_mul(z, tl_f64x2_load(&block->z[i])));
+            tl_f64x2_add(tl_f64x2_mul(x, tl_f64x2_load(rows + i)), tl_f64x2_mul(y, tl_f64x2_load(rows + lanes + i)));
+        tl_f64x2 dot = tl_f64x2_add(xy, tl_f64x2_mul(z, tl_f64x2_load(rows + 2 * lanes + i)));
         tl_f64x2_store(&dots[i], dot);
         most = tl_f64x2_max(most, dot);
     }
     return tl_f64x2_get_x(tl_f64x2_max(most, tl_f64x2_swap(most)));
 #else
     double most = -2.0;
-    for (int i = 0; i < 8; i++) {
-        dots[i] = d.x * block->x[i] + d.y * block->y[i] + d.z * block->z[i];
+    for (uint32_t i = 0; i < lanes; i++) {
+        dots[i] = d.x * rows[i] + d.y * rows[lanes + i] + d.z * rows[2 * lanes + i];
         most = dots[i] > most ? dots[i] : most;
     }
     return most;
@@ -66,11 +66,11 @@ static double block_products(const tl_hull_plane_block *block, tl_vec3d d, doubl
 // All of them, a block at a time; lanes beyond the last face are passed over.
 static void consider_faces(candidate *best)
 {
-    const tl_hull_plane_block *block = tl_hull_plane_blocks(best->hull);
-    const uint32_t count = best->hull->face_count;
+    const double *rows = best->planes;
+    const uint32_t count = best->hull->face_count, lanes = best->lanes;
     double dots[8];
-    for (uint32_t from = 0; from < count; from += 8, block++) {
-        if (!(block_products(block, best->direction, dots) > best->dot)) {
+    for (uint32_t from = 0; from < count; from += 8, rows += 32) {
+        if (!(block_products(rows, lanes, best->direction, dots) > best->dot)) {
             continue;
         }
         for (uint32_t lane = 0; lane < 8 && from + lane < count; lane++) {
@@ -80,53 +80,79 @@ static void consider_faces(candidate *best)
     }
 }
 
-static void consider_faces_around(candidate *best, uint32_t vertex)
+// Those around the vertex that a half-edge starts at, but for its own.
+static void consider_faces_around(candidate *best, uint32_t first)
 {
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(best->hull);
-    uint32_t first = tl_hull_vertex_edges(best->hull)[vertex], edge = first;
-    do {
-        consider_face(best, half_edges[edge].face);
-        edge = half_edges[half_edges[edge].twin].next;
-    } while (edge != first);
+    candidate found = *best; // in registers: what is written to might be the hull, as far as a compiler knows
+    const tl_hull *hull = best->hull;
+    for (uint32_t edge = first;;) {
+        const uint32_t twin = tl_hull_edge_twin(hull, edge), face = tl_hull_edge_face(hull, twin);
+        edge = tl_hull_edge_next_in(hull, twin, face);
+        if (edge == first) {
+            break;
+        }
+        consider_face(&found, face);
+    }
+    *best = found;
 }
 
 // Each turn but the last finds a better face, so there are at most as many as faces.
 static void climb(candidate *best)
 {
-    uint32_t from;
-    consider_faces_around(best, tl_hull_support(best->hull, tl_vec3d_to_float(best->direction), TL_NO_VERTEX));
-    do {
+    const tl_hull *hull = best->hull;
+    const uint32_t top = tl_hull_support(hull, tl_vec3d_to_float(best->direction), TL_NO_VERTEX);
+    const uint32_t edge = tl_hull_vertex_edge(hull, top);
+    consider_face(best, tl_hull_edge_face(hull, edge));
+    consider_faces_around(best, edge);
+    for (uint32_t from = TL_NO_VERTEX; from != best->face;) {
         from = best->face;
-        tl_hull_face face = tl_hull_faces(best->hull)[from];
-        for (uint32_t i = 0; i < face.count; i++) {
-            consider_faces_around(best, tl_hull_half_edges(best->hull)[face.first + i].origin);
+        const uint32_t end = tl_hull_face_first(hull, from + 1);
+        for (uint32_t at = tl_hull_face_first(hull, from); at < end; at++) {
+            if (tl_hull_edge_origin(hull, at) != top) {
+                consider_faces_around(best, at);
+            }
         }
-    } while (best->face != from);
+    }
 }
 
-// The corners of a facet that has few, to be walked no more.
-static void keep_corners(tl_face *face)
+static void keep_facet_corner(tl_face *face, uint32_t at, uint32_t k)
 {
     const tl_hull *hull = face->facet.hull;
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
-    uint32_t at = face->first, count = 0;
-    do {
-        if (count == TL_FACE_CORNERS) {
+    const uint32_t twin = tl_hull_edge_twin(hull, at), vertex = tl_hull_edge_origin(hull, at);
+    face->corners[k] = tl_vec3d_from(tl_hull_vertices(hull)[vertex]);
+    face->vertices[k] = TL_FEATURE_VERTEX | vertex;
+    face->edges[k] = TL_FEATURE_EDGE | (at < twin ? at : twin);
+}
+
+// The corners of a facet that has few, to be walked no more. Those of one face lie one behind the other.
+static void keep_corners(tl_face *face)
+{
+    const tl_facet *facet = &face->facet;
+    uint32_t at = facet->first, count = 0;
+    if (facet->alone) {
+        count = tl_hull_face_first(facet->hull, facet->face + 1) - at;
+        if (count > TL_FACE_CORNERS) {
             return;
         }
-        uint32_t twin = half_edges[at].twin, vertex = half_edges[at].origin;
-        face->corners[count] = tl_vec3d_from(tl_hull_vertices(hull)[vertex]);
-        face->vertices[count] = TL_FEATURE_VERTEX | vertex;
-        face->edges[count++] = TL_FEATURE_EDGE | (at < twin ? at : twin);
-        at = tl_facet_next(&face->facet, at);
-    } while (at != face->first);
+        for (uint32_t k = 0; k < count; k++) {
+            keep_facet_corner(face, at + k, k);
+        }
+    } else {
+        do {
+            if (count == TL_FACE_CORNERS) {
+                return;
+            }
+            keep_facet_corner(face, at, count++);
+            at = tl_facet_next(facet, at);
+        } while (at != facet->first);
+    }
     face->first = 0;
     face->count = count;
 }
 
 static void hull_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
 {
-    candidate best = { shape->hull, d, 0, -2.0 };
+    candidate best = { shape->hull, tl_hull_plane_block(shape->hull, 0), tl_hull_plane_lanes(shape->hull), 0, d, -2.0 };
     if (shape->hull->face_count > SCANNED_FACES) {
         climb(&best);
     } else {
@@ -238,18 +264,17 @@ static bool consider_edge(tl_vec3d p, tl_vec3d q, tl_vec3d d, double *best, tl_f
 
 static void find_hull_edge(const tl_hull *hull, tl_vec3d d, double *best, tl_face *face)
 {
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
     const tl_vec3 *vertices = tl_hull_vertices(hull);
     uint32_t vertex = tl_hull_support(hull, tl_vec3d_to_float(d), TL_NO_VERTEX);
-    uint32_t first = tl_hull_vertex_edges(hull)[vertex], edge = first;
+    uint32_t first = tl_hull_vertex_edge(hull, vertex), edge = first;
     do {
-        uint32_t twin = half_edges[edge].twin, other = half_edges[twin].origin;
+        uint32_t twin = tl_hull_edge_twin(hull, edge), other = tl_hull_edge_origin(hull, twin);
         if (consider_edge(tl_vec3d_from(vertices[vertex]), tl_vec3d_from(vertices[other]), d, best, face)) {
             face->vertices[0] = TL_FEATURE_VERTEX | vertex;
             face->vertices[1] = TL_FEATURE_VERTEX | other;
             face->edges[0] = face->edges[1] = face->feature = TL_FEATURE_EDGE | (edge < twin ? edge : twin);
         }
-        edge = half_edges[twin].next;
+        edge = tl_hull_edge_next(hull, twin);
     } while (edge != first);
 }
 
@@ -305,7 +330,7 @@ tl_vec3d tl_face_corner(const tl_face *face, uint32_t at)
         return face->corners[at];
     }
     const tl_hull *hull = face->shape->hull;
-    tl_vec3d p = tl_vec3d_from(tl_hull_vertices(hull)[tl_hull_half_edges(hull)[at].origin]);
+    tl_vec3d p = tl_vec3d_from(tl_hull_vertices(hull)[tl_hull_edge_origin(hull, at)]);
     return face->frame != NULL ? tl_frame_point(face->frame, p) : p;
 }
 
@@ -321,7 +346,7 @@ uint32_t tl_face_previous(const tl_face *face, uint32_t at)
 
 uint32_t tl_face_vertex_feature(const tl_face *face, uint32_t at)
 {
-    return face->count > 0 ? face->vertices[at] : TL_FEATURE_VERTEX | tl_hull_half_edges(face->shape->hull)[at].origin;
+    return face->count > 0 ? face->vertices[at] : TL_FEATURE_VERTEX | tl_hull_edge_origin(face->shape->hull, at);
 }
 
 uint32_t tl_face_edge_feature(const tl_face *face, uint32_t at)
@@ -329,6 +354,6 @@ uint32_t tl_face_edge_feature(const tl_face *face, uint32_t at)
     if (face->count > 0) {
         return face->edges[at];
     }
-    uint32_t twin = tl_hull_half_edges(face->shape->hull)[at].twin;
+    uint32_t twin = tl_hull_edge_twin(face->shape->hull, at);
     return TL_FEATURE_EDGE | (at < twin ? at : twin);
 }

@@ -4,17 +4,13 @@
 // are floats, and a rock's flat side a dozen. Contacts want the whole side.
 //
 // A face belongs to the facet when all its corners lie in the plane of the one given, or below by no more than the
-// rounding of coordinates explains. The hull is convex: what lies so high on it is one piece without holes. Nothing is
-// stored; the outline is walked from half-edge to half-edge, and each face met is tested again.
+// rounding of coordinates explains; a hull's flags tell that none does. The hull is convex: what lies so high on it is
+// one piece without holes. Nothing is stored; the outline is walked from half-edge to half-edge, and each face met is
+// tested again.
 
 #include "convex/contact/facet.h"
 
-#include "math/tolerance.h"
 #include "math/vec3d.h"
-
-// A corner is off by half an ulp of the largest coordinate in each component, and so are the three that the plane goes
-// through; eight roundings cover a plane whose points were rounded to floats, as in tl_hull_def.flatness.
-#define FLAT_GAP (8.0 * (double)TL_FLOAT_ROUNDING)
 
 static double height_above(const tl_facet *facet, uint32_t vertex)
 {
@@ -25,10 +21,12 @@ static double height_above(const tl_facet *facet, uint32_t vertex)
 
 static bool facet_holds(const tl_facet *facet, uint32_t face)
 {
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
-    tl_hull_face f = tl_hull_faces(facet->hull)[face];
-    for (uint32_t i = 0; face != facet->face && i < f.count; i++) {
-        if (height_above(facet, half_edges[f.first + i].origin) < -facet->gap) {
+    if (face == facet->face) {
+        return true;
+    }
+    const uint32_t end = tl_hull_face_first(facet->hull, face + 1);
+    for (uint32_t at = tl_hull_face_first(facet->hull, face); at < end; at++) {
+        if (height_above(facet, tl_hull_edge_origin(facet->hull, at)) < -facet->gap) {
             return false;
         }
     }
@@ -38,17 +36,21 @@ static bool facet_holds(const tl_facet *facet, uint32_t face)
 // The same of the face beside a half-edge; a corner that lies off the edge mostly tells.
 static bool holds_beside(const tl_facet *facet, uint32_t edge)
 {
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
-    tl_hull_half_edge twin = half_edges[half_edges[edge].twin];
-    return height_above(facet, half_edges[half_edges[twin.next].next].origin) >= -facet->gap &&
-           facet_holds(facet, twin.face);
+    const tl_hull *hull = facet->hull;
+    const uint32_t twin = tl_hull_edge_twin(hull, edge), face = tl_hull_edge_face(hull, twin);
+    const uint32_t first = tl_hull_face_first(hull, face), end = tl_hull_face_first(hull, face + 1);
+    const uint32_t off = twin + 2 < end ? twin + 2 : twin + 2 - (end - first); // a face has three corners or more
+    return height_above(facet, tl_hull_edge_origin(hull, off)) >= -facet->gap && facet_holds(facet, face);
 }
 
 static bool is_alone(const tl_facet *facet)
 {
-    tl_hull_face face = tl_hull_faces(facet->hull)[facet->face];
-    for (uint32_t i = 0; i < face.count; i++) {
-        if (holds_beside(facet, face.first + i)) {
+    if ((facet->hull->flags & TL_HULL_HAS_SIDES) == 0) {
+        return true;
+    }
+    const uint32_t end = tl_hull_face_first(facet->hull, facet->face + 1);
+    for (uint32_t edge = facet->first; edge < end; edge++) {
+        if (holds_beside(facet, edge)) {
             return false;
         }
     }
@@ -58,13 +60,14 @@ static bool is_alone(const tl_facet *facet)
 // A half-edge of the outline that starts at the vertex, which the facet has a face at; TL_NO_VERTEX when it is inside.
 static uint32_t outline_at(const tl_facet *facet, uint32_t vertex)
 {
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
-    uint32_t start = tl_hull_vertex_edges(facet->hull)[vertex], edge = start;
+    const tl_hull *hull = facet->hull;
+    uint32_t start = tl_hull_vertex_edge(hull, vertex), edge = start;
     do {
-        if (facet_holds(facet, half_edges[edge].face) && !facet_holds(facet, half_edges[half_edges[edge].twin].face)) {
+        const uint32_t twin = tl_hull_edge_twin(hull, edge);
+        if (facet_holds(facet, tl_hull_edge_face(hull, edge)) && !facet_holds(facet, tl_hull_edge_face(hull, twin))) {
             return edge;
         }
-        edge = half_edges[half_edges[edge].twin].next;
+        edge = tl_hull_edge_next(hull, twin);
     } while (edge != start);
     return TL_NO_VERTEX;
 }
@@ -77,12 +80,11 @@ static double along(const tl_facet *facet, tl_vec3d direction, uint32_t vertex)
 // The neighbour that is farthest along the direction; the vertex itself when none is farther.
 static uint32_t farther_neighbour(const tl_facet *facet, tl_vec3d direction, uint32_t vertex)
 {
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
-    uint32_t start = tl_hull_vertex_edges(facet->hull)[vertex], edge = start, best = vertex;
+    uint32_t start = tl_hull_vertex_edge(facet->hull, vertex), edge = start, best = vertex;
     do {
-        uint32_t other = half_edges[half_edges[edge].twin].origin;
+        const uint32_t twin = tl_hull_edge_twin(facet->hull, edge), other = tl_hull_edge_origin(facet->hull, twin);
         best = along(facet, direction, other) > along(facet, direction, best) ? other : best;
-        edge = half_edges[half_edges[edge].twin].next;
+        edge = tl_hull_edge_next(facet->hull, twin);
     } while (edge != start);
     return best;
 }
@@ -93,8 +95,8 @@ void tl_facet_around(const tl_hull *hull, uint32_t face, tl_facet *facet)
     facet->hull = hull;
     facet->face = face;
     facet->plane = tl_hull_face_plane(hull, face);
-    facet->first = tl_hull_faces(hull)[face].first;
-    facet->gap = FLAT_GAP * (double)tl_maxf(size.x, tl_maxf(size.y, size.z));
+    facet->first = tl_hull_face_first(hull, face);
+    facet->gap = TL_HULL_SIDE_GAP * (double)tl_maxf(size.x, tl_maxf(size.y, size.z));
     facet->alone = is_alone(facet);
     if (facet->alone || !holds_beside(facet, facet->first)) {
         return;
@@ -102,7 +104,7 @@ void tl_facet_around(const tl_hull *hull, uint32_t face, tl_facet *facet)
     // Go straight on in the plane until the outline: inside of it some neighbour is always farther.
     const double *n = facet->plane.normal;
     tl_vec3d direction = tl_vec3d_perpendicular(tl_vec3d_make(n[0], n[1], n[2]));
-    uint32_t vertex = tl_hull_half_edges(hull)[facet->first].origin, edge = outline_at(facet, vertex);
+    uint32_t vertex = tl_hull_edge_origin(hull, facet->first), edge = outline_at(facet, vertex);
     while (edge == TL_NO_VERTEX) {
         uint32_t next = farther_neighbour(facet, direction, vertex);
         if (next == vertex) {
@@ -119,22 +121,20 @@ void tl_facet_around(const tl_hull *hull, uint32_t face, tl_facet *facet)
 
 uint32_t tl_facet_next(const tl_facet *facet, uint32_t half_edge)
 {
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
-    uint32_t edge = half_edges[half_edge].next;
+    uint32_t edge = tl_hull_edge_next(facet->hull, half_edge);
     while (!facet->alone && holds_beside(facet, edge)) {
-        edge = half_edges[half_edges[edge].twin].next;
+        edge = tl_hull_edge_next(facet->hull, tl_hull_edge_twin(facet->hull, edge));
     }
     return edge;
 }
 
 uint32_t tl_facet_previous(const tl_facet *facet, uint32_t half_edge)
 {
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
     uint32_t edge = half_edge;
     for (;;) {
-        tl_hull_face face = tl_hull_faces(facet->hull)[half_edges[edge].face];
+        const tl_hull_face face = tl_hull_face_at(facet->hull, tl_hull_edge_face(facet->hull, edge));
         edge = edge == face.first ? face.first + face.count - 1 : edge - 1;
-        uint32_t twin = half_edges[edge].twin;
+        const uint32_t twin = tl_hull_edge_twin(facet->hull, edge);
         if (facet->alone || !holds_beside(facet, edge)) {
             return edge;
         }

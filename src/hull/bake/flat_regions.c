@@ -311,10 +311,12 @@ static tl_result number_regions(const region_grower *g, tl_arena *arena, tl_sort
     return TL_OK;
 }
 
-tl_result tl_hull_merge_flat_regions(const tl_hull_polygons *fine, const tl_vec3 *points, double distance,
+tl_result tl_hull_merge_flat_regions(const tl_hull_polygons *fine, const tl_vec3 *points, float distance,
                                      tl_arena *arena, tl_stage *stage, tl_hull_polygons *merged_out)
 {
-    region_grower g = { .fine = fine, .points = points, .distance = distance, .keeps_corners = true, .stage = stage };
+    region_grower g = {
+        .fine = fine, .points = points, .distance = (double)distance, .keeps_corners = true, .stage = stage
+    };
     TL_TRY(grow_regions(&g, arena));
     tl_sort_item *borders = TL_PUSH(arena, tl_sort_item, fine->face_count);
     bool *is_taken = TL_PUSH_ZERO(arena, bool, fine->face_count);

@@ -16,7 +16,7 @@ tl_result tl_hull_find_spare_vertices(const tl_hull_polygons *fine, const tl_vec
 
 // The same hull with faces merged where their corners lie within `distance` behind the plane of one of them. All
 // vertices stay, each with three edges or more, and every face is strictly convex, seen along that plane's normal.
-tl_result tl_hull_merge_flat_regions(const tl_hull_polygons *fine, const tl_vec3 *points, double distance,
+tl_result tl_hull_merge_flat_regions(const tl_hull_polygons *fine, const tl_vec3 *points, float distance,
                                      tl_arena *arena, tl_stage *stage, tl_hull_polygons *merged_out);
 
 #endif

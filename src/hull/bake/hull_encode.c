@@ -4,17 +4,11 @@
 // support query the rows of the scan, or the blocks of the climb and the direction table.
 
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "hull/bake/quickhull.h"
 #include "hull/support/hull_support.h"
-#include "math/predicates.h"
-#include "math/tolerance.h"
-#include "math/vec3d.h"
 
 #include <string.h>
-
-// A plane's normal is right to this share of its length: 2^-45, which is what tl_area2d promises. At the far end of a
-// face as large as the hull the plane is then off by some 3e-14 of the size.
-#define TL_NORMAL_ERROR 2.8421709430404007e-14
 
 // Vertices whose blocks are written between two calls of progress, at some 300 ns each.
 enum { VERTICES_PER_CALL = 1 << 14 };
@@ -23,6 +17,7 @@ enum { VERTICES_PER_CALL = 1 << 14 };
 typedef struct hull_encoder {
     const tl_hull_polygons *polygons, *exact; // exact: what a climb goes along, so that it ends at a maximum
     const tl_vec3 *points;
+    const tl_hull *named; // as in tl_quickhull
     uint32_t copies;
     uint32_t *degrees, *edges; // [vertex_count] of the exact polygons: at each vertex, and one that starts there
     tl_arena *arena;
@@ -45,102 +40,94 @@ static tl_result count_blocks(const hull_encoder *e, uint32_t *blocks_out)
     return TL_OK;
 }
 
-static tl_result write_topology(tl_hull *hull, const hull_encoder *e)
+static void write_word(char *words, uint32_t bytes, uint64_t at, uint32_t value)
 {
-    const tl_hull_polygons *polygons = e->polygons;
-    tl_stage *stage = e->stage;
-    char *bytes = (char *)hull;
-    tl_vec3 *vertices = (tl_vec3 *)(void *)(bytes + hull->vertices);
-    uint32_t *sources = (uint32_t *)(void *)(bytes + hull->sources);
-    uint32_t *vertex_edges = (uint32_t *)(void *)(bytes + hull->vertex_edges);
-    tl_hull_half_edge *half_edges = (tl_hull_half_edge *)(void *)(bytes + hull->half_edges);
-    tl_hull_face *faces = (tl_hull_face *)(void *)(bytes + hull->faces);
+    if (bytes == 1) {
+        ((uint8_t *)words)[at] = (uint8_t)value;
+    } else if (bytes == 2) {
+        ((uint16_t *)(void *)words)[at] = (uint16_t)value;
+    } else {
+        ((uint32_t *)(void *)words)[at] = value;
+    }
+}
+
+static uint32_t source_of(const hull_encoder *e, uint32_t vertex)
+{
+    const uint32_t point = e->polygons->points[vertex] / e->copies;
+    return e->named != NULL ? tl_hull_source(e->named, point) : point;
+}
+
+// The least bytes that hold all sources; none where they count up from 0.
+static uint8_t least_source_bytes(const hull_encoder *e)
+{
+    bool counts = true;
+    uint32_t largest = 0;
+    for (uint32_t v = 0; v < e->polygons->vertex_count; v++) {
+        const uint32_t source = source_of(e, v);
+        counts = counts && source == v;
+        largest = tl_max_u32(largest, source);
+    }
+    return counts ? 0 : largest < 0x100 ? 1 : largest < 0x10000 ? 2 : 4;
+}
+
+static tl_result write_hull_vertices(tl_hull *hull, const hull_encoder *e)
+{
+    tl_vec3 *vertices = (tl_vec3 *)(uintptr_t)tl_hull_vertices(hull);
+    char *sources = (char *)hull + tl_hull_sources_offset(hull);
     hull->bounds = tl_aabb_empty();
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
-        TL_TRY(tl_stage_tick(stage, v));
-        vertices[v] = e->points[polygons->points[v]];
-        sources[v] = polygons->points[v] / e->copies;
-        vertex_edges[v] = TL_NONE;
+        TL_TRY(tl_stage_tick(e->stage, v));
+        vertices[v] = e->points[e->polygons->points[v]];
         hull->bounds = tl_aabb_add_point(hull->bounds, vertices[v]);
-    }
-    for (uint32_t h = 0; h < hull->half_edge_count; h++) {
-        TL_TRY(tl_stage_tick(stage, h));
-        half_edges[h] = polygons->half_edges[h];
-        if (vertex_edges[half_edges[h].origin] == TL_NONE) {
-            vertex_edges[half_edges[h].origin] = h;
+        if (tl_hull_source_bytes(hull) > 0) {
+            write_word(sources, tl_hull_source_bytes(hull), v, source_of(e, v));
         }
-    }
-    for (uint32_t f = 0; f < hull->face_count; f++) {
-        faces[f] = polygons->faces[f];
     }
     return TL_OK;
 }
 
-// Twice the area's vector of a triangle, (b - a) x (c - a), to within TL_NORMAL_ERROR of its length. A face may be
-// thinner than double rounding: then the digits are summed exactly.
-static tl_vec3d normal_of(tl_vec3 a, tl_vec3 b, tl_vec3 c)
+static tl_result write_topology(tl_hull *hull, const hull_encoder *e)
 {
-    tl_vec3d u = tl_vec3d_sub(tl_vec3d_from(b), tl_vec3d_from(a));
-    tl_vec3d v = tl_vec3d_sub(tl_vec3d_from(c), tl_vec3d_from(a));
-    tl_vec3d n = tl_vec3d_cross(u, v);
-    double products =
-        fabs(u.y * v.z) + fabs(u.z * v.y) + fabs(u.z * v.x) + fabs(u.x * v.z) + fabs(u.x * v.y) + fabs(u.y * v.x);
-    if (TL_CROSS_ERROR * products <= TL_NORMAL_ERROR * (fabs(n.x) + fabs(n.y) + fabs(n.z))) {
-        return n;
+    const tl_hull_polygons *polygons = e->polygons;
+    char *words = (char *)hull + hull->vertices + sizeof(tl_vec3) * (size_t)hull->vertex_count;
+    const uint64_t firsts = 3 * (uint64_t)hull->half_edge_count, edges = firsts + hull->face_count + 1;
+    const uint32_t bytes = hull->index_bytes;
+    // Backwards, so that the first half-edge of each vertex stays.
+    for (uint32_t h = hull->half_edge_count; h-- > 0;) {
+        TL_TRY(tl_stage_tick(e->stage, h));
+        const tl_hull_half_edge half_edge = polygons->half_edges[h];
+        write_word(words, bytes, 3 * (uint64_t)h, half_edge.origin);
+        write_word(words, bytes, 3 * (uint64_t)h + 1, half_edge.twin);
+        write_word(words, bytes, 3 * (uint64_t)h + 2, half_edge.face);
+        write_word(words, bytes, edges + half_edge.origin, h);
     }
-    return tl_vec3d_make(tl_area2d(a.y, a.z, b.y, b.z, c.y, c.z), tl_area2d(a.z, a.x, b.z, b.x, c.z, c.x),
-                         tl_area2d(a.x, a.y, b.x, b.y, c.x, c.y));
-}
-
-static tl_vec3 face_corner(const tl_vec3 *vertices, const tl_hull_half_edge *half_edges, uint32_t half_edge)
-{
-    return vertices[half_edges[half_edge].origin];
-}
-
-// The fan triangle with the largest area spans the plane best.
-tl_hull_plane tl_hull_fit_plane(const tl_vec3 *vertices, const tl_hull_half_edge *half_edges, tl_hull_face face)
-{
-    tl_vec3 a = face_corner(vertices, half_edges, face.first);
-    uint32_t best = 1;
-    double best_area = 0.0;
-    for (uint32_t k = 1; k + 1 < face.count && face.count > 3; k++) {
-        tl_vec3d u = tl_vec3d_sub(tl_vec3d_from(face_corner(vertices, half_edges, face.first + k)), tl_vec3d_from(a));
-        tl_vec3d v =
-            tl_vec3d_sub(tl_vec3d_from(face_corner(vertices, half_edges, face.first + k + 1)), tl_vec3d_from(a));
-        tl_vec3d normal = tl_vec3d_cross(u, v);
-        double area = tl_vec3d_dot(normal, normal);
-        if (area > best_area) {
-            best_area = area;
-            best = k;
-        }
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        write_word(words, bytes, firsts + f, polygons->faces[f].first);
     }
-    tl_vec3 b = face_corner(vertices, half_edges, face.first + best);
-    tl_vec3 c = face_corner(vertices, half_edges, face.first + best + 1);
-    tl_vec3d n = normal_of(a, b, c);
-    double length = tl_vec3d_length(n);
-    tl_hull_plane plane = { { n.x / length, n.y / length, n.z / length }, -(double)INFINITY };
-    for (uint32_t k = 0; k < face.count; k++) {
-        tl_vec3 p = face_corner(vertices, half_edges, face.first + k);
-        double offset = plane.normal[0] * (double)p.x + plane.normal[1] * (double)p.y + plane.normal[2] * (double)p.z;
-        plane.offset = offset > plane.offset ? offset : plane.offset;
-    }
-    return plane;
+    write_word(words, bytes, firsts + hull->face_count, hull->half_edge_count);
+    return TL_OK;
 }
 
 // A merged face has the plane of the exact one that it grew from, which the whole hull lies behind.
 static tl_result write_planes(tl_hull *hull, const hull_encoder *e)
 {
-    tl_hull_plane_block *blocks = (tl_hull_plane_block *)(void *)((char *)hull + hull->planes);
-    const uint32_t *plane_faces = e->polygons->plane_faces;
+    double *planes = (double *)(uintptr_t)tl_hull_plane_block(hull, 0);
+    const uint32_t *plane_faces = e->polygons->plane_faces, lanes = tl_hull_plane_lanes(hull);
     for (uint32_t f = 0; f < hull->face_count; f++) {
         const tl_hull_face face = e->exact->faces[plane_faces != NULL ? plane_faces[f] : f];
-        tl_hull_plane plane = tl_hull_fit_plane(tl_hull_vertices(hull), e->exact->half_edges, face);
-        tl_hull_plane_block *block = &blocks[f / 8];
-        block->x[f % 8] = plane.normal[0];
-        block->y[f % 8] = plane.normal[1];
-        block->z[f % 8] = plane.normal[2];
-        block->offset[f % 8] = plane.offset;
+        const tl_hull_half_edge *first = &e->exact->half_edges[face.first];
+        const tl_hull_loop loop = { tl_hull_vertices(hull), (const char *)&first->origin, sizeof first->origin,
+                                    sizeof *first, face.count };
+        const tl_hull_plane plane = tl_hull_fit_plane(loop);
+        double *at = planes + 32 * (size_t)(f / 8) + f % 8;
+        at[0] = plane.normal[0];
+        at[lanes] = plane.normal[1];
+        at[2 * lanes] = plane.normal[2];
+        at[3 * lanes] = plane.offset;
         TL_TRY(tl_stage_tick(e->stage, f));
+    }
+    for (uint32_t lane = lanes; lane < 8; lane++) {
+        planes[3 * lanes + lane] = (double)INFINITY;
     }
     return TL_OK;
 }
@@ -148,13 +135,29 @@ static tl_result write_planes(tl_hull *hull, const hull_encoder *e)
 static void write_scan(tl_hull *hull)
 {
     float *rows = (float *)(uintptr_t)tl_hull_scan_rows(hull);
-    for (uint32_t i = 0; i < hull->scan_count; i++) {
+    const uint32_t count = tl_hull_scan_count(hull);
+    for (uint32_t i = 0; i < count; i++) {
         tl_vec3 r = tl_hull_scan_point(hull, i);
         rows[i] = r.x;
-        rows[hull->scan_count + i] = r.y;
-        rows[2 * hull->scan_count + i] = r.z;
+        rows[count + i] = r.y;
+        rows[2 * count + i] = r.z;
     }
     hull->scan_error = tl_hull_scan_error(hull);
+}
+
+// Writes `count` neighbours, those of half-edge `edge` and on; the half-edge behind them.
+static uint32_t write_climb_block(const hull_encoder *e, const tl_vec3 *vertices, uint32_t edge, uint32_t count,
+                                  tl_climb_block *block)
+{
+    const tl_hull_half_edge *half_edges = e->exact->half_edges;
+    const uint32_t vertex = half_edges[edge].origin;
+    uint32_t links[TL_CLIMB_LANES];
+    for (uint32_t i = 0; i < count; i++) {
+        links[i] = half_edges[half_edges[edge].next].origin;
+        edge = half_edges[half_edges[edge].twin].next;
+    }
+    tl_hull_fill_block(vertices, vertex, links, count, block);
+    return edge;
 }
 
 static tl_result write_blocks(tl_hull *hull, const hull_encoder *e)
@@ -163,65 +166,84 @@ static tl_result write_blocks(tl_hull *hull, const hull_encoder *e)
     uint32_t behind = hull->vertex_count;
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
         uint32_t edge = e->edges[v], left = e->degrees[v], at = v;
-        for (;;) {
-            bool more = left > TL_CLIMB_LANES;
-            tl_hull_fill_block(tl_hull_vertices(hull), e->exact->half_edges, &edge, more ? TL_CLIMB_LANES - 1 : left,
-                               &blocks[at]);
-            if (!more) {
-                break;
-            }
-            left -= TL_CLIMB_LANES - 1;
+        for (; left > TL_CLIMB_LANES; left -= TL_CLIMB_LANES - 1) {
+            edge = write_climb_block(e, tl_hull_vertices(hull), edge, TL_CLIMB_LANES - 1, &blocks[at]);
             blocks[at].link[TL_CLIMB_LANES - 1] = TL_CLIMB_MORE | behind;
             at = behind++;
         }
+        write_climb_block(e, tl_hull_vertices(hull), edge, left, &blocks[at]);
         TL_TRY(v % VERTICES_PER_CALL == 0 ? tl_stage_add(e->stage, 0) : TL_OK);
     }
     return TL_OK;
 }
 
-static tl_result write_hull(tl_hull *hull, const hull_encoder *e)
+// What the queries of more than a few vertices need.
+static tl_result write_climb(tl_hull *hull, const hull_encoder *e)
 {
-    TL_TRY(tl_stage_zero(e->stage, hull + 1, hull->blob.size - sizeof *hull));
-    TL_TRY(write_topology(hull, e));
-    TL_TRY(write_planes(hull, e));
-    TL_TRY(tl_hull_measure_mass(hull, e->stage, &hull->mass));
-    hull->table_scale = tl_hull_table_scale(hull);
+    tl_hull_climb *climb = (tl_hull_climb *)(uintptr_t)tl_hull_climb_head(hull);
+    climb->table_scale = tl_hull_table_scale(hull);
     TL_TRY(write_blocks(hull, e));
-    if (hull->scan_count > 0) {
-        write_scan(hull);
-        return TL_OK;
-    }
-    return tl_hull_fill_table(hull, e->arena, e->stage);
+    return climb->table_side > 0 ? tl_hull_fill_table(hull, e->arena, e->stage) : TL_OK;
 }
 
-tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
-                         tl_stage *stage, tl_hull **hull_out)
+static tl_result write_hull(tl_hull *hull, const tl_hull_climb *climb, const hull_encoder *e)
 {
-    hull_encoder e = {
-        polygons, polygons->exact != NULL ? polygons->exact : polygons, points, copies, NULL, NULL, arena, stage
-    };
+    TL_TRY(tl_stage_zero(e->stage, hull + 1, hull->blob.size - sizeof *hull));
+    if (hull->vertex_count > TL_HULL_FEW) {
+        memcpy((char *)hull + TL_HULL_CLIMB_OFFSET, climb, sizeof *climb);
+    }
+    TL_TRY(write_hull_vertices(hull, e));
+    TL_TRY(write_topology(hull, e));
+    TL_TRY(write_planes(hull, e));
+    hull->flags = (uint8_t)(hull->flags | (tl_hull_has_sides(hull) ? TL_HULL_HAS_SIDES : 0));
+    TL_TRY(tl_hull_measure_mass(hull, e->stage, &hull->mass));
+    if (tl_hull_scan_count(hull) > 0) {
+        write_scan(hull);
+    }
+    return hull->vertex_count > TL_HULL_FEW ? write_climb(hull, e) : TL_OK;
+}
+
+// The counts that the layout follows from; the size of the whole.
+static tl_result lay_out(const hull_encoder *e, tl_hull *head, tl_hull_climb *climb, uint64_t *size_out)
+{
+    const tl_hull_polygons *polygons = e->polygons;
+    memset(head, 0, sizeof *head); // padding too: blobs are the same byte for byte
+    memset(climb, 0, sizeof *climb);
+    head->vertex_count = polygons->vertex_count;
+    head->face_count = polygons->face_count;
+    head->half_edge_count = polygons->half_edge_count;
+    head->merge_distance = polygons->merge_distance;
+    head->flags = least_source_bytes(e);
+    TL_TRY(count_blocks(e, &climb->block_count));
+    for (uint32_t f = 0; f < polygons->face_count; f++) {
+        tl_hull_count_ring(polygons->vertex_count, polygons->faces[f].count, climb);
+    }
+    *size_out = tl_hull_lay_out(head, climb);
+    return TL_OK;
+}
+
+tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points, const tl_hull *named, uint32_t copies,
+                         tl_arena *arena, tl_stage *stage, tl_hull **hull_out)
+{
+    hull_encoder e = { .polygons = polygons, .points = points, .named = named, .copies = copies, .arena = arena };
+    e.exact = polygons->exact != NULL ? polygons->exact : polygons;
+    e.stage = stage;
     e.degrees = TL_PUSH_ZERO(arena, uint32_t, polygons->vertex_count);
     e.edges = TL_PUSH(arena, uint32_t, polygons->vertex_count);
     if (e.degrees == NULL || e.edges == NULL) {
         return TL_ERR_MEMORY;
     }
     tl_hull head;
-    memset(&head, 0, sizeof head); // padding too: blobs are the same byte for byte
+    tl_hull_climb climb;
     uint64_t size;
-    head.vertex_count = polygons->vertex_count;
-    head.face_count = polygons->face_count;
-    head.half_edge_count = polygons->half_edge_count;
-    head.merge_distance = polygons->merge_distance;
-    TL_TRY(count_blocks(&e, &head.block_count));
-    tl_hull_count_rings(&head, polygons->faces);
-    size = tl_hull_lay_out(&head);
+    TL_TRY(lay_out(&e, &head, &climb, &size));
     tl_hull *hull = tl_blob_allocate_part(&arena->allocator, TL_HULL_MAGIC, TL_HULL_VERSION, size, sizeof *hull, size);
     if (hull == NULL) {
         return TL_ERR_MEMORY;
     }
     head.blob = hull->blob;
     memcpy(hull, &head, sizeof head);
-    const tl_result result = write_hull(hull, &e);
+    const tl_result result = write_hull(hull, &climb, &e);
     if (result != TL_OK) {
         tl_blob_free(hull);
         return result;

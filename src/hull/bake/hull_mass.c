@@ -66,7 +66,7 @@ tl_result tl_hull_measure_mass(const tl_hull *hull, tl_stage *stage, tl_hull_mas
     }
     moments m = { 0.0, { 0.0 }, { 0.0 }, 0.0 };
     for (uint32_t f = 0; f < hull->face_count; f++) {
-        tl_hull_face face = tl_hull_faces(hull)[f];
+        tl_hull_face face = tl_hull_face_at(hull, f);
         double a[3], b[3], c[3];
         TL_TRY(tl_stage_tick(stage, f));
         relative(hull, face.first, middle, a);

@@ -7,6 +7,7 @@
 #include "base/arena.h"
 #include "base/host.h"
 #include "base/min_max.h"
+#include "hull/bake/quickhull.h"
 #include "math/vec3d.h"
 
 #include <talus/hull.h>
@@ -30,9 +31,9 @@ tl_result tl_hull_transform(const tl_hull *hull, tl_vec3 scale, tl_transform pos
     }
     tl_hull_def def = tl_default_hull_def();
     def.flatness = 0.0f; // the hull was no chip of rounding, so what remains of it is meant
-    if (hull->merge_distance > 0.0 && tl_is_finite(scale)) { // another scale is refused by the points it makes
+    if (hull->merge_distance > 0.0f && tl_is_finite(scale)) { // another scale is refused by the points it makes
         const tl_vec3 size = tl_abs(scale);
-        const double distance = hull->merge_distance * (double)tl_maxf(size.x, tl_maxf(size.y, size.z));
+        const double distance = (double)hull->merge_distance * (double)tl_maxf(size.x, tl_maxf(size.y, size.z));
         def.merge_distance = (float)tl_min_f64(distance, (double)TL_MAX_HULL_COORDINATE);
     }
     if (host != NULL) {
@@ -49,15 +50,7 @@ tl_result tl_hull_transform(const tl_hull *hull, tl_vec3 scale, tl_transform pos
             tl_vec3d_make((double)scale.x * (double)p.x, (double)scale.y * (double)p.y, (double)scale.z * (double)p.z);
         points[v] = tl_vec3d_to_float(tl_frame_point(&frame, scaled));
     }
-    tl_hull *out;
-    tl_result result = tl_hull_bake(points, hull->vertex_count, &def, &out, report_out);
+    const tl_result result = tl_hull_bake_named(points, hull->vertex_count, hull, &def, hull_out, report_out);
     tl_release_array(def.host.allocator, points, hull->vertex_count, sizeof *points);
-    if (result == TL_OK) {
-        uint32_t *sources = (uint32_t *)(void *)((char *)out + out->sources);
-        for (uint32_t v = 0; v < out->vertex_count; v++) {
-            sources[v] = tl_hull_sources(hull)[sources[v]];
-        }
-        *hull_out = out;
-    }
     return result;
 }

@@ -274,15 +274,15 @@ tl_result tl_quickhull_build(tl_quickhull *hull, const tl_hull_def *def, tl_hull
 }
 
 // The exact hull of corners, and the same with nearly flat faces merged.
-static tl_result merge_and_encode(tl_quickhull *hull, const tl_hull_polygons *exact, double distance, uint32_t copies,
+static tl_result merge_and_encode(tl_quickhull *hull, const tl_hull_polygons *exact, float distance, uint32_t copies,
                                   tl_hull **hull_out)
 {
     tl_hull_polygons merged = *exact;
-    if (distance > 0.0) {
+    if (distance > 0.0f) {
         TL_TRY(tl_hull_merge_flat_regions(exact, hull->points, distance, hull->arena, hull->stage, &merged));
     }
     const tl_hull_polygons *polygons = merged.face_count < exact->face_count ? &merged : exact;
-    return tl_hull_encode(polygons, hull->points, copies, hull->arena, hull->stage, hull_out);
+    return tl_hull_encode(polygons, hull->points, hull->named, copies, hull->arena, hull->stage, hull_out);
 }
 
 // The exact hull, then what the def's distances make of it.
@@ -300,19 +300,20 @@ static tl_result bake_polytope(tl_quickhull *hull, const tl_hull_def *def, tl_hu
         report->corners_left_out = corners - exact.vertex_count;
         report->max_outside += outside;
     }
-    return merge_and_encode(hull, &exact, (double)def->merge_distance, copies, hull_out);
+    return merge_and_encode(hull, &exact, def->merge_distance, copies, hull_out);
 }
 
-tl_result tl_hull_bake_merged(const tl_vec3 *corners, uint32_t count, double distance, const tl_allocator *allocator,
-                              tl_hull **hull_out)
+tl_result tl_hull_bake_merged(const tl_hull *corners, float distance, const tl_allocator *allocator, tl_hull **hull_out)
 {
+    const uint32_t count = corners->vertex_count;
     tl_hull_def def = tl_default_hull_def();
     def.flatness = 0.0f;
     tl_arena arena;
     tl_arena_init(&arena, allocator);
     tl_quickhull hull;
     tl_stage stage = { NULL, "hull", 0, count };
-    tl_quickhull_init(&hull, corners, count, &arena, &stage);
+    tl_quickhull_init(&hull, tl_hull_vertices(corners), count, &arena, &stage);
+    hull.named = corners;
     tl_hull_polygons exact;
     uint32_t copies;
     tl_result result = tl_quickhull_build(&hull, &def, NULL, &copies, &exact);
@@ -348,6 +349,12 @@ static tl_result check_hull_def(const tl_hull_def *def, tl_report *report)
 tl_result tl_hull_bake(const tl_vec3 *points, uint32_t count, const tl_hull_def *def, tl_hull **hull_out,
                        tl_hull_report *report_out)
 {
+    return tl_hull_bake_named(points, count, NULL, def, hull_out, report_out);
+}
+
+tl_result tl_hull_bake_named(const tl_vec3 *points, uint32_t count, const tl_hull *named, const tl_hull_def *def,
+                             tl_hull **hull_out, tl_hull_report *report_out)
+{
     const tl_hull_def defaults = tl_default_hull_def();
     def = def != NULL ? def : &defaults;
     tl_report *base = NULL;
@@ -367,6 +374,7 @@ tl_result tl_hull_bake(const tl_vec3 *points, uint32_t count, const tl_hull_def 
     tl_quickhull hull;
     tl_stage stage;
     tl_quickhull_init(&hull, points, count, &arena, &stage);
+    hull.named = named;
     const tl_host serial = { def->host.allocator, NULL, def->host.progress };
     tl_result result = tl_stage_begin(&stage, &serial, "hull", count);
     result = result == TL_OK ? bake_polytope(&hull, def, hull_out, report_out) : result;

@@ -52,6 +52,7 @@ typedef struct tl_quickhull {
     tl_stage *stage; // its unit: points that are a corner, inside or on the surface
     uint32_t work;   // points and faces that were looked at since progress was called
     const tl_vec3 *points;
+    const tl_hull *named; // a hull whose corners the points are: vertices get its sources; NULL: their own indices
     uint32_t point_count;
     uint32_t passive_count; // behind them: points that become no corner, and end filed under a face that they see
     uint32_t waiting;       // points that are filed under a face
@@ -95,7 +96,7 @@ typedef struct tl_hull_polygons {
     // Of merged faces, else zero.
     const struct tl_hull_polygons *exact; // what they were merged from, with the same vertices
     uint32_t *plane_faces;                // [face_count] the exact face whose plane a face has
-    double merge_distance;                // metres; a face's corners lie within this of its plane
+    float merge_distance;                 // metres; a face's corners lie within this of its plane
 } tl_hull_polygons;
 
 static inline uint32_t tl_half_edge_face(uint32_t half_edge)
@@ -182,8 +183,12 @@ tl_result tl_quickhull_add_point(tl_quickhull *hull, uint32_t face);
 tl_result tl_quickhull_measure_left_out(tl_quickhull *hull, double allowed, uint32_t *beyond, uint32_t *beyond_count,
                                         double *max_outside);
 
-// quickhull.c: the merged hull of points that are all corners; NULL allocator: malloc. Silent.
-tl_result tl_hull_bake_merged(const tl_vec3 *corners, uint32_t count, double distance, const tl_allocator *allocator,
+// quickhull.c
+// As tl_hull_bake; `named` as in tl_quickhull.
+tl_result tl_hull_bake_named(const tl_vec3 *points, uint32_t count, const tl_hull *named, const tl_hull_def *def,
+                             tl_hull **hull_out, tl_hull_report *report_out);
+// The hull of another's vertices, which are all corners, merged by a distance; NULL allocator: malloc. Silent.
+tl_result tl_hull_bake_merged(const tl_hull *corners, float distance, const tl_allocator *allocator,
                               tl_hull **hull_out);
 
 // hull_simplify.c: leaves out corners that the def's distances make superfluous. `polygons` are the exact hull, and
@@ -203,9 +208,20 @@ tl_result tl_quickhull_thicken(tl_quickhull *hull, const uint32_t seed[4], uint3
 tl_result tl_hull_measure_mass(const tl_hull *hull, tl_stage *stage, tl_hull_mass *mass_out);
 
 // hull_encode.c
-// A face's plane, from its corners, which lie in it exactly.
-tl_hull_plane tl_hull_fit_plane(const tl_vec3 *vertices, const tl_hull_half_edge *half_edges, tl_hull_face face);
-tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
-                         tl_stage *stage, tl_hull **hull_out);
+tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points, const tl_hull *named, uint32_t copies,
+                         tl_arena *arena, tl_stage *stage, tl_hull **hull_out);
+
+// hull_plane.c
+// The loop of a face: words that name its corners among the vertices, `stride` bytes from one to the next.
+typedef struct tl_hull_loop {
+    const tl_vec3 *vertices;
+    const char *words;
+    uint32_t word_bytes, stride, count;
+} tl_hull_loop;
+tl_hull_loop tl_hull_loop_of(const tl_hull *hull, uint32_t face);
+// The plane of a face, from its corners, which lie in it exactly.
+tl_hull_plane tl_hull_fit_plane(tl_hull_loop loop);
+// For TL_HULL_HAS_SIDES: whether a corner of some face, off the edge between, lies in a neighbour's plane.
+bool tl_hull_has_sides(const tl_hull *hull);
 
 #endif

@@ -21,9 +21,9 @@ static tl_result add_hull_vertices(const tl_hull *hull, tl_halfedge_mesh *mesh)
 static tl_result add_hull_faces(const tl_hull *hull, tl_halfedge_mesh *mesh, uint32_t *corners)
 {
     for (uint32_t f = 0; f < hull->face_count; f++) {
-        tl_hull_face face = tl_hull_faces(hull)[f];
+        tl_hull_face face = tl_hull_face_at(hull, f);
         for (uint32_t k = 0; k < face.count; k++) {
-            corners[k] = tl_hull_half_edges(hull)[face.first + k].origin;
+            corners[k] = tl_hull_edge_origin(hull, face.first + k);
         }
         TL_TRY(tl_halfedge_mesh_add_face(mesh, corners, face.count, NULL));
     }

@@ -9,6 +9,7 @@
 
 #include "base/assert.h"
 #include "base/host.h"
+#include "hull/support/hull_support.h"
 
 #include <talus/hull.h>
 
@@ -22,14 +23,13 @@ typedef struct face_plane {
 
 static face_plane plane_of(const tl_hull *hull, uint32_t face, tl_aabb box)
 {
-    const tl_vec3 *vertices = tl_hull_vertices(hull);
-    const tl_hull_half_edge *h = &tl_hull_half_edges(hull)[tl_hull_faces(hull)[face].first];
+    const uint32_t first = tl_hull_face_first(hull, face);
     face_plane p;
     p.origin = tl_vec3_make(tl_side_origin(box.min.x, box.max.x), tl_side_origin(box.min.y, box.max.y),
                             tl_side_origin(box.min.z, box.max.z));
-    p.a = tl_sub(vertices[h[0].origin], p.origin);
-    p.b = tl_sub(vertices[h[1].origin], p.origin);
-    p.c = tl_sub(vertices[h[2].origin], p.origin);
+    p.a = tl_sub(tl_hull_corner(hull, first), p.origin);
+    p.b = tl_sub(tl_hull_corner(hull, first + 1), p.origin);
+    p.c = tl_sub(tl_hull_corner(hull, first + 2), p.origin);
     tl_vec3 size = tl_max(tl_abs(tl_sub(box.min, p.origin)), tl_abs(tl_sub(box.max, p.origin)));
     double reach[3] = { (double)size.x, (double)size.y, (double)size.z };
     p.plane = tl_side_plane_make(p.a, p.b, p.c, reach);
@@ -46,9 +46,9 @@ static int side_of_face(const face_plane *p, tl_vec3 point, double *height_out)
 
 static bool face_has(const tl_hull *hull, uint32_t face, uint32_t vertex)
 {
-    tl_hull_face f = tl_hull_faces(hull)[face];
+    tl_hull_face f = tl_hull_face_at(hull, face);
     for (uint32_t k = 0; k < f.count; k++) {
-        if (tl_hull_half_edges(hull)[f.first + k].origin == vertex) {
+        if (tl_hull_edge_origin(hull, f.first + k) == vertex) {
             return true;
         }
     }
@@ -67,20 +67,19 @@ static void validate_face(const tl_hull *hull, uint32_t face, const face_plane *
         }
         in_plane += side == 0;
     }
-    if (in_plane != tl_hull_faces(hull)[face].count) {
+    if (in_plane != tl_hull_face_at(hull, face).count) {
         out->flat_faces = false;
     }
     // No three corners of a face are on a line, and the loop turns left everywhere, seen along the normal.
-    tl_hull_face f = tl_hull_faces(hull)[face];
-    const tl_hull_half_edge *h = &tl_hull_half_edges(hull)[f.first];
+    tl_hull_face f = tl_hull_face_at(hull, face);
     // The exact normal: in double a thin face may seem to have none.
     tl_vec3 p = plane->a, q = plane->b, r = plane->c;
     double n[3] = { tl_area2d(p.y, p.z, q.y, q.z, r.y, r.z), tl_area2d(p.z, p.x, q.z, q.x, r.z, r.x),
                     tl_area2d(p.x, p.y, q.x, q.y, r.x, r.y) };
     for (uint32_t k = 0; k < f.count; k++) {
-        tl_vec3 a = tl_hull_vertices(hull)[h[k].origin];
-        tl_vec3 b = tl_hull_vertices(hull)[h[(k + 1) % f.count].origin];
-        tl_vec3 c = tl_hull_vertices(hull)[h[(k + 2) % f.count].origin];
+        tl_vec3 a = tl_hull_corner(hull, f.first + k);
+        tl_vec3 b = tl_hull_corner(hull, f.first + (k + 1) % f.count);
+        tl_vec3 c = tl_hull_corner(hull, f.first + (k + 2) % f.count);
         // Seen along the coordinate axis that the normal leans to most.
         int turn = fabs(n[0]) >= fabs(n[1]) && fabs(n[0]) >= fabs(n[2])
                        ? tl_orient2d(a.y, a.z, b.y, b.z, c.y, c.z) * (n[0] > 0.0 ? 1 : -1)
@@ -145,7 +144,7 @@ static tl_result validate_merged(const tl_hull *hull, const tl_vec3 *points, uin
 {
     TL_TRY(tl_hull_check(hull, hull->blob.size, &found->base));
     tl_hull *exact;
-    TL_TRY(tl_hull_bake_merged(tl_hull_vertices(hull), hull->vertex_count, 0.0, NULL, &exact));
+    TL_TRY(tl_hull_bake_merged(hull, 0.0f, NULL, &exact));
     const tl_result result = validate(exact, points, count, found);
     tl_blob_free(exact);
     return result;
@@ -157,7 +156,7 @@ tl_result tl_hull_validate(const tl_hull *hull, const tl_vec3 *points, uint32_t 
     tl_hull_validation found;
     memset(&found, 0, sizeof found);
     tl_report_begin(&found.base, "validate hull");
-    const bool is_merged = hull != NULL && hull->merge_distance > 0.0 && (points != NULL || count == 0);
+    const bool is_merged = hull != NULL && hull->merge_distance > 0.0f && (points != NULL || count == 0);
     tl_result result = is_merged ? validate_merged(hull, points, count, &found) : validate(hull, points, count, &found);
     if (validation_out != NULL) {
         *validation_out = found;

@@ -73,15 +73,15 @@ static bool lies_behind_all_planes(const tl_hull *hull, tl_vec3 point)
 bool tl_hull_contains(const tl_hull *hull, tl_vec3 point)
 {
     TL_ASSERT(hull != NULL);
-    if (hull->merge_distance > 0.0) {
+    if (hull->merge_distance > 0.0f) {
         return lies_behind_all_planes(hull, point);
     }
     const tl_vec3 *vertices = tl_hull_vertices(hull);
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
     for (uint32_t f = 0; f < hull->face_count; f++) {
         // Corners of a face are strict, so any three in a row span its plane.
-        const tl_hull_half_edge *h = &half_edges[tl_hull_faces(hull)[f].first];
-        if (tl_orient3d(vertices[h[0].origin], vertices[h[1].origin], vertices[h[2].origin], point) > 0) {
+        const uint32_t h = tl_hull_face_first(hull, f);
+        if (tl_orient3d(vertices[tl_hull_edge_origin(hull, h)], vertices[tl_hull_edge_origin(hull, h + 1)],
+                        vertices[tl_hull_edge_origin(hull, h + 2)], point) > 0) {
             return false;
         }
     }

@@ -54,7 +54,7 @@ static uint32_t count_cells(const tl_hull *hull, tl_vec3 scale)
 tl_vec3 tl_hull_table_scale(const tl_hull *hull)
 {
     tl_vec3 one = { 1.0f, 1.0f, 1.0f }, extents = relative_extents(hull->bounds);
-    if (hull->table_side == 0) {
+    if (tl_hull_climb_head(hull)->table_side == 0) {
         return one;
     }
     // In full for a needle, not at all for a long capsule, whose ends are round, and halfway between.
@@ -71,18 +71,20 @@ tl_vec3 tl_hull_table_scale(const tl_hull *hull)
 // One row of a square: its cells' middles have a common x - y.
 typedef struct table_row {
     const tl_hull *hull;
+    const uint32_t *table; // in words, whose rings' cells are filled
     const uint32_t *rings; // of vertices; NULL: there are none
     uint32_t half, row;
 } table_row;
 
 static tl_vec3 unscaled(const tl_hull *hull, float x, float y, float z)
 {
-    return tl_vec3_make(x / hull->table_scale.x, y / hull->table_scale.y, z / hull->table_scale.z);
+    const tl_vec3 scale = tl_hull_climb_head(hull)->table_scale;
+    return tl_vec3_make(x / scale.x, y / scale.y, z / scale.z);
 }
 
 static tl_vec3 middle_of_cell(const table_row *row, uint32_t column)
 {
-    float side = (float)row->hull->table_side;
+    float side = (float)tl_hull_climb_head(row->hull)->table_side;
     float difference = 2.0f * ((float)row->row + 0.5f) / side - 1.0f;
     float sum = 2.0f * ((float)column + 0.5f) / side - 1.0f;
     float z = 1.0f - tl_maxf(fabsf(sum), fabsf(difference));
@@ -94,12 +96,13 @@ static uint32_t fill_stretch(const table_row *row, const tl_support_kernel *kern
                              float slope, uint32_t vertex, uint32_t *cells)
 {
     const tl_hull *hull = row->hull;
-    float width = 1.0f / (float)hull->table_side;
+    float width = 1.0f / (float)tl_hull_climb_head(hull)->table_side;
     tl_vec3 step = unscaled(hull, width, width, (row->half != 0 ? -slope : slope) * 2.0f * width);
     while (begin < end) {
         tl_vec3 d = middle_of_cell(row, begin);
         if (row->rings != NULL && row->rings[vertex] != TL_NO_FACE_RING) {
-            vertex = tl_ring_start(hull, row->rings[vertex], d); // many wedges may lie between this cell and the last
+            vertex = row->table[tl_cell_in_ring(hull, row->rings[vertex],
+                                                d)]; // many wedges may lie between this cell and the last
         }
         vertex = kernel->climb(hull, d, vertex);
         begin += kernel->march(hull, d, step, end - begin, vertex, cells + begin);
@@ -110,10 +113,10 @@ static uint32_t fill_stretch(const table_row *row, const tl_support_kernel *kern
 
 static tl_result fill_squares(const tl_hull *hull, uint32_t *table, const uint32_t *rings, tl_stage *stage)
 {
-    uint32_t side = hull->table_side, first = 0;
+    uint32_t side = tl_hull_climb_head(hull)->table_side, first = 0;
     tl_support_kernel kernel = tl_support_kernel_best();
     for (uint32_t i = 0; i < 2 * side; i++) {
-        table_row row = { hull, rings, i / side, i % side };
+        table_row row = { hull, table, rings, i / side, i % side };
         uint32_t *cells = table + (uint64_t)i * side;
         uint32_t margin = row.row < side - 1 - row.row ? row.row : side - 1 - row.row;
         uint32_t vertex = fill_stretch(&row, &kernel, 0, margin, 1.0f, first, cells);
@@ -129,7 +132,7 @@ static tl_result fill_squares(const tl_hull *hull, uint32_t *table, const uint32
 // cell of the other square that is in the same place.
 static uint32_t cell_beside(const tl_hull *hull, uint32_t cell, int32_t row_step, int32_t column_step)
 {
-    uint32_t side = hull->table_side, half = cell / (side * side);
+    uint32_t side = tl_hull_climb_head(hull)->table_side, half = cell / (side * side);
     uint32_t row = cell / side % side + (uint32_t)row_step, column = cell % side + (uint32_t)column_step;
     return row < side && column < side ? (half * side + row) * side + column
            : half == 0                 ? cell + side * side
@@ -151,7 +154,7 @@ static bool is_among_wedges(const tl_hull *hull, const uint32_t *table, uint32_t
 
 static void name_rings(const tl_hull *hull, uint32_t *table, const uint32_t *rings)
 {
-    uint32_t cells = 2 * hull->table_side * hull->table_side;
+    const uint32_t side = tl_hull_climb_head(hull)->table_side, cells = 2 * side * side;
     for (uint32_t cell = 0; cell < cells; cell++) {
         if (is_among_wedges(hull, table, cell, rings)) {
             table[cell] |= TL_TABLE_RING; // beside its vertex, which the next cells need
@@ -164,19 +167,37 @@ static void name_rings(const tl_hull *hull, uint32_t *table, const uint32_t *rin
     }
 }
 
+// What is filled in words, in the table's own cells; a flag becomes that of a short cell.
+static void write_short_cells(const tl_hull *hull, const uint32_t *table)
+{
+    const tl_hull_climb *climb = tl_hull_climb_head(hull);
+    uint16_t *cells = (uint16_t *)(uintptr_t)tl_hull_part(hull, climb->table);
+    const uint64_t count = tl_hull_cell_count(climb);
+    for (uint64_t i = 0; i < count; i++) {
+        const uint32_t flag = (table[i] & TL_TABLE_RING) != 0 ? TL_TABLE_SHORT_RING : 0;
+        cells[i] = (uint16_t)((table[i] & ~TL_TABLE_RING) | flag);
+    }
+}
+
 tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena, tl_stage *stage)
 {
-    uint32_t *table = (uint32_t *)(uintptr_t)tl_hull_table(hull), *rings = NULL;
-    if (hull->ring_count > 0) {
-        rings = TL_PUSH_ZERO(arena, uint32_t, hull->vertex_count);
-        if (rings == NULL) {
-            return TL_ERR_MEMORY;
-        }
+    const tl_hull_climb *climb = tl_hull_climb_head(hull);
+    const bool is_short = climb->cell_bytes == sizeof(uint16_t);
+    uint32_t *table = is_short ? TL_PUSH(arena, uint32_t, tl_hull_cell_count(climb))
+                               : (uint32_t *)(uintptr_t)tl_hull_part(hull, climb->table);
+    uint32_t *rings = climb->ring_count > 0 ? TL_PUSH_ZERO(arena, uint32_t, hull->vertex_count) : NULL;
+    if (table == NULL || (climb->ring_count > 0 && rings == NULL)) {
+        return TL_ERR_MEMORY;
+    }
+    if (rings != NULL) {
         tl_hull_fill_rings(hull, table, rings);
     }
     TL_TRY(fill_squares(hull, table, rings, stage));
     if (rings != NULL) {
         name_rings(hull, table, rings);
+    }
+    if (is_short) {
+        write_short_cells(hull, table);
     }
     return TL_OK;
 }

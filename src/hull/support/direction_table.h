@@ -62,18 +62,29 @@ static inline uint32_t tl_ring_cell(const tl_face_ring *ring, tl_vec3 d)
     return (uint32_t)(int32_t)(around * (0.25f * TL_TABLE_INWARD * (float)ring->cell_count));
 }
 
-static inline uint32_t tl_ring_start(const tl_hull *hull, uint32_t index, tl_vec3 direction)
+// The cell of a ring, counted from the table's first.
+static inline uint32_t tl_cell_in_ring(const tl_hull *hull, uint32_t index, tl_vec3 direction)
 {
     const tl_face_ring *ring = &tl_hull_rings(hull)[index];
-    return tl_hull_table(hull)[ring->first + tl_ring_cell(ring, direction)];
+    return ring->first + tl_ring_cell(ring, direction);
 }
 
 // For a direction in the range of hull_support.h.
 static inline uint32_t tl_hull_table_start(const tl_hull *hull, tl_vec3 direction)
 {
-    uint32_t cell = tl_table_cell(tl_mul(direction, hull->table_scale), hull->table_side);
-    uint32_t start = tl_hull_table(hull)[cell];
-    return (start & TL_TABLE_RING) == 0 ? start : tl_ring_start(hull, start & ~TL_TABLE_RING, direction);
+    const tl_hull_climb *climb = tl_hull_climb_head(hull);
+    uint32_t cell = tl_table_cell(tl_mul(direction, climb->table_scale), climb->table_side);
+    const void *table = tl_hull_part(hull, climb->table);
+    if (climb->cell_bytes == sizeof(uint16_t)) {
+        const uint16_t *cells = table;
+        uint32_t start = cells[cell];
+        return (start & TL_TABLE_SHORT_RING) == 0
+                   ? start
+                   : cells[tl_cell_in_ring(hull, start & ~TL_TABLE_SHORT_RING, direction)];
+    }
+    const uint32_t *cells = table;
+    uint32_t start = cells[cell];
+    return (start & TL_TABLE_RING) == 0 ? start : cells[tl_cell_in_ring(hull, start & ~TL_TABLE_RING, direction)];
 }
 
 #endif

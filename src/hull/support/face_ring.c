@@ -25,7 +25,7 @@ static void plane_axes(const tl_hull *hull, uint32_t face, tl_vec3d axes[2])
 
 static void extents_along(const tl_hull *hull, uint32_t face, const tl_vec3d axes[2], double extent[2])
 {
-    tl_hull_face f = tl_hull_faces(hull)[face];
+    tl_hull_face f = tl_hull_face_at(hull, face);
     tl_vec3d origin = ring_corner(hull, f.first);
     for (int i = 0; i < 2; i++) {
         double low = 0.0, high = 0.0;
@@ -50,7 +50,7 @@ tl_face_ring tl_face_ring_make(const tl_hull *hull, uint32_t face, uint32_t firs
     extents_along(hull, face, axes, extent);
     tl_vec3 u = tl_vec3d_to_float(tl_vec3d_scale(axes[0], extent[0]));
     tl_vec3 v = tl_vec3d_to_float(tl_vec3d_scale(axes[1], extent[1]));
-    uint32_t cells = tl_face_ring_cells(tl_hull_faces(hull)[face].count);
+    uint32_t cells = tl_face_ring_cells(tl_hull_face_at(hull, face).count);
     tl_face_ring ring = { { u.x, u.y, u.z }, { v.x, v.y, v.z }, first, cells };
     return ring;
 }
@@ -70,7 +70,7 @@ static void fill_ring(const tl_hull *hull, uint32_t face, const tl_face_ring *ri
     double extent[2];
     plane_axes(hull, face, axes);
     extents_along(hull, face, axes, extent);
-    tl_hull_face f = tl_hull_faces(hull)[face];
+    tl_hull_face f = tl_hull_face_at(hull, face);
     uint32_t best = 0;
     for (uint32_t cell = 0; cell < ring->cell_count; cell++) {
         tl_vec3d d = cell_direction(axes, extent, cell, ring->cell_count);
@@ -84,26 +84,27 @@ static void fill_ring(const tl_hull *hull, uint32_t face, const tl_face_ring *ri
                 break;
             }
         }
-        table[ring->first + cell] = tl_hull_half_edges(hull)[f.first + best].origin;
+        table[ring->first + cell] = tl_hull_edge_origin(hull, f.first + best);
     }
 }
 
 void tl_hull_fill_rings(tl_hull *hull, uint32_t *table, uint32_t *rings_of_vertices)
 {
     tl_face_ring *rings = (tl_face_ring *)(uintptr_t)tl_hull_rings(hull);
-    const tl_hull_face *faces = tl_hull_faces(hull);
+    const uint32_t side = tl_hull_climb_head(hull)->table_side;
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
         rings_of_vertices[v] = TL_NO_FACE_RING;
     }
-    uint32_t count = 0, first = 2 * hull->table_side * hull->table_side;
+    uint32_t count = 0, first = 2 * side * side;
     for (uint32_t face = 0; face < hull->face_count; face++) {
-        if (!tl_face_has_ring(faces[face].count)) {
+        const tl_hull_face f = tl_hull_face_at(hull, face);
+        if (!tl_face_has_ring(f.count)) {
             continue;
         }
         rings[count] = tl_face_ring_make(hull, face, first);
         fill_ring(hull, face, &rings[count], table);
-        for (uint32_t k = 0; k < faces[face].count; k++) {
-            uint32_t *of = &rings_of_vertices[tl_hull_half_edges(hull)[faces[face].first + k].origin];
+        for (uint32_t k = 0; k < f.count; k++) {
+            uint32_t *of = &rings_of_vertices[tl_hull_edge_origin(hull, f.first + k)];
             if (*of == TL_NO_FACE_RING || rings[*of].cell_count < rings[count].cell_count) {
                 *of = count;
             }

@@ -37,7 +37,8 @@ typedef struct tl_climb_block {
     uint32_t link[TL_CLIMB_LANES];
 } tl_climb_block;
 
-#define TL_TABLE_RING 0x80000000u // in a cell of the table: not a vertex, look in that ring
+#define TL_TABLE_RING       0x80000000u // in a cell of the table: not a vertex, look in that ring
+#define TL_TABLE_SHORT_RING 0x8000u     // the same in a cell of two bytes; ring and vertices are below it
 
 // A large face: where a direction points in its plane tells the vertex, by cells of their own behind the table's.
 typedef struct tl_face_ring {
@@ -48,7 +49,13 @@ typedef struct tl_face_ring {
 // Where a half-edge starts.
 static inline tl_vec3 tl_hull_corner(const tl_hull *hull, uint32_t half_edge)
 {
-    return tl_hull_vertices(hull)[tl_hull_half_edges(hull)[half_edge].origin];
+    return tl_hull_vertices(hull)[tl_hull_edge_origin(hull, half_edge)];
+}
+
+// Of a hull of more than TL_HULL_FEW vertices.
+static inline const tl_hull_climb *tl_hull_climb_head(const tl_hull *hull)
+{
+    return (const void *)((const char *)hull + TL_HULL_CLIMB_OFFSET);
 }
 
 static inline const void *tl_hull_part(const tl_hull *hull, uint32_t part)
@@ -58,22 +65,50 @@ static inline const void *tl_hull_part(const tl_hull *hull, uint32_t part)
 
 static inline const tl_climb_block *tl_hull_blocks(const tl_hull *hull)
 {
-    return tl_hull_part(hull, hull->blocks);
+    return tl_hull_part(hull, tl_hull_climb_head(hull)->blocks);
 }
 
+static inline uint32_t tl_hull_source_bytes(const tl_hull *hull)
+{
+    return hull->flags & TL_HULL_SOURCE_BYTES;
+}
+
+// Whether sources can be so many bytes each.
+static inline bool tl_hull_is_width(uint32_t bytes)
+{
+    return bytes == 0 || bytes == 1 || bytes == 2 || bytes == 4;
+}
+
+// Length of the scan's rows; 0: the hull is too large to be scanned.
+static inline uint32_t tl_hull_scan_count(const tl_hull *hull)
+{
+    return hull->vertex_count <= TL_CLIMB_LANES       ? TL_CLIMB_LANES
+           : hull->vertex_count <= TL_HULL_SCAN_LIMIT ? (hull->vertex_count + TL_SCAN_PAIR - 1) & ~(TL_SCAN_PAIR - 1)
+                                                      : 0;
+}
+
+// float [3][scan_count]: x, y, z from the middle of the bounds.
 static inline const float *tl_hull_scan_rows(const tl_hull *hull)
 {
-    return tl_hull_part(hull, hull->scan);
-}
-
-static inline const uint32_t *tl_hull_table(const tl_hull *hull)
-{
-    return tl_hull_part(hull, hull->table);
+    const size_t few = sizeof *hull, more = TL_HULL_CLIMB_OFFSET + sizeof(tl_hull_climb);
+    return (const void *)((const char *)hull + (hull->vertex_count <= TL_HULL_FEW ? few : more));
 }
 
 static inline const tl_face_ring *tl_hull_rings(const tl_hull *hull)
 {
-    return tl_hull_part(hull, hull->rings);
+    return tl_hull_part(hull, tl_hull_climb_head(hull)->rings);
+}
+
+// A cell of the direction table, or of the rings behind it.
+static inline uint32_t tl_hull_table_cell(const tl_hull *hull, uint32_t cell)
+{
+    const tl_hull_climb *climb = tl_hull_climb_head(hull);
+    const void *table = tl_hull_part(hull, climb->table);
+    if (climb->cell_bytes == sizeof(uint16_t)) {
+        const uint32_t found = ((const uint16_t *)table)[cell];
+        return found + (found & TL_TABLE_SHORT_RING) * (TL_TABLE_RING / TL_TABLE_SHORT_RING - 1);
+    }
+    return ((const uint32_t *)table)[cell];
 }
 
 // Instruction sets, ascending: the levels of base/cpu.h.
@@ -123,20 +158,25 @@ uint32_t tl_hull_decide_exact(const tl_hull *hull, tl_vec3 direction, uint64_t c
 // direction_table.c; the look-up is in direction_table.h.
 // Cells along a side for a hull of so many vertices.
 uint32_t tl_hull_table_side(uint32_t vertex_count, bool has_rings);
+// Cells of the table and of all rings.
+uint64_t tl_hull_cell_count(const tl_hull_climb *climb);
 // What directions are multiplied by; for a hull whose bounds and planes are there.
 tl_vec3 tl_hull_table_scale(const tl_hull *hull);
 // Fills the table of an otherwise finished hull.
 tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena, tl_stage *stage);
 
 // hull_layout.c
-// Fills in the offsets and the counts that follow from V, F, 2 E, block_count, ring_count and ring_cells; the size of
-// the whole.
-uint64_t tl_hull_lay_out(tl_hull *head);
-// Fills in ring_count and ring_cells of a head whose V and F are set.
-void tl_hull_count_rings(tl_hull *head, const tl_hull_face *faces);
-// Writes `count` <= 8 neighbours of the vertex that `edge` starts at, those of `edge` and on, which is moved behind
-// them.
-void tl_hull_fill_block(const tl_vec3 *vertices, const tl_hull_half_edge *half_edges, uint32_t *edge, uint32_t count,
+// Fills in what follows from V, F, 2 E and the flags, and for a hull of more than TL_HULL_FEW vertices from
+// block_count, ring_count and ring_cells; the size of the whole. Of a smaller one `climb` becomes zero.
+uint64_t tl_hull_lay_out(tl_hull *head, tl_hull_climb *climb);
+// Bytes to a laid out hull's sources.
+uint64_t tl_hull_sources_offset(const tl_hull *head);
+// Bytes of its planes, with the infinite offsets behind short rows.
+uint64_t tl_hull_plane_bytes(const tl_hull *head);
+// Counts a face's ring, if a hull of so many vertices has one for it.
+void tl_hull_count_ring(uint32_t vertex_count, uint32_t corners, tl_hull_climb *climb);
+// Writes a block of the vectors from a vertex to its `count` <= 8 neighbours in `links`.
+void tl_hull_fill_block(const tl_vec3 *vertices, uint32_t vertex, const uint32_t *links, uint32_t count,
                         tl_climb_block *block);
 // Blocks of a vertex with so many neighbours.
 uint32_t tl_hull_blocks_of(uint32_t degree);

@@ -16,9 +16,19 @@
 // The lowest vertex of the whole loop of a face.
 static uint32_t lowest_of_face(const tl_hull *hull, uint32_t half_edge)
 {
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
     // A face's loop begins with its lowest vertex.
-    return half_edges[tl_hull_faces(hull)[half_edges[half_edge].face].first].origin;
+    return tl_hull_edge_origin(hull, tl_hull_face_first(hull, tl_hull_edge_face(hull, half_edge)));
+}
+
+// The lowest of the farthest among all.
+static uint32_t scan_exact(const tl_hull *hull, tl_vec3 direction)
+{
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    uint32_t vertex = 0;
+    for (uint32_t v = 1; v < hull->vertex_count; v++) {
+        vertex = tl_compare_along(direction, vertices[v], vertices[vertex]) > 0 ? v : vertex;
+    }
+    return vertex;
 }
 
 // Merged faces lack edges that a climb needs; the blocks have those of the exact hull. Level neighbours are rare, and
@@ -43,38 +53,32 @@ static uint32_t climb_merged(const tl_hull *hull, tl_vec3 direction, uint32_t ve
             vertex = better;
         }
     }
-    for (uint32_t v = 0; level && v < hull->vertex_count; v++) {
-        if (tl_compare_along(direction, vertices[v], vertices[vertex]) == 0) {
-            return v;
-        }
-    }
-    return vertex;
+    return level ? scan_exact(hull, direction) : vertex;
 }
 
 uint32_t tl_hull_climb_exact(const tl_hull *hull, tl_vec3 direction, uint32_t vertex)
 {
-    if (hull->merge_distance > 0.0) {
-        return climb_merged(hull, direction, vertex);
+    if (hull->merge_distance > 0.0f) {
+        return hull->vertex_count <= TL_HULL_FEW ? scan_exact(hull, direction) : climb_merged(hull, direction, vertex);
     }
     const tl_vec3 *vertices = tl_hull_vertices(hull);
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
     for (;;) {
-        uint32_t start = tl_hull_vertex_edges(hull)[vertex];
+        uint32_t start = tl_hull_vertex_edge(hull, vertex);
         uint32_t edge = start, better = vertex, lowest = vertex;
         do {
-            uint32_t next = half_edges[edge].next;
-            uint32_t other = half_edges[next].origin;
+            uint32_t next = tl_hull_edge_next(hull, edge);
+            uint32_t other = tl_hull_edge_origin(hull, next);
             int order = tl_compare_along(direction, vertices[other], vertices[better]);
             if (order > 0) {
                 better = other;
             } else if (order == 0 && better == vertex) {
                 // The edge is level; when the edge after it is too, so is the face.
-                uint32_t after = half_edges[half_edges[next].next].origin;
+                uint32_t after = tl_hull_edge_origin(hull, tl_hull_edge_next(hull, next));
                 bool level_face = tl_compare_along(direction, vertices[after], vertices[vertex]) == 0;
                 uint32_t candidate = level_face ? lowest_of_face(hull, edge) : other;
                 lowest = candidate < lowest ? candidate : lowest;
             }
-            edge = half_edges[half_edges[edge].twin].next;
+            edge = tl_hull_edge_next(hull, tl_hull_edge_twin(hull, edge));
         } while (edge != start);
         if (better == vertex) {
             return lowest;

@@ -3,9 +3,9 @@
 // The support query: one source, compiled once for each instruction set by a file that defines TL_SUPPORT_QUERY,
 // TL_SUPPORT_CLIMB and TL_SUPPORT_MARCH.
 //
-// First the caller's hint. Then a scan of a small hull, or a start from the direction table. The start is right nearly
-// always, so the processor goes on with it while its neighbours are still being tested: the proof costs arithmetic, but
-// no waiting.
+// First the caller's hint, which a scan of very few vertices tests by the way. Then a scan of a small hull, or a start
+// from the direction table. The start is right nearly always, so the processor goes on with it while its neighbours are
+// still being tested: the proof costs arithmetic, but no waiting.
 //
 // Float arithmetic decides whenever its error bound allows; what it leaves open is settled exactly. So the answer is a
 // true maximiser, and does not depend on the hint, on the way it was found, or on the instruction set.
@@ -70,10 +70,13 @@ uint32_t TL_SUPPORT_QUERY(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
     if (!(size >= TL_SUPPORT_DIRECTION_MIN && size <= TL_SUPPORT_DIRECTION_MAX)) {
         return tl_hull_support_unusual(hull, direction, hint);
     }
+    if (hull->vertex_count <= TL_HULL_FEW) {
+        return tl_hull_scan_few(hull, direction, &climber, size, hint);
+    }
     if (hint < hull->vertex_count && tl_hull_is_farthest(hull, &climber, hint)) {
         return hint;
     }
-    if (hull->scan_count > 0) {
+    if (hull->vertex_count <= TL_HULL_SCAN_LIMIT) {
         return tl_hull_scan(hull, direction, &climber, size);
     }
     uint32_t start = tl_hull_table_start(hull, direction);
