@@ -5,14 +5,12 @@
 // step everybody is on the mesh and finite; a crowd that was restored from a saved state has its hash, and takes the
 // same step; one that was restored from a damaged state is safe to step.
 
-#include <talus/nav_bake.h>
-#include <talus/nav_crowd.h>
+#include "fuzz/holed_floor.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include <talus/nav_crowd.h>
 
-enum { SIDE = 10, MAX_AGENTS = 24, MAX_LINKS = 4, MAX_STEPS = 400, MAX_TILES = 16, GROUP_AGENTS = 6 };
+enum { MAX_AGENTS = 24, MAX_LINKS = 4, MAX_STEPS = 400, MAX_TILES = 16, GROUP_AGENTS = 6 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -32,13 +30,6 @@ typedef struct scene_under_fuzz {
     void *saved;
 } scene_under_fuzz;
 
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
-
 static uint8_t next_byte(scene_under_fuzz *f)
 {
     if (f->size == 0) {
@@ -48,34 +39,15 @@ static uint8_t next_byte(scene_under_fuzz *f)
     return *f->data++;
 }
 
-// A floor of 20 x 20 m with holes, in 3 x 3 tiles.
+// 3 x 3 tiles.
 static void bake_floor(void)
 {
-    tl_vec3 vertices[(SIDE + 1) * (SIDE + 1)];
-    uint32_t indices[6 * SIDE * SIDE], count = 0;
-    for (uint32_t i = 0; i < (SIDE + 1) * (SIDE + 1); i++) {
-        const tl_vec3 at = { 2.0f * (float)(i % (SIDE + 1)), 0.0f, 2.0f * (float)(i / (SIDE + 1)) };
-        vertices[i] = at;
-    }
-    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
-        const uint32_t x = i % SIDE, z = i / SIDE, a = z * (SIDE + 1) + x;
-        if ((x * 7 + z * 5 + x * z) % 6 != 0) {
-            const uint32_t quad[6] = { a, a + SIDE + 1, a + SIDE + 2, a, a + SIDE + 2, a + 1 };
-            memcpy(indices + count, quad, sizeof quad);
-            count += 6;
-        }
-    }
     tl_nav_def def = tl_default_nav_def();
     def.cell_size = 0.25f;
     def.agent_radius = 0.25f;
     def.tile_size = 28;
-    const tl_aabb bounds = { { 0.0f, -1.0f, 0.0f }, { 2.0f * (float)SIDE, 4.0f, 2.0f * (float)SIDE } };
-    def.bounds = bounds;
-    tl_nav_input input;
-    memset(&input, 0, sizeof input);
-    const tl_mesh_view floor = { vertices, (SIDE + 1) * (SIDE + 1), indices, count / 3, NULL };
-    input.mesh = floor;
-    require(tl_nav_bake(&def, &input, &tiles, NULL) == TL_OK && tiles.tile_count <= MAX_TILES);
+    holed_floor_bake(&def, &tiles);
+    require(tiles.tile_count <= MAX_TILES);
 }
 
 static bool place_from(scene_under_fuzz *f, tl_nav_location *place)

@@ -4,14 +4,13 @@
 // impossible. The input is patches of the true chunk, six bytes each: a word's index, and what is written there. The
 // file's hashes are made right, so that what is behind them is reached.
 
+#include "fuzz/holed_floor.h"
 #include "test/support/memory_file.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <talus/nav_routes.h>
 
-enum { SIDE = 10, PATCH = 6, PLACES = 6, POINTS = 32 };
+enum { PATCH = 6, PLACES = 6, POINTS = 32 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -19,13 +18,6 @@ static memory_file bare, patched; // without routes, and with the input's
 static tl_nav_tiles tiles;
 static tl_pack_navmesh *settings;
 static tl_nav_routes *routes;
-
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
 
 static void write_file(const tl_nav_routes *extra, memory_file *file)
 {
@@ -46,35 +38,15 @@ static void write_file(const tl_nav_routes *extra, memory_file *file)
     require(tl_pack_write(items, count, NULL, memory_file_write, file, NULL) == TL_OK);
 }
 
-// A floor of 20 x 20 m with holes, in 3 x 3 tiles, and the routes over it.
+// 3 x 3 tiles, and the routes over them.
 static void make_world(void)
 {
-    tl_vec3 vertices[(SIDE + 1) * (SIDE + 1)];
-    uint32_t indices[6 * SIDE * SIDE], count = 0;
-    for (uint32_t i = 0; i < (SIDE + 1) * (SIDE + 1); i++) {
-        const tl_vec3 at = { 2.0f * (float)(i % (SIDE + 1)), 0.0f, 2.0f * (float)(i / (SIDE + 1)) };
-        vertices[i] = at;
-    }
-    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
-        const uint32_t x = i % SIDE, z = i / SIDE, a = z * (SIDE + 1) + x;
-        if ((x * 7 + z * 5 + x * z) % 6 != 0) {
-            const uint32_t quad[6] = { a, a + SIDE + 1, a + SIDE + 2, a, a + SIDE + 2, a + 1 };
-            memcpy(indices + count, quad, sizeof quad);
-            count += 6;
-        }
-    }
     tl_nav_def def = tl_default_nav_def();
     def.cell_size = 0.5f;
     def.agent_radius = 0.0f;
     def.tile_size = 14;
     def.region_min_size = 0;
-    const tl_aabb bounds = { { 0.0f, -1.0f, 0.0f }, { 2.0f * (float)SIDE, 4.0f, 2.0f * (float)SIDE } };
-    def.bounds = bounds;
-    tl_nav_input input;
-    memset(&input, 0, sizeof input);
-    const tl_mesh_view floor = { vertices, (SIDE + 1) * (SIDE + 1), indices, count / 3, NULL };
-    input.mesh = floor;
-    require(tl_nav_bake(&def, &input, &tiles, NULL) == TL_OK);
+    holed_floor_bake(&def, &tiles);
     require(tl_pack_navmesh_encode(&def, tiles.tiles_x, tiles.tiles_z, tiles.tile_count, NULL, &settings, NULL) ==
             TL_OK);
     write_file(NULL, &bare);
