@@ -110,7 +110,7 @@ void tl_child_main(void)
         return;
     }
     wchar_t *end;
-    const HANDLE section = (HANDLE)(uintptr_t)wcstoull(option + wcslen(child_option), &end, 16);
+    const HANDLE section = (HANDLE)(uintptr_t)wcstoul(option + wcslen(child_option), &end, 16); // handles have 32 bits
     const errand *given = *end == 0 ? MapViewOfFile(section, FILE_MAP_READ, 0, 0, 0) : NULL;
     if (given == NULL) {
         return; // the option is somebody else's
@@ -243,8 +243,7 @@ static bool write_command_line(const tl_child *c, wchar_t *path, wchar_t *line)
 {
     const DWORD length = GetModuleFileNameW(NULL, path, LONGEST_PATH);
     return length > 0 && length < LONGEST_PATH &&
-           swprintf(line, LONGEST_PATH, L"\"%ls\"%ls%llx", path, child_option,
-                    (unsigned long long)(uintptr_t)c->section) > 0;
+           swprintf(line, LONGEST_PATH, L"\"%ls\"%ls%lx", path, child_option, (unsigned long)(uintptr_t)c->section) > 0;
 }
 
 // Starts it with no more than the two handles, and lets it run when it is in its job.

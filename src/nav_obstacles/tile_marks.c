@@ -24,7 +24,7 @@ static tl_marked_run next_marked_run(const uint8_t *base_area, const uint8_t *ar
     while (at < count && base_area[at] == area[at]) {
         at++;
     }
-    tl_marked_run run = { at, 0, at < count ? area[at] : 0 };
+    tl_marked_run run = { at, 0, at < count ? area[at] : 0u };
     while (at < count && area[at] == run.area && base_area[at] != area[at]) {
         at++;
     }

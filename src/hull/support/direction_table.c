@@ -167,12 +167,17 @@ static void name_rings(const tl_hull *hull, uint32_t *table, const uint32_t *rin
     }
 }
 
-// What is filled in words, in the table's own cells; a flag becomes that of a short cell.
-static void write_short_cells(const tl_hull *hull, const uint32_t *table)
+// The table's place in the hull.
+static void *table_cells(tl_hull *hull)
 {
-    const tl_hull_climb *climb = tl_hull_climb_head(hull);
-    uint16_t *cells = (uint16_t *)(uintptr_t)tl_hull_part(hull, climb->table);
-    const uint64_t count = tl_hull_cell_count(climb);
+    return (char *)hull + (uint64_t)tl_hull_climb_head(hull)->table * TL_BLOB_ALIGNMENT;
+}
+
+// What is filled in words, in the table's own cells; a flag becomes that of a short cell.
+static void write_short_cells(tl_hull *hull, const uint32_t *table)
+{
+    uint16_t *cells = table_cells(hull);
+    const uint64_t count = tl_hull_cell_count(tl_hull_climb_head(hull));
     for (uint64_t i = 0; i < count; i++) {
         const uint32_t flag = (table[i] & TL_TABLE_RING) != 0 ? TL_TABLE_SHORT_RING : 0;
         cells[i] = (uint16_t)((table[i] & ~TL_TABLE_RING) | flag);
@@ -183,8 +188,12 @@ tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena, tl_stage *stage)
 {
     const tl_hull_climb *climb = tl_hull_climb_head(hull);
     const bool is_short = climb->cell_bytes == sizeof(uint16_t);
-    uint32_t *table = is_short ? TL_PUSH(arena, uint32_t, tl_hull_cell_count(climb))
-                               : (uint32_t *)(uintptr_t)tl_hull_part(hull, climb->table);
+    uint32_t *table = NULL;
+    if (is_short) {
+        table = TL_PUSH(arena, uint32_t, tl_hull_cell_count(climb));
+    } else {
+        table = table_cells(hull);
+    }
     uint32_t *rings = climb->ring_count > 0 ? TL_PUSH_ZERO(arena, uint32_t, hull->vertex_count) : NULL;
     if (table == NULL || (climb->ring_count > 0 && rings == NULL)) {
         return TL_ERR_MEMORY;

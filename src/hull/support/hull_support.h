@@ -55,7 +55,7 @@ static inline tl_vec3 tl_hull_corner(const tl_hull *hull, uint32_t half_edge)
 // Of a hull of more than TL_HULL_FEW vertices.
 static inline const tl_hull_climb *tl_hull_climb_head(const tl_hull *hull)
 {
-    return (const void *)((const char *)hull + TL_HULL_CLIMB_OFFSET);
+    return (const tl_hull_climb *)(const void *)((const char *)hull + TL_HULL_CLIMB_OFFSET);
 }
 
 static inline const void *tl_hull_part(const tl_hull *hull, uint32_t part)
@@ -91,7 +91,7 @@ static inline uint32_t tl_hull_scan_count(const tl_hull *hull)
 static inline const float *tl_hull_scan_rows(const tl_hull *hull)
 {
     const size_t few = sizeof *hull, more = TL_HULL_CLIMB_OFFSET + sizeof(tl_hull_climb);
-    return (const void *)((const char *)hull + (hull->vertex_count <= TL_HULL_FEW ? few : more));
+    return (const float *)(const void *)((const char *)hull + (hull->vertex_count <= TL_HULL_FEW ? few : more));
 }
 
 static inline const tl_face_ring *tl_hull_rings(const tl_hull *hull)

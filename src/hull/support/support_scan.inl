@@ -75,7 +75,7 @@ static inline tl_f32x8 scan_dot_of(tl_vec3 d, const float *rows, uint32_t count,
 static inline uint32_t scan_eight(const tl_hull *hull, tl_vec3 direction, const tl_climber *c, float size,
                                   uint32_t hint)
 {
-    const float *rows = (const void *)(hull + 1);
+    const float *rows = (const float *)(hull + 1);
     tl_f32x8 dot = scan_dot(c, rows, TL_CLIMB_LANES), raised = tl_f32x8_add(dot, scan_slack(hull, size));
     if (hint < hull->vertex_count &&
         tl_f32x8_not_less(raised, scan_dot_of(direction, rows, TL_CLIMB_LANES, hint)) == 1u << hint) {
@@ -88,7 +88,7 @@ static inline uint32_t scan_eight(const tl_hull *hull, tl_vec3 direction, const 
 static inline uint32_t scan_sixteen(const tl_hull *hull, tl_vec3 direction, const tl_climber *c, float size,
                                     uint32_t hint)
 {
-    const float *rows = (const void *)(hull + 1);
+    const float *rows = (const float *)(hull + 1);
     tl_f32x8 slack = scan_slack(hull, size);
     tl_f32x8 low = scan_dot(c, rows, TL_SCAN_PAIR), high = scan_dot(c, rows + TL_CLIMB_LANES, TL_SCAN_PAIR);
     tl_f32x8 low_raised = tl_f32x8_add(low, slack), high_raised = tl_f32x8_add(high, slack);
