@@ -14,7 +14,7 @@
 #include <string.h>
 
 // A block of vertices is dealt by one task. Parts have some PART_VERTICES.
-enum { WELD_BLOCK_VERTICES = 1 << 14, PART_VERTICES = 1 << 13, MAX_PARTS = 1 << 12 };
+enum { WELD_BLOCK_VERTICES = 1 << 14, PART_VERTICES = 1 << 13, MAX_PARTS = 1 << 12, SLOTS_A_VERTEX = 2 };
 
 // Blocks, and vertices of parts, a worker between two progress calls: some 10 ms.
 enum { BLOCK_BATCH = 16, PART_BATCH = 1 << 17 };
@@ -27,7 +27,7 @@ typedef struct point_welder {
     uint32_t *places; // [block][part]: how many, then where in `dealt` the next one goes; behind it stands its end
     uint32_t *dealt;  // vertices, part by part
     uint32_t *begins; // [part + 1] in `dealt`
-    uint32_t *slots;  // four a dealt vertex: the parts' tables
+    uint32_t *slots;  // SLOTS_A_VERTEX a dealt vertex: the parts' tables
 } point_welder;
 
 // Equal points have equal hashes: the sum makes +0 of -0.
@@ -76,19 +76,15 @@ static void weld_part(uint32_t part, uint32_t worker, void *user)
 {
     (void)worker;
     const point_welder *w = user;
-    uint32_t begin = w->begins[part], count = w->begins[part + 1] - begin;
-    uint32_t bits = 1;
-    while (bits < 31 && 1u << bits < 2 * count) {
-        bits++;
-    }
-    uint32_t *slots = w->slots + 4 * (size_t)begin, mask = (1u << bits) - 1u;
-    if (count > 0) {
-        memset(slots, 0xff, sizeof *slots << bits);
-    }
-    for (uint32_t i = begin; i < begin + count; i++) {
-        uint32_t v = w->dealt[i], slot = w->hashes[v] / w->part_count & mask;
+    const uint32_t begin = w->begins[part], end = w->begins[part + 1];
+    uint32_t *slots = w->slots + SLOTS_A_VERTEX * (size_t)begin;
+    const uint64_t size = SLOTS_A_VERTEX * (uint64_t)(end - begin);
+    memset(slots, 0xff, (size_t)size * sizeof *slots);
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t v = w->dealt[i];
+        uint64_t slot = w->hashes[v] * size >> 32; // by the high bits: the low ones say which part
         while (slots[slot] != TL_WELD_UNUSED && !equal(w->view->vertices[slots[slot]], w->view->vertices[v])) {
-            slot = (slot + 1) & mask;
+            slot = slot + 1 < size ? slot + 1 : 0;
         }
         if (slots[slot] == TL_WELD_UNUSED) {
             slots[slot] = v;
@@ -126,7 +122,7 @@ tl_result tl_weld_points(const tl_mesh_view *view, tl_stage *stage, tl_arena *ar
     w.places = TL_PUSH(arena, uint32_t, (uint64_t)w.block_count * w.part_count);
     w.dealt = TL_PUSH(arena, uint32_t, count);
     w.begins = TL_PUSH(arena, uint32_t, (uint64_t)w.part_count + 1);
-    w.slots = TL_PUSH(arena, uint32_t, 4 * (uint64_t)count);
+    w.slots = TL_PUSH(arena, uint32_t, SLOTS_A_VERTEX * (uint64_t)count);
     if (w.hashes == NULL || w.places == NULL || w.dealt == NULL || w.begins == NULL || w.slots == NULL) {
         return TL_ERR_MEMORY;
     }
