@@ -22,6 +22,10 @@ namespace Talus
         public float AgentHorizon;
         /// <summary>Seconds, above 0: walls are approached so that they are not reached sooner.</summary>
         public float WallHorizon;
+        /// <summary>At a time, 0 to 2^20.</summary>
+        public int MaxGroups;
+        /// <summary>Agents of all groups together, 0 to 2^20.</summary>
+        public int MaxMembers;
 
         public CrowdSettings()
         {
@@ -33,6 +37,8 @@ namespace Talus
             NeighborDistance = def.neighbor_distance;
             AgentHorizon = def.agent_horizon;
             WallHorizon = def.wall_horizon;
+            MaxGroups = (int)def.max_groups;
+            MaxMembers = (int)def.max_members;
         }
 
         internal tl_nav_crowd_def Raw
@@ -47,6 +53,8 @@ namespace Talus
                 def.neighbor_distance = NeighborDistance;
                 def.agent_horizon = AgentHorizon;
                 def.wall_horizon = WallHorizon;
+                def.max_groups = (uint)MaxGroups;
+                def.max_members = (uint)MaxMembers;
                 return def;
             }
         }
@@ -136,7 +144,7 @@ namespace Talus
 
     /// <summary>Agents that walk a navmesh to their goals, avoid one another, and never leave it. The same calls give the same
     /// bytes on every machine. One thread at a time uses a crowd. Agents are named by numbers, of which 0 is none.</summary>
-    public sealed unsafe class Crowd : IDisposable
+    public sealed unsafe partial class Crowd : IDisposable
     {
         private readonly CrowdHandle handle;
         private readonly Navmesh navmesh;

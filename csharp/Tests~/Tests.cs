@@ -6,6 +6,7 @@
 //   tests FOLDER [COMMAND]      FOLDER for files; COMMAND: the talus command, whose files are read then
 
 using System;
+using System.Linq;
 using System.Diagnostics;
 using System.IO;
 using System.Reflection;
@@ -44,6 +45,20 @@ static class Test
             return exception;
         }
         throw new Exception("no exception");
+    }
+
+    public static void Refused(Action action, string what)
+    {
+        try
+        {
+            action();
+        }
+        catch (ArgumentException)
+        {
+            Checks++;
+            return;
+        }
+        throw new Exception(what + ": no exception");
     }
 }
 
@@ -405,6 +420,43 @@ static class Tests
         }
     }
 
+    private static void GroupsFollowTheirLeader()
+    {
+        using (Navmesh navmesh = Navmesh.Bake(vertices, triangles, new NavmeshSettings { AgentRadius = 0.4f, CellSize = 0.2f }))
+        using (var query = new NavQuery(navmesh))
+        using (var crowd = new Crowd(navmesh, new CrowdSettings { MaxAgents = 8 }))
+        {
+            var squad = new ulong[4];
+            for (int i = 0; i < squad.Length; i++)
+            {
+                squad[i] = crowd.Add(new Vec3(-8, 0, -8 + 2 * i));
+            }
+            ulong group = crowd.AddGroup(squad, new GroupSettings { Formation = Formation.Wedge });
+            Test.That(crowd.Group(group).Leader == squad[0] && crowd.GroupOf(squad[3]) == group, "the first leads");
+            crowd.SetFormation(group, new GroupSettings { Formation = Formation.Column, Spacing = 1 });
+            Test.That(Test.Throws(() => crowd.SetGoal(squad[1], new Vec3(8, 0, 8))).Result == tl_result.TL_ERR_ARGUMENT, "a follower's goal");
+            Test.That(crowd.SetGoal(squad[0], new Vec3(8, 0, 8)), "a goal");
+            WalkToTheGoals(crowd, query, squad);
+            GroupState state = crowd.Group(group);
+            Test.That(state.Count == 4 && state.InPlace == 4, "all in their slots");
+            ulong[] members = crowd.Members(group);
+            Test.That(members[0] == squad[0], "the leader comes first");
+            Array.Sort(members);
+            Test.That(members.SequenceEqual(squad), "each is a member");
+            var slots = new GroupSettings { Formation = Formation.Slots, Slots = new[] { new FormationSlot(-1, 0) } };
+            Test.Refused(() => crowd.SetFormation(group, slots), "slots for all");
+            Test.Refused(() => crowd.SetFormation(group, new GroupSettings { Formation = Formation.Slots }), "slots");
+            slots.Slots = new[] { new FormationSlot(-1, 0), new FormationSlot(-1, 1), new FormationSlot(-1, -1) };
+            crowd.SetFormation(group, slots);
+            Test.That(Test.Throws(() => crowd.AddGroup(squad)).Result == tl_result.TL_ERR_ARGUMENT, "in a group already");
+            Test.That(Test.Throws(() => crowd.AddGroup(new ulong[0])).Result == tl_result.TL_ERR_ARGUMENT, "a group of none");
+            crowd.RemoveGroup(group);
+            Test.That(crowd.GroupOf(squad[0]) == 0, "let go");
+            Test.That(Test.Throws(() => crowd.Group(group)).Result == tl_result.TL_ERR_STALE, "a group that was");
+            Test.That(Test.Throws(() => crowd.AddGroup(squad, new GroupSettings { Spacing = -1 })).Field == "spacing", "a spacing");
+        }
+    }
+
     private static int WalkToTheGoals(Crowd crowd, NavQuery query, ulong[] agents)
     {
         for (int steps = 1; steps < 1000; steps++)
@@ -486,7 +538,7 @@ static class Tests
         {
             StructsAreThoseOfC, EveryFunctionIsThere, RaysHitWhatTheyShould, BatchesAreTheirRays, HullsKeepTheirDistance, PathsLeadAroundTheWall,
             ThreadsGiveTheSameBytes, FilesHoldAllOfIt, TheCommandsFilesAreRead, ErrorsNameTheCulprit, BakesTellTheirProgress, CharactersWalk,
-            CrowdsArriveWithoutLeavingTheFloor, NothingIsUsedAfterItsEnd,
+            CrowdsArriveWithoutLeavingTheFloor, GroupsFollowTheirLeader, NothingIsUsedAfterItsEnd,
         };
         int failed = 0;
         foreach (Action test in all)

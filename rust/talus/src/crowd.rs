@@ -29,6 +29,10 @@ pub struct CrowdSettings {
     pub wall_horizon: f32,
     /// Goals whose paths are found by one search for all that walk there, 0 to 8. 0: each agent searches its own path.
     pub max_shared_goals: u32,
+    /// Groups at a time, 0 to 2^20.
+    pub max_groups: u32,
+    /// Agents of all groups together, 0 to 2^20.
+    pub max_members: u32,
     /// Threads of a step; 0 and 1 are the caller's alone, enough for some hundreds of agents. Answers do not depend on
     /// it.
     pub threads: u32,
@@ -48,6 +52,8 @@ impl Default for CrowdSettings {
             agent_horizon: def.agent_horizon,
             wall_horizon: def.wall_horizon,
             max_shared_goals: def.max_shared_goals,
+            max_groups: def.max_groups,
+            max_members: def.max_members,
             threads: 1,
         }
     }
@@ -94,7 +100,7 @@ impl Default for AgentSettings {
 
 /// An agent's name. It is not used again before 2^32 other agents had its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Agent(sys::tl_nav_agent);
+pub struct Agent(pub(crate) sys::tl_nav_agent);
 
 /// What an agent is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -235,11 +241,17 @@ impl Crowd {
             def.agent_horizon = settings.agent_horizon;
             def.wall_horizon = settings.wall_horizon;
             def.max_shared_goals = settings.max_shared_goals;
+            def.max_groups = settings.max_groups;
+            def.max_members = settings.max_members;
             def.host.tasks = if settings.threads > 1 { tasks.raw() } else { null() };
             let mut report = std::mem::zeroed();
             Error::check(sys::tl_nav_crowd_create(&def, &mut at, &mut report), Some(&report))?;
         }
         Ok(Crowd { at, navmesh: navmesh.clone(), _tasks: tasks, search_extents: [2.0, 4.0, 2.0] })
+    }
+
+    pub(crate) fn raw(&self) -> *mut sys::tl_nav_crowd {
+        self.at
     }
 
     /// The navmesh that they walk.

@@ -4,6 +4,7 @@
 mod character;
 mod crowd;
 mod error;
+mod groups;
 mod level;
 mod memory;
 mod navmesh;
@@ -20,6 +21,7 @@ pub use character::{
 };
 pub use crowd::{Agent, AgentSettings, AgentState, AgentStatus, Crowd, CrowdReport, CrowdSettings};
 pub use error::{Error, ErrorKind};
+pub use groups::{Formation, Group, GroupSettings, GroupState};
 pub use level::Level;
 pub use navmesh::{Navmesh, NavmeshSettings, Path, Query};
 pub use obstacles::{Obstacle, ObstacleId, Obstacles};

@@ -4,7 +4,7 @@
 
 use talus::{
     Agent, AgentSettings, AgentStatus, Character, CharacterMover, CharacterSettings, CharacterStep, Crowd,
-    CrowdSettings, ErrorKind, Navmesh, NavmeshSettings, Point, Soup, Surface,
+    CrowdSettings, ErrorKind, Formation, GroupSettings, Navmesh, NavmeshSettings, Point, Soup, Surface,
 };
 
 const DT: f32 = 1.0 / 20.0;
@@ -73,6 +73,49 @@ fn a_crowd_arrives_and_stays_on_the_mesh() {
     let state = crowd.agent(agents[0]).unwrap();
     assert_eq!(state.status, AgentStatus::Arrived);
     assert!(state.position[0] > 0.5 && state.goal[0] > 0.5);
+}
+
+#[test]
+fn groups_follow_their_leader_around_the_wall() {
+    let mut crowd = Crowd::new(&navmesh(), &CrowdSettings::default()).unwrap();
+    let squad: Vec<Agent> = (0..5)
+        .map(|i| crowd.add([-8.0, 0.0, -4.0 + 1.5 * i as f32], &AgentSettings::default()).unwrap().unwrap())
+        .collect();
+    let group = crowd.add_group(&squad, &GroupSettings { formation: Formation::Wedge, ..Default::default() }).unwrap();
+    assert!(squad.iter().all(|&agent| crowd.group_of(agent) == Some(group)));
+    assert_eq!(crowd.group(group).unwrap().leader, squad[0]);
+    let column = GroupSettings { formation: Formation::Column, spacing: 1.0, ..Default::default() };
+    crowd.set_formation(group, &column).unwrap();
+    assert_eq!(crowd.set_goal(squad[1], [4.0, 0.0, 0.0]).unwrap_err().kind(), ErrorKind::Argument, "it follows");
+    assert!(crowd.set_goal(squad[0], [4.0, 0.0, -4.0]).unwrap().is_some());
+    let mut steps = 0;
+    while crowd.step(DT).unwrap().arrived < 5 {
+        steps += 1;
+        assert!(steps < 2000, "they do not arrive");
+    }
+    let state = crowd.group(group).unwrap();
+    assert_eq!((state.count, state.in_place), (5, 5));
+    let mut members = crowd.members(group).unwrap();
+    assert_eq!(members[0], squad[0], "the leader comes first");
+    members.sort();
+    assert_eq!(members, squad);
+    // Behind the leader, each within reach of a column's length.
+    for &agent in &squad[1..] {
+        let (at, leader) = (crowd.agent(agent).unwrap().position, crowd.agent(squad[0]).unwrap().position);
+        assert!((at[0] - leader[0]).hypot(at[2] - leader[2]) < 4.6, "{at:?} is not in the column of {leader:?}");
+    }
+    let slots =
+        |places: &[[f32; 2]]| GroupSettings { formation: Formation::Slots(places.to_vec()), ..Default::default() };
+    let error = crowd.set_formation(group, &slots(&[[-1.0, 0.0]])).unwrap_err();
+    assert_eq!((error.kind(), error.field()), (ErrorKind::Argument, Some("slots")));
+    crowd.set_formation(group, &slots(&[[-1.0, 0.0], [-1.0, 1.0], [-1.0, -1.0], [-2.0, 0.0]])).unwrap();
+    assert_eq!(crowd.add_group(&squad[..2], &column).unwrap_err().kind(), ErrorKind::Argument, "in a group already");
+    assert_eq!(crowd.add_group(&[], &column).unwrap_err().kind(), ErrorKind::Argument);
+    crowd.remove_group(group).unwrap();
+    assert_eq!(crowd.group_of(squad[0]), None);
+    assert_eq!(crowd.group(group).unwrap_err().kind(), ErrorKind::Stale);
+    let error = crowd.add_group(&squad, &GroupSettings { spacing: f32::NAN, ..Default::default() }).unwrap_err();
+    assert_eq!((error.kind(), error.field()), (ErrorKind::NotFinite, Some("spacing")));
 }
 
 #[test]
