@@ -5,6 +5,41 @@ using Talus.Interop;
 
 namespace Talus
 {
+    /// <summary>How a hull is baked. A new one gives the exact hull of all points.</summary>
+    public sealed unsafe class HullSettings
+    {
+        /// <summary>0: no limit; else 4 or more. The farthest points come first, so those that matter are kept.</summary>
+        public int MaxVertices;
+        /// <summary>Metres: points without volume are made this thick instead of being refused.</summary>
+        public float Thickness;
+        /// <summary>Points count as flat when they are thinner than this many roundings of their largest coordinate.</summary>
+        public float Flatness;
+        /// <summary>Metres: corners this close to an earlier one are left out. 0: only equal points are one.</summary>
+        public float WeldDistance;
+        /// <summary>Metres: nearly coplanar faces, whose corners lie this close behind one plane, are one. 0: exactly flat
+        /// ones.</summary>
+        public float MergeDistance;
+
+        public HullSettings()
+        {
+            Flatness = Api.tl_default_hull_def().flatness;
+        }
+
+        internal tl_hull_def Raw
+        {
+            get
+            {
+                tl_hull_def def = Api.tl_default_hull_def();
+                def.max_vertices = (uint)MaxVertices;
+                def.thickness = Thickness;
+                def.flatness = Flatness;
+                def.weld_distance = WeldDistance;
+                def.merge_distance = MergeDistance;
+                return def;
+            }
+        }
+    }
+
     /// <summary>The convex hull of points. It never changes: threads may share it.</summary>
     public sealed unsafe class Hull : IDisposable
     {
@@ -15,19 +50,20 @@ namespace Talus
             Blob = blob;
         }
 
-        /// <summary>Bakes the hull of points, exactly: every point lies in it. TalusException: they lie in a plane, or one
-        /// is not finite.</summary>
-        public static Hull Bake(Vec3[] points)
+        /// <summary>Bakes the hull of points; without settings exactly: every point lies in it. TalusException: they lie in a
+        /// plane, one is not finite, or a setting is wrong.</summary>
+        public static Hull Bake(Vec3[] points, HullSettings settings = null)
         {
             if (points == null)
             {
                 throw new ArgumentNullException("points");
             }
+            tl_hull_def def = (settings ?? new HullSettings()).Raw;
             fixed (Vec3* at = points)
             {
                 tl_hull* hull = null;
                 tl_hull_report report;
-                tl_result result = Api.tl_hull_bake((tl_vec3*)at, (uint)points.Length, null, &hull, &report);
+                tl_result result = Api.tl_hull_bake((tl_vec3*)at, (uint)points.Length, &def, &hull, &report);
                 TalusException.Check(result, &report.@base);
                 return new Hull(new BlobHandle(hull));
             }

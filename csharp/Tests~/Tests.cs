@@ -178,6 +178,21 @@ static class Tests
             TalusException error = Test.Throws(() => ConvexShape.Distance(shape, here, shape, RigidPose.At(new Vec3(float.NaN, 0, 0))));
             Test.That(error.Result == tl_result.TL_ERR_NOT_FINITE, "NaN is told");
         }
+        var uneven = new Vec3[2 * cube.Length];
+        for (int i = 0; i < cube.Length; i++)
+        {
+            uneven[i] = cube[i];
+            uneven[cube.Length + i] = new Vec3(cube[i].X + 1e-4f * (i + 1), cube[i].Y - 1e-4f * (i + 1), cube[i].Z);
+        }
+        using (Hull exact = Hull.Bake(uneven))
+        using (Hull merged = Hull.Bake(uneven, new HullSettings { WeldDistance = 0.01f, MergeDistance = 0.01f }))
+        using (Hull four = Hull.Bake(uneven, new HullSettings { MaxVertices = 4 }))
+        {
+            Test.That(exact.VertexCount > 8, "each point counts");
+            Test.Equal(8, merged.VertexCount, "corners that are nearly one");
+            Test.Equal(4, four.VertexCount, "the farthest four");
+        }
+        Test.That(Test.Throws(() => Hull.Bake(cube, new HullSettings { MaxVertices = 3 })).Field == "max_vertices", "three corners");
         TalusException flat = Test.Throws(() => Hull.Bake(new[] { new Vec3(0, 0, 0), new Vec3(1, 0, 0), new Vec3(0, 1, 0), new Vec3(1, 1, 0) }));
         Test.That(flat.Result == tl_result.TL_ERR_COPLANAR, "a plane is no hull");
     }

@@ -25,7 +25,7 @@ pub use groups::{Formation, Group, GroupSettings, GroupState};
 pub use level::Level;
 pub use navmesh::{Navmesh, NavmeshSettings, Path, Query};
 pub use obstacles::{Obstacle, ObstacleId, Obstacles};
-pub use shapes::{cast, distance, penetration, CastHit, Hull, Penetration, Pose, Separation, Shape};
+pub use shapes::{cast, distance, penetration, CastHit, Hull, HullSettings, Penetration, Pose, Separation, Shape};
 pub use soup::{Cull, Nearest, Ray, RayHit, ShapeHit, Side, Soup};
 pub use versions::{Draft, Link, LinkId, NavVersions, NavVersionsState};
 pub use world::{Interest, World, WorldLoad, WorldSettings, WorldState};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 use std::marker::PhantomData;
-use std::ptr::{null, null_mut};
+use std::ptr::null_mut;
 
 use talus_sys as sys;
 
@@ -10,6 +10,35 @@ use crate::{Error, Point};
 
 pub(crate) fn vec3(p: Point) -> sys::tl_vec3 {
     sys::tl_vec3 { x: p[0], y: p[1], z: p[2] }
+}
+
+/// How a hull is baked. The default is the exact hull of all points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HullSettings {
+    /// 0: no limit; else 4 or more. The farthest points come first, so those that matter are kept.
+    pub max_vertices: u32,
+    /// Metres: points without volume are made this thick instead of being refused.
+    pub thickness: f32,
+    /// Points count as flat when they are thinner than this many roundings of their largest coordinate.
+    pub flatness: f32,
+    /// Metres: corners this close to an earlier one are left out. 0: only equal points are one.
+    pub weld_distance: f32,
+    /// Metres: nearly coplanar faces, whose corners lie this close behind one plane, are one. 0: exactly flat ones.
+    pub merge_distance: f32,
+}
+
+impl Default for HullSettings {
+    fn default() -> HullSettings {
+        // SAFETY: gives a plain struct.
+        let def = unsafe { sys::tl_default_hull_def() };
+        HullSettings {
+            max_vertices: def.max_vertices,
+            thickness: def.thickness,
+            flatness: def.flatness,
+            weld_distance: def.weld_distance,
+            merge_distance: def.merge_distance,
+        }
+    }
 }
 
 /// The convex hull of points. Immutable: threads may share it.
@@ -23,15 +52,30 @@ impl Hull {
     /// # Errors
     /// [`ErrorKind::Degenerate`](crate::ErrorKind) for points in a plane, `NotFinite`, `Range`, `Memory`.
     pub fn bake(points: &[Point]) -> Result<Hull, Error> {
+        Ok(Hull::bake_with(points, &HullSettings::default())?.0)
+    }
+
+    /// Bakes a hull with fewer corners and faces, and tells how many metres a point may lie outside of it.
+    ///
+    /// # Errors
+    /// As [`Hull::bake`]; `Argument` names a setting.
+    pub fn bake_with(points: &[Point], settings: &HullSettings) -> Result<(Hull, f64), Error> {
         let count = u32::try_from(points.len()).map_err(|_| Error::too_many("points"))?;
         let mut hull = null_mut();
-        // SAFETY: the slice outlives the call; a NULL def means the defaults; outputs are valid.
-        unsafe {
+        // SAFETY: the slice outlives the call; the def is a plain struct; outputs are valid.
+        let report = unsafe {
+            let mut def = sys::tl_default_hull_def();
+            def.max_vertices = settings.max_vertices;
+            def.thickness = settings.thickness;
+            def.flatness = settings.flatness;
+            def.weld_distance = settings.weld_distance;
+            def.merge_distance = settings.merge_distance;
             let mut report: sys::tl_hull_report = std::mem::zeroed();
-            let result = sys::tl_hull_bake(points.as_ptr().cast(), count, null(), &mut hull, &mut report);
+            let result = sys::tl_hull_bake(points.as_ptr().cast(), count, &def, &mut hull, &mut report);
             Error::check(result, Some(&report.base))?;
-        }
-        Ok(Hull { blob: Blob::owned(hull) })
+            report
+        };
+        Ok((Hull { blob: Blob::owned(hull) }, report.max_outside))
     }
 
     /// How many of the points are corners.

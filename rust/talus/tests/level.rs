@@ -2,7 +2,8 @@
 //! A level with a wall: rays, shapes, paths, files, errors and threads through the safe interface.
 
 use talus::{
-    cast, distance, penetration, Cull, ErrorKind, Hull, Level, Navmesh, NavmeshSettings, Pose, Ray, Shape, Side, Soup,
+    cast, distance, penetration, Cull, ErrorKind, Hull, HullSettings, Level, Navmesh, NavmeshSettings, Pose, Ray,
+    Shape, Side, Soup,
 };
 
 // A floor 20 m square, and a wall 3 m high with a passage around its end at z = 6.
@@ -155,6 +156,16 @@ fn hulls_keep_their_distance() {
     assert_eq!(distance(&cube, &nowhere, &cube, &Pose::default()).unwrap_err().kind(), ErrorKind::NotFinite);
     assert_eq!(penetration(&cube, &nowhere, &cube, &Pose::default()).unwrap_err().kind(), ErrorKind::NotFinite);
     assert!((deep.depth - 0.5).abs() < 1e-6 && deep.bounds[0] <= deep.depth && deep.depth <= deep.bounds[1]);
+    let mut uneven = CUBE.to_vec();
+    uneven.extend((1..9).zip(&CUBE).map(|(i, p)| [p[0] + 1e-4 * i as f32, p[1] - 1e-4 * i as f32, p[2]]));
+    let settings = HullSettings { weld_distance: 1e-2, merge_distance: 1e-2, ..Default::default() };
+    let (hull, outside) = Hull::bake_with(&uneven, &settings).unwrap();
+    assert!(Hull::bake(&uneven).unwrap().vertex_count() > 8);
+    assert_eq!(hull.vertex_count(), 8);
+    assert!(outside > 0.0 && outside <= 2e-2);
+    assert_eq!(Hull::bake_with(&CUBE, &HullSettings { max_vertices: 4, ..settings }).unwrap().0.vertex_count(), 4);
+    let error = Hull::bake_with(&CUBE, &HullSettings { max_vertices: 3, ..settings }).err().unwrap();
+    assert_eq!((error.kind(), error.field()), (ErrorKind::Argument, Some("max_vertices")));
     assert_eq!(Hull::bake(&[[f32::INFINITY; 3]; 4]).err().unwrap().kind(), ErrorKind::NotFinite);
 }
 
