@@ -18,10 +18,6 @@
 // The result is a float in a world whose coordinates are: bounds closer than four roundings of the size are equal.
 #define EPA_DEPTH_GAP (4.0 * (double)TL_FLOAT_ROUNDING)
 
-// A point of A - B is off by 16 roundings; a plane through three of them and the distance of a fourth, by 16 more each
-// where the triangle is not thin; thin ones are kept off by the margin that follows from 4 times that.
-#define EPA_PLANE_ERROR TL_DOUBLE_GAMMA(128)
-
 typedef struct epa_search {
     tl_minkowski *pair;
     double reach; // largest |w| of the points seen; the origin is inside, so this is the size of A - B
@@ -31,7 +27,7 @@ typedef struct epa_search {
 // Metres that rounding may be off.
 static double epa_noise(const epa_search *s)
 {
-    return EPA_PLANE_ERROR * s->pair->scale;
+    return TL_POLYTOPE_ERROR * s->pair->scale;
 }
 
 static void grow_reach(epa_search *s, const tl_minkowski_point *point)
@@ -135,10 +131,10 @@ static double witness_on(const epa_search *s, const tl_polytope *p, const uint8_
 static void find_epa_witness(epa_search *s, const tl_polytope *p, const uint8_t best_vertices[3])
 {
     double gap = EPA_DEPTH_GAP * s->reach;
-    double key = p->keys[tl_polytope_nearest_face(p)], reach = sqrt(fmax(key, 0.0)) + gap;
+    double reach = fmax(s->depth->upper, 0.0) + gap;
     double best = witness_on(s, p, best_vertices, &s->depth->on_a, &s->depth->on_b);
     for (uint32_t f = 0; f < p->face_count && best > gap; f++) {
-        if (p->keys[f] <= reach * reach) {
+        if (p->keys[f] <= reach) {
             tl_vec3d on_a, on_b;
             double off = witness_on(s, p, &p->origins[4 * f], &on_a, &on_b);
             if (off < best) {
@@ -172,9 +168,9 @@ static void expand_polytope(epa_search *s, tl_polytope *p)
                 best_vertices[i] = p->origins[4 * f + (uint32_t)i];
             }
         }
-        double noise = epa_noise(s), lower = distance - noise, gap = EPA_DEPTH_GAP * s->reach;
-        depth->lower = lower > depth->lower ? lower : depth->lower;
-        if (depth->upper - depth->lower <= gap || tl_vec3d_dot(normal, point.w) * scale - distance <= 2.0 * noise) {
+        double gap = EPA_DEPTH_GAP * s->reach, beyond = tl_vec3d_dot(normal, point.w) * scale - distance;
+        depth->lower = fmax(depth->lower, p->keys[f]);
+        if (depth->upper - depth->lower <= gap || beyond <= 2.0 * epa_noise(s)) {
             depth->status = depth->upper - depth->lower <= gap + 4.0 * s->pair->direction_error ? TL_CONVEX_CONVERGED
                                                                                                 : TL_CONVEX_DEGENERATE;
             break;
@@ -183,7 +179,7 @@ static void expand_polytope(epa_search *s, tl_polytope *p)
             depth->status = TL_CONVEX_ITERATIONS;
             break;
         }
-        if (!tl_polytope_add(p, f, &point, noise)) {
+        if (!tl_polytope_add(p, f, &point, s->pair->scale)) {
             depth->status = p->vertex_count == TL_POLYTOPE_VERTICES ? TL_CONVEX_ITERATIONS : TL_CONVEX_DEGENERATE;
             break;
         }
@@ -210,7 +206,7 @@ void tl_epa_run(tl_minkowski *pair, const tl_gjk *gjk, tl_core_depth *depth)
     solid = solid && (count > 3 || widen_plane(&s, points));
     if (solid) {
         tl_polytope polytope;
-        tl_polytope_init(&polytope, points);
+        tl_polytope_init(&polytope, points, pair->scale);
         expand_polytope(&s, &polytope);
     }
 }

@@ -14,10 +14,14 @@
 
 #include "base/assert.h"
 
+// The corners of a thin face are off by as much as those of others, so its plane may be turned: no edge is longer than
+// twice the scale and no corner farther away than that, so the offset along the normal is off by four times the error
+// times the square of the scale.
 static void set_key(tl_polytope *p, uint32_t f, tl_polytope_plane plane)
 {
+    const double error = TL_POLYTOPE_ERROR * p->scale, turned = 4.0 * error * p->scale * p->scale;
     p->seen[f] = false;
-    p->keys[f] = plane.normal_sq > 0.0 ? plane.offset * fabs(plane.offset) / plane.normal_sq : (double)INFINITY;
+    p->keys[f] = plane.normal_sq > 0.0 ? (plane.offset - turned) / sqrt(plane.normal_sq) - error : (double)INFINITY;
 }
 
 static uint8_t add_polytope_vertex(tl_polytope *p, const tl_minkowski_point *point)
@@ -27,11 +31,12 @@ static uint8_t add_polytope_vertex(tl_polytope *p, const tl_minkowski_point *poi
     return (uint8_t)p->vertex_count++;
 }
 
-void tl_polytope_init(tl_polytope *p, const tl_minkowski_point points[4])
+void tl_polytope_init(tl_polytope *p, const tl_minkowski_point points[4], double scale)
 {
     static const uint8_t corners[4][3] = { { 0, 1, 2 }, { 0, 3, 1 }, { 0, 2, 3 }, { 1, 3, 2 } };
     static const uint8_t twins[4][3] = { { 6, 14, 8 }, { 10, 12, 0 }, { 2, 13, 4 }, { 5, 9, 1 } };
     p->vertex_count = p->free_count = 0;
+    p->scale = scale;
     p->face_count = 4;
     tl_vec3d u = tl_vec3d_sub(points[1].w, points[0].w), v = tl_vec3d_sub(points[2].w, points[0].w),
              w = tl_vec3d_sub(points[3].w, points[0].w);
@@ -159,19 +164,21 @@ static void fan_to_apex(tl_polytope *p, const view *v, uint8_t apex)
     }
 }
 
-bool tl_polytope_add(tl_polytope *p, uint32_t face, const tl_minkowski_point *point, double coplanar)
+bool tl_polytope_add(tl_polytope *p, uint32_t face, const tl_minkowski_point *point, double scale)
 {
     view v;
     if (p->vertex_count == TL_POLYTOPE_VERTICES) {
         return false;
     }
-    find_visible(p, face, point->w, coplanar * coplanar, &v);
+    const double error = TL_POLYTOPE_ERROR * scale;
+    find_visible(p, face, point->w, error * error, &v);
     if (!is_loop(p, &v)) {
         for (uint32_t i = 0; i < v.seen_count; i++) {
             p->seen[v.seen[i]] = false;
         }
         return false;
     }
+    p->scale = scale;
     fan_to_apex(p, &v, add_polytope_vertex(p, point));
     for (uint32_t i = v.rim_count; i < v.seen_count; i++) {
         p->keys[v.seen[i]] = (double)INFINITY;

@@ -6,6 +6,7 @@
 #define TALUS_SRC_CONVEX_POLYTOPE_H
 
 #include "convex/core/minkowski.h"
+#include "math/tolerance.h"
 
 #include <assert.h>
 
@@ -28,9 +29,11 @@ typedef struct tl_polytope_plane {
 // Half-edge 4 f + i leads from corner i of face f to the next, counter-clockwise from outside; i is 0, 1 or 2.
 typedef struct tl_polytope {
     tl_polytope_vertex vertices[TL_POLYTOPE_VERTICES];
-    // Squared distance of the face's plane from the origin, negative where the origin is outside; infinite for a free
-    // slot and for a face without an area, whose points belong to its neighbours too.
+    // Metres that the face's plane is surely away from the origin, negative where the origin is outside; infinite for a
+    // free slot and for a face without an area, whose points belong to its neighbours too. The polytope lies in A - B,
+    // so the least of them bounds the depth.
     double keys[TL_POLYTOPE_FACES];
+    double scale;                           // of the pair, when the last point was found
     uint16_t twins[4 * TL_POLYTOPE_FACES];  // the same edge in the other direction
     uint8_t origins[4 * TL_POLYTOPE_FACES]; // the vertex that a half-edge starts at
     uint8_t free_faces[TL_POLYTOPE_FACES];
@@ -42,8 +45,12 @@ static_assert(TL_POLYTOPE_FACES <= UINT8_MAX, "indices have eight bits");
 // A query may use 32 KB of stack. A shape cast against a scene's soup has 19 KB on it beside this.
 static_assert(sizeof(tl_polytope) <= 12 * 1024, "a query's stack is bounded");
 
-// From four points that are not in one plane. The points need not contain the origin.
-void tl_polytope_init(tl_polytope *polytope, const tl_minkowski_point points[4]);
+// A point of A - B is off by 16 roundings of the pair's scale; a plane through three of them and the distance of a
+// fourth, by 16 more each where the triangle is not thin, and four times that is assumed. Keys know what thin ones add.
+#define TL_POLYTOPE_ERROR TL_DOUBLE_GAMMA(128)
+
+// From four points that are not in one plane, and the scale of their pair. The points need not contain the origin.
+void tl_polytope_init(tl_polytope *polytope, const tl_minkowski_point points[4], double scale);
 
 uint32_t tl_polytope_nearest_face(const tl_polytope *polytope);
 
@@ -69,9 +76,9 @@ static inline tl_polytope_plane tl_polytope_plane_of(const tl_polytope *polytope
                                   tl_vec3d_sub(tl_polytope_corner(polytope, face, 1)->w, last));
 }
 
-// Grows to the hull with the point, which lies more than `coplanar` metres in front of the face. A face that the point
-// is less than `coplanar` behind is seen too. False, with nothing changed, when the polytope is full or rounding made
-// the rim of what the point sees not one loop.
-bool tl_polytope_add(tl_polytope *polytope, uint32_t face, const tl_minkowski_point *point, double coplanar);
+// Grows to the hull with the point, which lies in front of the face by more than TL_POLYTOPE_ERROR times the scale. A
+// face that the point is less than that behind is seen too. False, with nothing changed, when the polytope is full or
+// rounding made the rim of what the point sees not one loop.
+bool tl_polytope_add(tl_polytope *polytope, uint32_t face, const tl_minkowski_point *point, double scale);
 
 #endif
