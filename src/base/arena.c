@@ -8,6 +8,7 @@
 #include "base/arena.h"
 
 #include "base/assert.h"
+#include "base/compiler.h"
 #include "base/min_max.h"
 
 #include <stdlib.h>
@@ -80,7 +81,10 @@ void tl_release(const tl_allocator *allocator, void *block, size_t size)
 // Bytes of an array, at least one, or 0 when they do not fit a size_t.
 static size_t array_bytes(uint64_t count, size_t size)
 {
-    if (size != 0 && count > (SIZE_MAX - ARENA_ALIGNMENT) / size) {
+    // Two numbers below 2^32 have a product below 2^64; a division takes as long as all the rest of a push.
+    const bool is_small = ((count | size) >> 32) == 0;
+    const uint64_t limit = SIZE_MAX - ARENA_ALIGNMENT;
+    if (is_small ? count * size > limit : size != 0 && count > limit / size) {
         return 0;
     }
     size_t bytes = (size_t)count * size;
@@ -230,6 +234,17 @@ static bool add_block(tl_arena *arena, size_t bytes)
     return true;
 }
 
+static TL_NOINLINE void *push_into_new_block(tl_arena *arena, size_t bytes)
+{
+    if (!add_block(arena, bytes)) {
+        return NULL;
+    }
+    tl_arena_block *block = arena->newest;
+    void *memory = (char *)block + block->used;
+    block->used += bytes;
+    return memory;
+}
+
 void *tl_arena_push(tl_arena *arena, uint64_t count, size_t size)
 {
     size_t bytes = array_bytes(count, size);
@@ -238,13 +253,12 @@ void *tl_arena_push(tl_arena *arena, uint64_t count, size_t size)
     }
     size_t alignment = bytes >= ARENA_ALIGNMENT ? ARENA_ALIGNMENT : 16;
     tl_arena_block *block = arena->newest;
-    size_t start = block != NULL ? round_up_to(block->used, alignment) : 0;
-    if (block == NULL || start > block->size || bytes > block->size - start) {
-        if (!add_block(arena, bytes)) {
-            return NULL;
-        }
-        block = arena->newest;
-        start = block->used;
+    if (block == NULL) {
+        return push_into_new_block(arena, bytes);
+    }
+    size_t start = round_up_to(block->used, alignment);
+    if (start > block->size || bytes > block->size - start) {
+        return push_into_new_block(arena, bytes);
     }
     block->used = start + bytes;
     return (char *)block + start;
