@@ -11,21 +11,6 @@
 
 enum { DIGIT_BITS = 8, DIGIT_VALUES = 1 << DIGIT_BITS, DIGITS = 64 / DIGIT_BITS };
 
-// Below this count the histograms cost more than an insertion sort, which is stable too.
-enum { INSERTION_SORT_COUNT = 48 };
-
-static void insertion_sort(tl_sort_item *items, uint32_t count)
-{
-    for (uint32_t i = 1; i < count; i++) {
-        tl_sort_item item = items[i];
-        uint32_t j = i;
-        for (; j > 0 && items[j - 1].key > item.key; j--) {
-            items[j] = items[j - 1];
-        }
-        items[j] = item;
-    }
-}
-
 static tl_result count_digits(const tl_sort_item *items, uint32_t count, uint32_t histogram[DIGITS][DIGIT_VALUES],
                               tl_stage *stage)
 {
@@ -56,8 +41,8 @@ static tl_result scatter_by_digit(const tl_sort_item *from, tl_sort_item *to, ui
 
 tl_result tl_radix_sort_in_stage(tl_sort_item *items, tl_sort_item *scratch, uint32_t count, tl_stage *stage)
 {
-    if (count <= INSERTION_SORT_COUNT) {
-        insertion_sort(items, count);
+    if (count <= TL_FEW_SORT_ITEMS) {
+        tl_insertion_sort(items, count);
         return TL_OK;
     }
     uint32_t histogram[DIGITS][DIGIT_VALUES];

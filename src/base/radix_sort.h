@@ -16,6 +16,22 @@ typedef struct tl_sort_item {
     uint32_t extra; ///< carried along
 } tl_sort_item;
 
+/// Below this count the histograms of a radix sort cost more than an insertion sort.
+enum { TL_FEW_SORT_ITEMS = 48 };
+
+/// Sorts few `items` ascending by key, stably.
+static inline void tl_insertion_sort(tl_sort_item *items, uint32_t count)
+{
+    for (uint32_t i = 1; i < count; i++) {
+        const tl_sort_item item = items[i];
+        uint32_t j = i;
+        for (; j > 0 && items[j - 1].key > item.key; j--) {
+            items[j] = items[j - 1];
+        }
+        items[j] = item;
+    }
+}
+
 /// Sorts `items` ascending by key, stably. `scratch` holds `count` items too. O(count) for a fixed key width.
 void tl_radix_sort(tl_sort_item *items, tl_sort_item *scratch, uint32_t count);
 

@@ -76,16 +76,20 @@ static uint32_t first_at_place(const tl_polygon_store *store, uint32_t vertex)
     return *tl_key_table_at(&places, tl_pair_key((uint32_t)v[0], (uint32_t)v[2]));
 }
 
-static void list_places_of_border_vertices(remover *r)
+// False: there are none.
+static bool list_places_of_border_vertices(remover *r)
 {
     const tl_polygon_store *store = r->store;
+    bool has_any = false;
     for (uint32_t v = 0; v < store->vertex_count; v++) {
         if (store->is_border[v]) {
+            has_any = true;
             for (uint32_t w = first_at_place(store, v); w != TL_NO_VALUE; w = store->next_above[w]) {
                 r->is_listed[w] = 1;
             }
         }
     }
+    return has_any;
 }
 
 static uint32_t gather_blades(const remover *r, uint32_t vertex, fan_blade *blades)
@@ -303,7 +307,9 @@ tl_result tl_remove_border_vertices(tl_polygon_store *store, tl_arena *scratch, 
         return TL_ERR_MEMORY;
     }
     memset(r.first, 0xff, store->vertex_count * sizeof *r.first);
-    list_places_of_border_vertices(&r);
+    if (!list_places_of_border_vertices(&r)) {
+        return TL_OK;
+    }
     for (uint32_t p = 0; p < store->polygon_count; p++) {
         TL_TRY(add_incidences(&r, p));
     }

@@ -10,6 +10,7 @@
 #include "polygon/mesh/polygon_store.h"
 
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "base/radix_sort.h"
 
 #include <string.h>
@@ -26,9 +27,12 @@ static void gather_edges(const tl_polygon_store *store, uint32_t *first, tl_sort
     // A counting sort; first[] is shifted by one while it is filled.
     for (uint32_t p = 0; p < store->polygon_count; p++) {
         const tl_stored_polygon *polygon = &store->polygons[p];
-        for (uint32_t place = polygon->first; place < polygon->first + polygon->count; place++) {
-            uint32_t from = store->indices[place], to = store->indices[next_polygon_corner(polygon, place)];
-            first[(from < to ? from : to) + 2]++;
+        const uint32_t *corners = store->indices + polygon->first;
+        uint32_t to = corners[0];
+        for (uint32_t k = polygon->count; k-- > 0;) {
+            const uint32_t from = corners[k];
+            first[tl_min_u32(from, to) + 2]++;
+            to = from;
         }
     }
     for (uint32_t v = 0; v < store->vertex_count; v++) {
@@ -36,20 +40,25 @@ static void gather_edges(const tl_polygon_store *store, uint32_t *first, tl_sort
     }
     for (uint32_t p = 0; p < store->polygon_count; p++) {
         const tl_stored_polygon *polygon = &store->polygons[p];
-        for (uint32_t place = polygon->first; place < polygon->first + polygon->count; place++) {
-            uint32_t from = store->indices[place], to = store->indices[next_polygon_corner(polygon, place)];
-            uint32_t low = from < to ? from : to, high = from < to ? to : from;
-            tl_sort_item end = { (uint64_t)high << 1 | (from > to), place, p };
-            ends[first[low + 1]++] = end;
+        const uint32_t *corners = store->indices + polygon->first;
+        uint32_t to = corners[0];
+        for (uint32_t k = polygon->count; k-- > 0;) {
+            const uint32_t from = corners[k];
+            const tl_sort_item end = { (uint64_t)tl_max_u32(from, to) << 1 | (from > to), polygon->first + k, p };
+            ends[first[tl_min_u32(from, to) + 1]++] = end;
+            to = from;
         }
     }
 }
 
-// Claims of one edge: `rising` of them run up in vertex number, and the others follow.
-static void link_claims(tl_polygon_store *store, const tl_sort_item *claims, uint32_t rising, uint32_t falling,
-                        tl_polygon_report *report)
+// Claims of one edge: those that run up in vertex number, then the others.
+static void link_claims(tl_polygon_store *store, const tl_sort_item *claims, uint32_t count, tl_polygon_report *report)
 {
-    const uint32_t pairs = rising < falling ? rising : falling;
+    uint32_t rising = 0;
+    while (rising < count && (claims[rising].key & 1) == 0) {
+        rising++;
+    }
+    const uint32_t falling = count - rising, pairs = tl_min_u32(rising, falling);
     for (uint32_t i = 0; i < pairs; i++) {
         const tl_sort_item *up = &claims[i], *down = &claims[rising + i];
         store->neighbours[up->value] = down->extra;
@@ -63,11 +72,13 @@ static void link_polygon_edges(tl_polygon_store *store, const tl_sort_item *ends
                                tl_polygon_report *report)
 {
     for (uint32_t begin = 0, end; begin < count; begin = end) {
-        uint32_t rising = 0;
-        for (end = begin; end < count && ends[end].key >> 1 == ends[begin].key >> 1; end++) {
-            rising += (ends[end].key & 1) == 0;
+        end = begin + 1;
+        while (end < count && (ends[end].key ^ ends[begin].key) < 2) {
+            end++;
         }
-        link_claims(store, ends + begin, rising, end - begin - rising, report);
+        if (end - begin > 1) { // else an edge of the floor's outline
+            link_claims(store, ends + begin, end - begin, report);
+        }
     }
 }
 
@@ -118,9 +129,14 @@ tl_result tl_link_neighbours(tl_polygon_store *store, tl_arena *scratch, const t
     memset(store->neighbours, 0xff, store->index_count * sizeof *store->neighbours);
     gather_edges(store, first, ends);
     for (uint32_t v = 0; v < store->vertex_count; v++) {
-        // Stable: of each direction the earliest come first.
-        tl_radix_sort(ends + first[v], spare, first[v + 1] - first[v]);
-        link_polygon_edges(store, ends + first[v], first[v + 1] - first[v], report);
+        const uint32_t count = first[v + 1] - first[v];
+        // Stable: of each direction the earliest come first. Most vertices have two or three edges, not worth a call.
+        if (count <= TL_FEW_SORT_ITEMS) {
+            tl_insertion_sort(ends + first[v], count);
+        } else {
+            tl_radix_sort(ends + first[v], spare, count);
+        }
+        link_polygon_edges(store, ends + first[v], count, report);
     }
     if (contours->border_size > 0) {
         mark_portals(store, contours, report);
