@@ -126,27 +126,27 @@ static void place_changed(polygon_merger *m, uint32_t root)
 }
 
 // Whether the corner where `edge` starts stays convex without it: from before the edge to after its twin.
-static bool stays_convex(const polygon_merger *m, uint32_t edge)
+static int stays_convex(const polygon_merger *m, uint32_t edge)
 {
     const merge_edge *e = &m->edges[edge], *after = &m->edges[m->edges[m->edges[e->twin].next].next];
     return tl_turn(m->points[m->edges[e->previous].origin], m->points[e->origin], m->points[after->origin]) > 0;
 }
 
-// Whether the polygons of an edge can be merged.
-static bool can_merge_across(polygon_merger *m, uint32_t edge)
+// Whether the polygons of an edge, which are handed out, can be merged.
+static bool can_merge_across(polygon_merger *m, uint32_t edge, uint32_t roots[2])
 {
     uint32_t twin = m->edges[edge].twin;
-    uint32_t a = polygon_of(m, edge);
-    uint32_t b = polygon_of(m, twin);
+    uint32_t a = roots[0] = polygon_of(m, edge);
+    uint32_t b = roots[1] = polygon_of(m, twin);
     uint32_t most = m->input->max_corners;
-    return a != b && (most == 0 || m->parts[a].size + m->parts[b].size - 2 <= most) && stays_convex(m, edge) &&
-           stays_convex(m, twin);
+    return a != b && (most == 0 || m->parts[a].size + m->parts[b].size - 2 <= most) &&
+           (stays_convex(m, edge) & stays_convex(m, twin)) != 0;
 }
 
-static void remove_shared_edge(polygon_merger *m, uint32_t edge)
+static void remove_shared_edge(polygon_merger *m, uint32_t edge, const uint32_t roots[2])
 {
     const merge_edge e = m->edges[edge], twin = m->edges[e.twin];
-    const uint32_t a = polygon_of(m, edge), b = polygon_of(m, e.twin);
+    const uint32_t a = roots[0], b = roots[1];
     const uint32_t size = m->parts[a].size + m->parts[b].size - 2;
     m->edges[e.previous].next = twin.next;
     m->edges[twin.next].previous = e.previous;
@@ -194,6 +194,12 @@ static bool start_merge(polygon_merger *m, tl_arena *scratch)
     return true;
 }
 
+// The edge before `edge` in its triangle.
+static uint32_t third_edge(uint32_t edge)
+{
+    return edge % 3 == 0 ? edge + 2 : edge - 1;
+}
+
 // Edges that could go if they went first, longest first; each pair of twins once.
 static tl_result sort_edges(polygon_merger *m, tl_arena *arena, uint32_t edge_count, tl_sort_item **items_out,
                             uint32_t *count_out)
@@ -202,18 +208,24 @@ static tl_result sort_edges(polygon_merger *m, tl_arena *arena, uint32_t edge_co
     if (items == NULL) {
         return TL_ERR_MEMORY;
     }
+    const uint32_t *corners = m->input->corners, *twins = m->input->twins;
     uint32_t count = 0;
     for (uint32_t edge = 0; edge < edge_count; edge++) {
         if (EDGES_AHEAD < edge_count - edge) { // triangles come as they were cut, so their neighbours are anywhere
-            const merge_edge *later = &m->edges[edge + EDGES_AHEAD];
-            tl_prefetch(&m->edges[later->twin != TL_NO_EDGE ? later->twin : 0]);
-            tl_prefetch(&m->points[later->origin]);
+            const uint32_t later = twins[edge + EDGES_AHEAD];
+            tl_prefetch(&corners[later != TL_NO_EDGE ? later : 0]);
+            tl_prefetch(&m->points[corners[edge + EDGES_AHEAD]]);
         }
-        uint32_t twin = m->edges[edge].twin;
-        if (twin != TL_NO_EDGE && edge < twin && stays_convex(m, edge) && stays_convex(m, twin)) {
-            int64_t length2 = tl_distance2(m->points[m->edges[edge].origin], m->points[m->edges[twin].origin]);
+        const uint32_t twin = twins[edge];
+        if (twin == TL_NO_EDGE || edge > twin) {
+            continue;
+        }
+        // The triangles (a, b, c) and (b, a, d).
+        const tl_lattice_point a = m->points[corners[edge]], b = m->points[corners[twin]];
+        const tl_lattice_point c = m->points[corners[third_edge(edge)]], d = m->points[corners[third_edge(twin)]];
+        if ((int)(tl_turn(c, a, d) > 0) & (int)(tl_turn(d, b, c) > 0)) {
             bool goes_first = m->input->joined_first != NULL && m->input->joined_first[edge];
-            tl_sort_item item = { goes_first ? 0 : ~(uint64_t)length2, edge, 0 };
+            tl_sort_item item = { goes_first ? 0 : ~(uint64_t)tl_distance2(a, b), edge, 0 };
             items[count++] = item;
         }
     }
@@ -237,7 +249,7 @@ static uint32_t write_part_corners(const polygon_merger *m, uint32_t root, uint3
 }
 
 // Removes an edge and hands out the merge, with the edges that could have gone instead.
-static tl_result remove_and_trace(polygon_merger *m, tl_arena *arena, uint32_t edge)
+static tl_result remove_and_trace(polygon_merger *m, tl_arena *arena, uint32_t edge, const uint32_t roots[2])
 {
     uint32_t edge_count = 3 * m->input->triangle_count;
     tl_arena_mark mark = tl_arena_get_mark(arena);
@@ -250,13 +262,13 @@ static tl_result remove_and_trace(polygon_merger *m, tl_arena *arena, uint32_t e
     partitions[0] = m->edges[edge].origin;
     partitions[1] = m->edges[m->edges[edge].twin].origin;
     for (uint32_t other = 0; other < edge_count; other++) {
-        uint32_t twin = m->edges[other].twin;
-        if (twin != TL_NO_EDGE && other < twin && other != edge && can_merge_across(m, other)) {
+        uint32_t twin = m->edges[other].twin, beside[2];
+        if (twin != TL_NO_EDGE && other < twin && other != edge && can_merge_across(m, other, beside)) {
             partitions[2 * step.partition_count] = m->edges[other].origin;
             partitions[2 * step.partition_count++ + 1] = m->edges[twin].origin;
         }
     }
-    remove_shared_edge(m, edge);
+    remove_shared_edge(m, edge, roots);
     step.corner_count = write_part_corners(m, polygon_of(m, edge), corners);
     TL_TRY(tl_trace_step(m->input->tracer, arena, m->points, &step));
     tl_arena_rollback(arena, mark);
@@ -324,16 +336,18 @@ static tl_result merge(polygon_merger *m, tl_arena *scratch)
             m->edges[items[high].value].heap_place = high - low;
         }
         m->heap_count = high - low;
-        heapify(m);
+        if (m->heap_count > 1) {
+            heapify(m);
+        }
         while (m->heap_count > 0) {
-            uint32_t edge = pop_edge(m);
-            if (!can_merge_across(m, edge)) {
+            uint32_t edge = pop_edge(m), roots[2];
+            if (!can_merge_across(m, edge, roots)) {
                 continue;
             }
             if (m->input->tracer == NULL) {
-                remove_shared_edge(m, edge);
+                remove_shared_edge(m, edge, roots);
             } else {
-                TL_TRY(remove_and_trace(m, scratch, edge));
+                TL_TRY(remove_and_trace(m, scratch, edge, roots));
             }
         }
         low = high;

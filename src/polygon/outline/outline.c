@@ -8,6 +8,7 @@
 
 #include "base/assert.h"
 #include "polygon/outline/key_table.h"
+#include "polygon/outline/packed_point.h"
 #include "polygon/outline/sweep.h"
 
 #include <string.h>
@@ -23,14 +24,6 @@ static int64_t signed_area2(const tl_lattice_point *points, uint32_t count)
         sum += (uint64_t)tl_turn(points[0], points[i], points[i + 1]);
     }
     return (int64_t)sum;
-}
-
-static bool boxes_apart(tl_lattice_point a, tl_lattice_point b, tl_lattice_point c, tl_lattice_point d)
-{
-    int32_t ab_low_x = a.x < b.x ? a.x : b.x, ab_high_x = a.x < b.x ? b.x : a.x;
-    int32_t ab_low_z = a.z < b.z ? a.z : b.z, ab_high_z = a.z < b.z ? b.z : a.z;
-    return (c.x < ab_low_x && d.x < ab_low_x) || (c.x > ab_high_x && d.x > ab_high_x) ||
-           (c.z < ab_low_z && d.z < ab_low_z) || (c.z > ab_high_z && d.z > ab_high_z);
 }
 
 // Closed segments whose boxes overlap.
@@ -55,6 +48,7 @@ static bool folds_back(tl_lattice_point before, tl_lattice_point corner, tl_latt
 // O(n^2), and the fastest way for the few dozen vertices that contours have.
 static bool is_plain_by_pairs(const tl_lattice_point *points, uint32_t count)
 {
+    tl_packed_range ranges[MAX_PAIRED_VERTICES];
     for (uint32_t i = 0; i < count; i++) {
         tl_lattice_point a = points[i];
         tl_lattice_point b = points[i + 1 < count ? i + 1 : 0];
@@ -62,12 +56,15 @@ static bool is_plain_by_pairs(const tl_lattice_point *points, uint32_t count)
         if (folds_back(a, b, after)) {
             return false;
         }
+        ranges[i] = tl_packed_range_of(a, b, b);
+    }
+    for (uint32_t i = 0; i + 2 < count; i++) {
+        const tl_packed_range range = ranges[i];
         // Edges next to each other were tested at their corner.
         uint32_t last = i == 0 ? count - 1 : count;
         for (uint32_t j = i + 2; j < last; j++) {
-            tl_lattice_point c = points[j];
-            tl_lattice_point d = points[j + 1 < count ? j + 1 : 0];
-            if (!boxes_apart(a, b, c, d) && edges_meet(a, b, c, d)) {
+            if (tl_packed_ranges_meet(&range, &ranges[j]) &&
+                edges_meet(points[i], points[i + 1], points[j], points[j + 1 < count ? j + 1 : 0])) {
                 return false;
             }
         }

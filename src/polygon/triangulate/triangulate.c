@@ -13,67 +13,63 @@
 //
 // A partition edge is valid when it lies in the interior angle at both ends (the internal angle test) and the triangle
 // it cuts off holds no other vertex (the edge intersection test): the part of the outline that would intrude has a
-// vertex in the triangle, and its foremost one is reflex or straight. Of a small outline only such vertices are kept,
-// in a k-d tree, which is a plain loop for the few that most have. Of a large one a triangulation is kept, whose
-// triangles around the corner tell; both give the same answers. All is exact; ties go to the lowest vertex before the
-// corner.
+// vertex in the triangle, and its foremost one is reflex or straight. Of a small outline such vertices are kept in a
+// list. Of a large one a triangulation is kept, whose triangles around the corner tell; both give the same answers. All
+// is exact; ties go to the lowest vertex before the corner.
 
 #include "polygon/triangulate/triangulate.h"
 
 #include "base/assert.h"
 #include "base/compiler.h"
+#include "polygon/triangulate/ear_list.h"
 #include "polygon/triangulate/ear_mesh.h"
 #include "polygon/triangulate/partition_queue.h"
-#include "polygon/triangulate/reflex_tree.h"
 
 // From so many points on the mesh is the faster one.
-enum { SMALLEST_MESH = 256, CUTS_AHEAD = 8 };
+enum { SMALLEST_MESH = 128, CUTS_AHEAD = 8 };
 
 // A vertex with the ones next to it in what is left of the outline.
 typedef struct outline_vertex {
     tl_lattice_point position;
     uint32_t previous, next;
     uint32_t across; // edge of a cut triangle on the far side of the edge that starts here, or TL_NO_EDGE
+    bool is_reflex;  // or straight
 } outline_vertex;
 
 typedef struct triangulation {
     const tl_lattice_point *points;
     outline_vertex *vertices;
-    uint8_t *is_reflex; // or straight
     bool has_mesh;
-    tl_ear_mesh mesh;      // of large outlines
-    tl_reflex_tree reflex; // of small ones
+    tl_ear_list list; // of small outlines
+    tl_ear_mesh mesh; // of large ones
     tl_partition_queue queue;
 } triangulation;
 
-// The partition that cuts off corner b. False: it fails the internal angle test.
-static bool find_partition(const triangulation *t, uint32_t b, tl_partition *found)
+// The partition that cuts off corner b. False: it fails the internal angle test. No branch depends on the angles, which
+// nobody can predict.
+static TL_ALWAYS_INLINE bool find_partition(const triangulation *t, uint32_t b, tl_partition *found)
 {
-    if (t->is_reflex[b]) {
-        return false;
-    }
-    const uint32_t a = t->vertices[b].previous, c = t->vertices[b].next;
-    const outline_vertex *before = &t->vertices[a], *after = &t->vertices[c];
-    const tl_lattice_point pa = before->position, pb = t->vertices[b].position, pc = after->position;
+    const outline_vertex *corner = &t->vertices[b];
+    const outline_vertex *before = &t->vertices[corner->previous], *after = &t->vertices[corner->next];
+    const tl_lattice_point a = before->position, c = after->position;
+    found->key = (uint64_t)tl_distance2(a, c);
+    found->value = corner->previous;
+    found->extra = corner->next;
     // Angles only shrink in an outline; in a scribble a convex corner may turn reflex.
-    if (tl_turn(pa, pb, pc) <= 0) {
-        return false;
-    }
-    // The internal angle test. b is convex, so one half of it holds already, and at a reflex end that is enough.
-    if ((!t->is_reflex[a] && tl_turn(pa, pc, t->vertices[before->previous].position) <= 0) ||
-        (!t->is_reflex[c] && tl_turn(pc, t->vertices[after->next].position, pa) <= 0)) {
-        return false;
-    }
-    found->key = (uint64_t)tl_distance2(pa, pc);
-    found->value = a;
-    found->extra = c;
-    return true;
+    const int is_ear = !corner->is_reflex & (tl_turn(a, corner->position, c) > 0);
+    // b is convex, so one half of the internal angle test holds already, and at a reflex end that is enough.
+    const int leaves_a = before->is_reflex | (tl_turn(a, c, t->vertices[before->previous].position) > 0);
+    const int leaves_c = after->is_reflex | (tl_turn(c, t->vertices[after->next].position, a) > 0);
+    return (is_ear & leaves_a & leaves_c) != 0;
 }
 
 static void consider_partition(triangulation *t, uint32_t b)
 {
     tl_partition item;
-    if (find_partition(t, b, &item)) {
+    const bool is_found = find_partition(t, b, &item);
+    if (!t->has_mesh) {
+        t->list.lengths2[t->vertices[b].previous] = is_found ? item.key : TL_NO_PARTITION;
+    } else if (is_found) {
         tl_partition_queue_push(&t->queue, item);
     }
 }
@@ -81,11 +77,11 @@ static void consider_partition(triangulation *t, uint32_t b)
 // A corner whose angle a cut has made smaller.
 static void update_angle(triangulation *t, uint32_t b)
 {
-    const outline_vertex *v = &t->vertices[b];
-    if (t->is_reflex[b] && tl_turn(t->vertices[v->previous].position, v->position, t->vertices[v->next].position) > 0) {
-        t->is_reflex[b] = 0;
+    outline_vertex *v = &t->vertices[b];
+    if (v->is_reflex && tl_turn(t->vertices[v->previous].position, v->position, t->vertices[v->next].position) > 0) {
+        v->is_reflex = false;
         if (!t->has_mesh) {
-            tl_reflex_tree_remove(&t->reflex, b);
+            tl_ear_list_remove_reflex(&t->list, v->position);
         }
     }
 }
@@ -106,8 +102,7 @@ static bool is_free_partition(const triangulation *t, const tl_partition *item)
     if (t->has_mesh) {
         return tl_ear_mesh_is_free(&t->mesh, item->value, a->next, a->position, t->vertices[item->extra].position);
     }
-    return !tl_reflex_tree_any_in_triangle(&t->reflex, a->position, t->vertices[a->next].position,
-                                           t->vertices[item->extra].position);
+    return tl_ear_list_is_free(&t->list, a->position, t->vertices[a->next].position, t->vertices[item->extra].position);
 }
 
 // Corners are cut off in no order of place. Those of the sorted list are known long before their turn, the next one of
@@ -131,6 +126,34 @@ static void fetch_cuts_ahead(const triangulation *t)
     }
 }
 
+// The shortest partition that is valid. False: there is none.
+static bool choose_from_list(triangulation *t, tl_partition *chosen)
+{
+    for (;;) {
+        const uint32_t a = tl_ear_list_shortest(&t->list);
+        if (t->list.lengths2[a] == TL_NO_PARTITION) {
+            return false;
+        }
+        chosen->value = a;
+        chosen->extra = t->vertices[t->vertices[a].next].next;
+        t->list.lengths2[a] = TL_NO_PARTITION;
+        if (is_free_partition(t, chosen)) {
+            return true;
+        }
+    }
+}
+
+static bool choose_from_queue(triangulation *t, tl_partition *chosen)
+{
+    do {
+        if (!tl_partition_queue_pop(&t->queue, chosen)) {
+            return false;
+        }
+        fetch_cuts_ahead(t);
+    } while (!is_current(t, chosen) || !is_free_partition(t, chosen));
+    return true;
+}
+
 static bool is_left_turn(const triangulation *t, uint32_t b)
 {
     return t->vertices[t->vertices[b].previous].next == b && t->vertices[t->vertices[b].next].previous == b;
@@ -149,14 +172,33 @@ static void emit_triangle(triangulation *t, uint32_t triangle, const uint32_t co
     }
 }
 
-static tl_result start_ear_test(triangulation *t, tl_arena *scratch, const tl_triangulate_input *input)
+static tl_result start_list(triangulation *t, tl_arena *scratch, uint32_t count)
 {
-    t->has_mesh =
-        input->ear_test == TL_EARS_BY_SIZE ? input->count >= SMALLEST_MESH : input->ear_test == TL_EARS_BY_MESH;
-    if (t->has_mesh) {
-        return tl_ear_mesh_init(&t->mesh, scratch, input->points, input->count, input->record);
+    if (!tl_ear_list_init(&t->list, scratch, count)) {
+        return TL_ERR_MEMORY;
     }
-    return tl_reflex_tree_init(&t->reflex, scratch, input->points, t->is_reflex, input->count) ? TL_OK : TL_ERR_MEMORY;
+    for (uint32_t i = 0; i < count; i++) {
+        tl_partition item;
+        t->list.lengths2[t->vertices[i].previous] = find_partition(t, i, &item) ? item.key : TL_NO_PARTITION;
+        if (t->vertices[i].is_reflex) {
+            tl_ear_list_add_reflex(&t->list, t->vertices[i].position);
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result start_mesh(triangulation *t, tl_arena *scratch, const tl_triangulate_input *input)
+{
+    TL_TRY(tl_ear_mesh_init(&t->mesh, scratch, input->points, input->count, input->record));
+    tl_partition_queue *queue = &t->queue;
+    if (!tl_partition_queue_init(queue, scratch, input->count)) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t a = 0; a < input->count && input->count > 3; a++) {
+        queue->sorted_count += find_partition(t, a + 1 < input->count ? a + 1 : 0, &queue->sorted[queue->sorted_count]);
+    }
+    tl_partition_queue_sort(queue);
+    return TL_OK;
 }
 
 static tl_result start_triangulation(triangulation *t, tl_arena *scratch, const tl_triangulate_input *input)
@@ -165,25 +207,19 @@ static tl_result start_triangulation(triangulation *t, tl_arena *scratch, const 
     const uint32_t count = input->count;
     t->points = points;
     t->vertices = TL_PUSH(scratch, outline_vertex, count);
-    t->is_reflex = TL_PUSH(scratch, uint8_t, count);
-    if (t->vertices == NULL || t->is_reflex == NULL) {
+    if (t->vertices == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < count; i++) {
-        outline_vertex v = { points[i], i > 0 ? i - 1 : count - 1, i + 1 < count ? i + 1 : 0, TL_NO_EDGE };
+        const uint32_t before = i > 0 ? i - 1 : count - 1, after = i + 1 < count ? i + 1 : 0;
+        const outline_vertex v = { points[i], before, after, TL_NO_EDGE,
+                                   tl_turn(points[before], points[i], points[after]) <= 0 };
         t->vertices[i] = v;
-        t->is_reflex[i] = tl_turn(points[v.previous], points[i], points[v.next]) <= 0;
     }
-    TL_TRY(start_ear_test(t, scratch, input));
-    tl_partition_queue *queue = &t->queue;
-    if (!tl_partition_queue_init(queue, scratch, count)) {
-        return TL_ERR_MEMORY;
-    }
-    for (uint32_t a = 0; a < count && count > 3; a++) {
-        queue->sorted_count += find_partition(t, a + 1 < count ? a + 1 : 0, &queue->sorted[queue->sorted_count]);
-    }
-    tl_partition_queue_sort(queue);
-    return TL_OK;
+    // Those who watch get the partitions in the queue's order.
+    t->has_mesh = input->ear_test == TL_EARS_BY_SIZE ? input->count >= SMALLEST_MESH || input->tracer != NULL
+                                                     : input->ear_test == TL_EARS_BY_MESH;
+    return t->has_mesh ? start_mesh(t, scratch, input) : start_list(t, scratch, count);
 }
 
 static void add_potential(const triangulation *t, const tl_partition *items, uint32_t count, uint32_t *partitions,
@@ -231,14 +267,9 @@ static tl_result triangulate(triangulation *t, tl_arena *scratch, uint32_t count
     uint32_t triangle = 0;
     for (uint32_t left = count; left > 3; left--) {
         tl_partition chosen;
-        do {
-            if (!tl_partition_queue_pop(&t->queue, &chosen)) {
-                return TL_ERR_SELF_INTERSECTION;
-            }
-            if (t->has_mesh) {
-                fetch_cuts_ahead(t);
-            }
-        } while (!is_current(t, &chosen) || !is_free_partition(t, &chosen));
+        if (!(t->has_mesh ? choose_from_queue(t, &chosen) : choose_from_list(t, &chosen))) {
+            return TL_ERR_SELF_INTERSECTION;
+        }
         const uint32_t a = chosen.value, c = chosen.extra;
         const uint32_t corners[3] = { a, t->vertices[a].next, c };
         if (tracer != NULL) {
@@ -247,6 +278,8 @@ static tl_result triangulate(triangulation *t, tl_arena *scratch, uint32_t count
         emit_triangle(t, triangle, corners, 2, triangles_out, twins_out);
         if (t->has_mesh) {
             tl_ear_mesh_cut(&t->mesh, a, corners[1]);
+        } else {
+            t->list.lengths2[corners[1]] = TL_NO_PARTITION;
         }
         t->vertices[a].across = 3 * triangle + 2;
         t->vertices[a].next = c;

@@ -15,7 +15,7 @@
 /// How it is found out which ears are free. All ways give the same triangles in the same order.
 typedef enum tl_ear_test {
     TL_EARS_BY_SIZE, ///< the one that is faster for so many points
-    TL_EARS_BY_TREE, ///< a search among the reflex vertices
+    TL_EARS_BY_LIST, ///< a search among the reflex vertices
     TL_EARS_BY_MESH  ///< a triangulation of what is left
 } tl_ear_test;
 
