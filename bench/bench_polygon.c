@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Convex polygon generation against rcBuildPolyMesh, where Recast is installed, in one process: all contour sets
-// below TALUS_DATA_DIR/contours or those named, then the hard families and how their time grows. CPU time of one
-// thread, medians of repeated runs; growth from the fastest ones.
+// below TALUS_DATA_DIR/contours or those named, then the hard families and how their time grows, regular ones to
+// 100,000 vertices and random ones to a million. CPU time of one thread, medians of repeated runs; growth from the
+// fastest ones.
 //
 //   bench_polygon [CONTOURS.txt... | families] [--json FILE]
 //
@@ -11,11 +12,12 @@
 #include "io/files/file_map.h"
 #include "io/text/contour_text.h"
 #include "measure.h"
+#include "polygon_random_shapes.h"
 #include "polygon_recast.h"
-#include "polygon_shapes.h"
 #include "report.h"
 
 #include <dirent.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,6 +35,8 @@ typedef struct totals {
     double fastest[METHOD_COUNT];
     uint64_t polygons[METHOD_COUNT];
     uint64_t contours, vertices;
+    uint32_t compared; // sets that Recast divided too; classic is so many times as fast:
+    double log_speeds, least_speed;
 } totals;
 
 static int by_name(const void *a, const void *b)
@@ -137,11 +141,16 @@ static void bench_file(const char *path, totals *sums)
             }
             sums[i].contours += file.contours;
             sums[i].vertices += file.vertices;
+            if (file.seconds[RECAST] > 0.0) {
+                const double speed = file.seconds[RECAST] / file.seconds[CLASSIC];
+                sums[i].log_speeds += log(speed);
+                sums[i].least_speed = sums[i].compared++ == 0 ? speed : fmin(sums[i].least_speed, speed);
+            }
         }
     }
 }
 
-static totals bench_family(const char *name, oracle_point *points, uint32_t n)
+static totals bench_family(const char *name, oracle_point *points, uint32_t n, int method_count)
 {
     // Recast's coordinates are 16 bits without sign.
     oracle_point low = points[0];
@@ -159,8 +168,7 @@ static totals bench_family(const char *name, oracle_point *points, uint32_t n)
     totals sums;
     memset(&sums, 0, sizeof sums);
     sums.vertices = n;
-    // The plain method takes hours beyond this.
-    for (int method = 0; method < (n <= 500 ? METHOD_COUNT : RECAST); method++) {
+    for (int method = 0; method < method_count; method++) {
         measure(method, &set, 6, &sums);
     }
     print_row(name, &sums);
@@ -176,14 +184,15 @@ static void bench_families(bench_report *report)
     oracle_point *points = malloc(200000 * sizeof *points);
     totals sums[SIZES][FAMILIES];
     for (uint32_t i = 0; i < SIZES; i++) {
+        const int method_count = sizes[i] <= 500 ? METHOD_COUNT : RECAST; // the plain method takes hours beyond this
         shape_star(points, sizes[i], i == 0 ? 3e4 : 1e8, i == 0 ? 1e4 : 3e7);
-        sums[i][0] = bench_family(names[0], points, sizes[i]);
+        sums[i][0] = bench_family(names[0], points, sizes[i], method_count);
         shape_comb(points, sizes[i], 1000);
-        sums[i][1] = bench_family(names[1], points, sizes[i]);
+        sums[i][1] = bench_family(names[1], points, sizes[i], method_count);
         shape_spiral(points, sizes[i]);
-        sums[i][2] = bench_family(names[2], points, sizes[i]);
+        sums[i][2] = bench_family(names[2], points, sizes[i], method_count);
     }
-    totals holes = bench_family("1,024 holes", points, shape_holes(points, 32, 32));
+    totals holes = bench_family("1,024 holes", points, shape_holes(points, 32, 32), RECAST);
     bench_report_at_most(report, "1,024 holes in one contour, ms", holes.seconds[CLASSIC] * 1e3, 100.0);
     free(points);
     printf("\ntime of 100,000 vertices over that of 10,000   classic   optimal  Delaunay\n");
@@ -200,6 +209,55 @@ static void bench_families(bench_report *report)
         snprintf(claim, sizeof claim, "%s, time of 100,000 over that of 10,000", names[f]);
         bench_report_at_most(report, claim, sums[3][f].fastest[CLASSIC] / sums[1][f].fastest[0], 15.0);
         printf("\n");
+    }
+}
+
+static uint32_t make_random_family(uint32_t family, oracle_point *points, uint32_t n)
+{
+    test_random random = { 1234 };
+    switch (family) {
+    case 0:
+        shape_random_star(&random, points, n, 2.5e8, 0.1);
+        return n;
+    case 1:
+        shape_random_comb(&random, points, n, 1000000);
+        return n;
+    case 2:
+        shape_random_spiral(&random, points, n, 2.5e8);
+        return n;
+    default:
+        break;
+    }
+    const uint32_t side = (uint32_t)sqrt(n / 6.0); // six corners a hole, two of them its bridge's
+    return shape_random_holes(&random, points, side, side);
+}
+
+// Their ears come in no order of place, so time grows by more than instructions (tools/check-growth) as caches
+// overflow.
+static void bench_random_families(bench_report *report)
+{
+    enum { SIZES = 3, FAMILIES = 4 };
+    static const uint32_t sizes[SIZES] = { 10000, 100000, 1000000 };
+    static const char *const names[FAMILIES] = { "random star", "random comb", "random spiral", "random holes" };
+    oracle_point *points = malloc((sizes[SIZES - 1] + 1000) * sizeof *points);
+    totals sums[FAMILIES][SIZES];
+    for (uint32_t f = 0; f < FAMILIES; f++) {
+        for (uint32_t i = 0; i < SIZES; i++) {
+            const uint32_t n = make_random_family(f, points, sizes[i]);
+            sums[f][i] = bench_family(names[f], points, n, CLASSIC + 1);
+        }
+    }
+    free(points);
+    printf("\ntime grows by n^                     10,000 to 100,000   to 1,000,000\n");
+    for (uint32_t f = 0; f < FAMILIES; f++) {
+        double powers[2];
+        for (uint32_t i = 0; i < 2; i++) {
+            powers[i] = log10(sums[f][i + 1].fastest[CLASSIC] / sums[f][i].fastest[CLASSIC]);
+        }
+        printf("%-36s %17.2f %14.2f\n", names[f], powers[0], powers[1]);
+        char claim[96];
+        snprintf(claim, sizeof claim, "%s of 1,000,000 vertices, classic, ms", names[f]);
+        bench_report_at_most(report, claim, sums[f][2].seconds[CLASSIC] * 1e3, 1500.0);
     }
 }
 
@@ -231,7 +289,7 @@ static void bench_folder(const char *folder, totals *sums)
 // What the sets of contours show beside Recast's stage.
 static void claim_sets(const totals *sums, const char *const *names, bench_report *report)
 {
-    static const double classic_bars[4] = { 3.3, 3.3, 20.0, 3.3 };
+    static const double classic_bars[4] = { 10.0, 6.0, 20.0, 10.0 };
     for (uint32_t i = 0; i < 4; i++) {
         if (sums[i].contours == 0) {
             continue;
@@ -247,6 +305,10 @@ static void claim_sets(const totals *sums, const char *const *names, bench_repor
             snprintf(claim, sizeof claim, "%s: classic", names[i]);
             bench_report_speed(report, claim, "Recast", sums[i].seconds[RECAST] / sums[i].seconds[CLASSIC],
                                classic_bars[i]);
+            snprintf(claim, sizeof claim, "%s: classic, geometric mean of sets", names[i]);
+            bench_report_speed(report, claim, "Recast", exp(sums[i].log_speeds / sums[i].compared), 5.0);
+            snprintf(claim, sizeof claim, "%s: classic, worst set", names[i]);
+            bench_report_speed(report, claim, "Recast", sums[i].least_speed, 2.0);
             snprintf(claim, sizeof claim, "%s: optimal", names[i]);
             bench_report_speed(report, claim, "Recast", sums[i].seconds[RECAST] / sums[i].seconds[OPTIMAL], 1.0);
         }
@@ -287,6 +349,7 @@ int main(int argc, char **argv)
     }
     claim_sets(sums, names, report);
     bench_families(report);
+    bench_random_families(report);
     printf("\n");
     bench_report_print_claims(report);
     free(files);
