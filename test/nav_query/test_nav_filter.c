@@ -159,6 +159,28 @@ static void test_plain(void **state)
     TEST_CHECK(!tl_nav_filter_costs(&filter, &least, &is_uniform));
 }
 
+// What is known of costs holds for the same costs alone, whichever filter has them.
+static void test_known_costs(void **state)
+{
+    (void)state;
+    tl_nav_filter filter = tl_default_nav_filter();
+    tl_nav_known_costs known = { 0 };
+    float least = 0.0f;
+    bool is_uniform = false;
+    TEST_CHECK(tl_nav_filter_costs_again(&known, &filter, &least, &is_uniform) && is_uniform && least == 1.0f);
+    filter.area_cost[TL_NAV_MAX_AREA] = 0.5f;
+    for (int again = 0; again < 2; again++) {
+        TEST_CHECK(tl_nav_filter_costs_again(&known, &filter, &least, &is_uniform) && !is_uniform && least == 0.5f);
+    }
+    filter.area_cost[3] = NAN;
+    for (int again = 0; again < 2; again++) {
+        TEST_CHECK(!tl_nav_filter_costs_again(&known, &filter, &least, &is_uniform));
+    }
+    filter = tl_default_nav_filter();
+    filter.cost = cost_by_area;
+    TEST_CHECK(tl_nav_filter_costs_again(&known, &filter, &least, &is_uniform) && !is_uniform && least == 1.0f);
+}
+
 // Impassable in the middle, from x = 24 metres to 28.
 static float cost_around_the_middle(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 from, tl_vec3 to, float cost,
                                     void *user)
@@ -211,6 +233,6 @@ static void test_dead_ends(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_functions), cmocka_unit_test(test_plain),
-                                        cmocka_unit_test(test_dead_ends) };
+                                        cmocka_unit_test(test_known_costs), cmocka_unit_test(test_dead_ends) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

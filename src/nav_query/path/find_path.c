@@ -34,8 +34,8 @@
 #define CROSSED_KEY ((uint64_t)1 << 62)
 
 // Offers a way to reach a node. `from` is TL_NAV_NO_NODE for the start.
-static void relax_way(tl_nav_way_search *search, uint64_t key, uint32_t slot, uint32_t polygon, tl_vec3 point,
-                      float cost, uint32_t from)
+static inline void relax_way(tl_nav_way_search *search, uint64_t key, uint32_t slot, uint32_t polygon, tl_vec3 point,
+                             float cost, uint32_t from)
 {
     if (cost == INFINITY) {
         return; // it cannot be crossed
@@ -43,18 +43,20 @@ static void relax_way(tl_nav_way_search *search, uint64_t key, uint32_t slot, ui
     const tl_nav_way_in way = { key, slot, polygon, point, cost, from };
     tl_nav_node *node = tl_nav_pool_relax(search->query, way, &search->out_of_nodes);
     if (node != NULL) {
-        node->total = cost + search->min_cost * fminf(tl_distance(point, search->goal), search->detour);
+        const float straight = tl_distance(point, search->goal);
+        node->total = cost + search->min_cost * (straight < search->detour ? straight : search->detour);
         tl_nav_heap_improve(search->query, (uint32_t)(node - search->query->nodes));
     }
 }
 
-static tl_vec3 crossing_point(tl_vec3 from, tl_vec3 goal, const tl_nav_ring_edge *begin, const tl_nav_ring_edge *end)
+// Where a straight way to the goal over a portal would cross it.
+static inline tl_vec3 crossing_point(tl_nav_spot from, tl_nav_spot goal, const tl_nav_ring_edge *begin,
+                                     const tl_nav_ring_edge *end)
 {
     const tl_vec3 right = { begin->x, begin->y, begin->z };
     const tl_vec3 left = { end->x, end->y, end->z };
-    tl_nav_segment portal = { tl_nav_spot_of(right), tl_nav_spot_of(left) };
-    double share = tl_nav_crossing_share(tl_nav_spot_of(from), tl_nav_spot_of(goal), portal);
-    return tl_lerp(right, left, (float)share);
+    const tl_nav_segment portal = { tl_nav_spot_of(right), tl_nav_spot_of(left) };
+    return tl_lerp(right, left, (float)tl_nav_crossing_share(from, goal, portal));
 }
 
 // Crosses the off-mesh links that can be taken from a node's polygon.
@@ -117,22 +119,25 @@ static void expand_way(tl_nav_way_search *search, uint32_t index)
         before.polygon = search->query->nodes[node.parent].polygon;
     }
     uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(search->navmesh, node.slot, node.polygon, &count);
-    const uint64_t first = (uint64_t)(ring - search->navmesh->slots[node.slot].rings.edges);
-    for (uint32_t i = 0; i < count; i++) {
-        if (!tl_nav_ring_is_open(&ring[i])) {
+    const tl_nav_slot *slot = &search->navmesh->slots[node.slot];
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(&slot->rings, node.polygon, &count);
+    const uint64_t first = (uint64_t)(ring - slot->rings.edges);
+    const tl_nav_spot from = tl_nav_spot_of(node.point), goal = tl_nav_spot_of(search->goal);
+    for (const tl_nav_ring_edge *begin = ring; begin < ring + count; begin++) {
+        if (!tl_nav_ring_is_open(begin)) {
             continue;
         }
-        const tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, node.slot, ring[i].to);
+        const tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, node.slot, begin->to);
         if ((to.polygon == before.polygon && to.slot == before.slot) ||
             (search->ends != NULL && tl_nav_is_dead_end(search->ends, to.slot, to.polygon)) ||
             !tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
             continue;
         }
-        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-        const tl_vec3 point = crossing_point(node.point, search->goal, &ring[i], end);
+        const tl_nav_ring_edge *end = begin + 1 < ring + count ? begin + 1 : ring;
+        const tl_vec3 point = crossing_point(from, goal, begin, end);
         const float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, point);
-        relax_way(search, tl_nav_way_key(node.slot, first + i), to.slot, to.polygon, point, node.cost + cost, index);
+        relax_way(search, tl_nav_way_key(node.slot, first + (uint64_t)(begin - ring)), to.slot, to.polygon, point,
+                  node.cost + cost, index);
     }
 }
 
@@ -340,7 +345,7 @@ static tl_result set_up(tl_nav_query *query, const tl_navmesh *navmesh, const tl
     *is_uniform_out = true;
     run->stage = TL_NAV_RUN_NONE;
     TL_TRY(tl_nav_prepare_shortest(query, navmesh, request, &run->exact));
-    if (filter != NULL && !tl_nav_filter_costs(filter, &least, is_uniform_out)) {
+    if (filter != NULL && !tl_nav_filter_costs_again(&query->known_costs, filter, &least, is_uniform_out)) {
         return TL_ERR_ARGUMENT;
     }
     tl_nav_way_search ways = {

@@ -37,7 +37,8 @@ static tl_result route_between(tl_nav_query *query, const tl_navmesh *navmesh, c
 {
     float least = 1.0f;
     bool is_uniform = true;
-    if (request->filter != NULL && !tl_nav_filter_costs(request->filter, &least, &is_uniform)) {
+    if (request->filter != NULL &&
+        !tl_nav_filter_costs_again(&query->known_costs, request->filter, &least, &is_uniform)) {
         return TL_ERR_ARGUMENT;
     }
     if (is_uniform) {

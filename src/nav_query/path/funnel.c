@@ -63,9 +63,15 @@ static void add_funnel_corner(corner_list *list, tl_vec3 point, tl_nav_ref polyg
     set_last(list, point, polygon, flags, link);
 }
 
+// A place as it is seen from the apex.
+typedef struct apex_view {
+    double x, z;
+} apex_view;
+
 // One side of the wedge: where it is, and the portal that put it there.
 typedef struct wedge_side {
     tl_vec3 point;
+    apex_view from_apex; // the same; both 0: it stands open, at the apex
     uint32_t portal;
 } wedge_side;
 
@@ -77,11 +83,19 @@ typedef struct kept_portal {
     tl_vec3 left, right;
 } kept_portal;
 
+// Which polygon one of a piece is.
+typedef struct place_of_polygon {
+    uint32_t number; // in the piece and 1; 0: none
+    uint32_t slot, polygon;
+} place_of_polygon;
+
 typedef struct funnel {
     const tl_navmesh *navmesh;
     const tl_nav_ref *polygons; // of a piece
     uint32_t polygon_count;
+    place_of_polygon place; // that was looked at last
     tl_vec3 start, end;
+    kept_portal end_portal; // the end itself
     tl_vec3 apex;
     wedge_side left, right; // at the apex: open, no portal has narrowed it yet
     uint32_t portal;        // the one to look at
@@ -91,94 +105,128 @@ typedef struct funnel {
     corner_list list;
 } funnel;
 
-// Portal i leads from polygon i to i + 1; the last one is the end itself.
-static tl_result portal_at(funnel *f, uint32_t i, tl_vec3 *left_out, tl_vec3 *right_out)
+// Polygon i of the piece, which is not stale.
+static tl_result polygon_at(const funnel *f, uint32_t i, place_of_polygon *place_out)
 {
-    if (i == f->last_portal) {
-        *left_out = f->end;
-        *right_out = f->end;
+    if (f->place.number == i + 1) {
+        *place_out = f->place;
         return TL_OK;
     }
-    kept_portal *kept = &f->kept[i % KEPT_PORTALS];
-    if (kept->number != i + 1) {
-        uint32_t slot = 0;
-        uint32_t polygon = 0;
-        if (!tl_nav_split_ref(f->navmesh, f->polygons[i + 1], &slot, &polygon)) {
-            return TL_ERR_STALE;
-        }
-        if (!tl_nav_portal_between(f->navmesh, f->polygons[i], slot, polygon, &kept->left, &kept->right)) {
-            return TL_ERR_ARGUMENT;
-        }
-        kept->number = i + 1;
+    place_out->number = i + 1;
+    return tl_nav_split_ref(f->navmesh, f->polygons[i], &place_out->slot, &place_out->polygon) ? TL_OK : TL_ERR_STALE;
+}
+
+static tl_result keep_portal(funnel *f, uint32_t i, kept_portal *kept)
+{
+    place_of_polygon from, to;
+    TL_TRY(polygon_at(f, i, &from));
+    TL_TRY(polygon_at(f, i + 1, &to));
+    f->place = to;
+    const tl_nav_portal_ends ends = { from.slot, from.polygon, to.slot, to.polygon };
+    if (!tl_nav_find_portal(f->navmesh, &ends, &kept->left, &kept->right)) {
+        return TL_ERR_ARGUMENT;
     }
-    *left_out = kept->left;
-    *right_out = kept->right;
+    kept->number = i + 1;
     return TL_OK;
+}
+
+// Portal i leads from polygon i to i + 1; the last one is the end itself.
+static inline tl_result portal_at(funnel *f, uint32_t i, const kept_portal **portal_out)
+{
+    kept_portal *kept = &f->kept[i % KEPT_PORTALS];
+    *portal_out = i == f->last_portal ? &f->end_portal : kept;
+    return i == f->last_portal || kept->number == i + 1 ? TL_OK : keep_portal(f, i, kept);
+}
+
+static apex_view view_from(tl_vec3 apex, tl_vec3 point)
+{
+    const apex_view view = { (double)point.x - (double)apex.x, (double)point.z - (double)apex.z };
+    return view;
+}
+
+static bool is_at_apex(apex_view view)
+{
+    return view.x == 0.0 && view.z == 0.0;
+}
+
+// The wedge from an apex on: open.
+static void open_funnel(funnel *f, tl_vec3 apex)
+{
+    const wedge_side open = { apex, { 0.0, 0.0 }, f->portal };
+    f->apex = apex;
+    f->left = open;
+    f->right = open;
 }
 
 // Makes a side of the wedge a corner and the apex; the walk continues behind its portal.
 static void turn_funnel(funnel *f, const wedge_side *side, uint32_t flags)
 {
+    const tl_vec3 apex = side->point;
     // A corner in the start's own place is no corner; add_corner sees to all others.
-    if (f->list.count > f->list.fixed || !tl_nav_is_same_place(side->point, f->start)) {
-        add_funnel_corner(&f->list, side->point, f->polygons[side->portal + 1], flags, TL_NAV_NO_REF);
+    if (f->list.count > f->list.fixed || !tl_nav_is_same_place(apex, f->start)) {
+        add_funnel_corner(&f->list, apex, f->polygons[side->portal + 1], flags, TL_NAV_NO_REF);
     }
-    f->apex = side->point;
     f->portal = side->portal + 1;
-    f->left.point = f->apex;
-    f->right.point = f->apex;
+    open_funnel(f, apex);
 }
 
-// Whether `point` lies at least as far from the apex as `side`, which is on the same line.
-static bool is_no_nearer(const funnel *f, const wedge_side *side, tl_vec3 point)
+// On which hand of a side of the wedge a point lies: tl_nav_side_of(apex, side, point), as both are seen from the apex.
+static inline int side_of_wedge(const funnel *f, const wedge_side *side, tl_vec3 point, apex_view view)
 {
-    double x = (double)side->point.x - (double)f->apex.x;
-    double z = (double)side->point.z - (double)f->apex.z;
-    return x * ((double)point.x - (double)side->point.x) + z * ((double)point.z - (double)side->point.z) >= 0.0;
+    const double left = side->from_apex.x * view.z, right = side->from_apex.z * view.x;
+    const double turn = left - right, bound = TL_CROSS_ERROR * (fabs(left) + fabs(right));
+    return turn > bound ? 1 : turn < -bound ? -1 : tl_nav_side_of(f->apex, side->point, point);
+}
+
+// Whether a point lies at least as far from the apex as `side`, which is on the same line.
+static bool is_no_nearer(const wedge_side *side, tl_vec3 point)
+{
+    const apex_view on = view_from(side->point, point);
+    return side->from_apex.x * on.x + side->from_apex.z * on.z >= 0.0;
 }
 
 // Whether `point`, an end of the current portal, lies on or beyond the ray from the apex through the other side.
-static bool closes(const funnel *f, const wedge_side *other, int hand, tl_vec3 point, bool *in_line_out)
+static inline bool closes(const funnel *f, const wedge_side *other, int hand, tl_vec3 point, apex_view view,
+                          bool *in_line_out)
 {
     *in_line_out = false;
-    if (tl_nav_is_same_place(other->point, f->apex)) {
+    if (is_at_apex(other->from_apex)) {
         return false;
     }
     // The end of the path is both ends of its portal, and closes nothing by itself.
     if (f->portal == f->last_portal && other->portal == f->portal) {
         return false;
     }
-    int side = hand * tl_nav_side_of(f->apex, other->point, point);
-    double ahead = ((double)other->point.x - (double)f->apex.x) * ((double)point.x - (double)f->apex.x) +
-                   ((double)other->point.z - (double)f->apex.z) * ((double)point.z - (double)f->apex.z);
-    *in_line_out = side == 0 && ahead > 0.0;
+    const int side = hand * side_of_wedge(f, other, point, view);
+    *in_line_out = side == 0 && other->from_apex.x * view.x + other->from_apex.z * view.z > 0.0;
     return side < 0 || *in_line_out;
 }
 
 // Moves one side of the wedge to its end of the current portal, unless that would widen it. `hand` is 1 for the right
-// side, -1 for the left one: hand * side_of is < 0 for what lies on the inner side of it.
+// side, -1 for the left one: hand * side_of_wedge is < 0 for what lies on the inner side of it.
 // Returns true when the wedge has closed: then there is a new apex.
-static bool narrow_funnel(funnel *f, wedge_side *own, const wedge_side *other, int hand, tl_vec3 end)
+static inline bool narrow_funnel(funnel *f, wedge_side *own, const wedge_side *other, int hand, tl_vec3 end)
 {
-    if (tl_nav_is_same_place(end, f->apex)) {
+    const apex_view view = view_from(f->apex, end);
+    if (is_at_apex(view)) {
         return false;
     }
-    if (!tl_nav_is_same_place(own->point, f->apex)) {
-        int side = hand * tl_nav_side_of(f->apex, own->point, end);
-        if (side > 0 || (side == 0 && !is_no_nearer(f, own, end))) {
+    if (!is_at_apex(own->from_apex)) {
+        const int side = hand * side_of_wedge(f, own, end, view);
+        if (side > 0 || (side == 0 && !is_no_nearer(own, end))) {
             return false;
         }
     }
-    wedge_side moved = { end, f->portal };
+    const wedge_side moved = { end, view, f->portal };
     bool in_line = false;
-    if (!closes(f, other, hand, end, &in_line)) {
+    if (!closes(f, other, hand, end, view, &in_line)) {
         *own = moved;
         return false;
     }
     // Both ends of one portal in line with the apex: the near one comes first.
-    bool own_is_first = in_line && other->portal == f->portal && !is_no_nearer(f, other, end);
-    wedge_side first = own_is_first ? moved : *other;
-    bool is_left = (hand < 0) == own_is_first;
+    const bool own_is_first = in_line && other->portal == f->portal && !is_no_nearer(other, end);
+    const wedge_side first = own_is_first ? moved : *other;
+    const bool is_left = (hand < 0) == own_is_first;
     turn_funnel(f, &first, is_left ? TL_NAV_CORNER_LEFT : TL_NAV_CORNER_RIGHT);
     return true;
 }
@@ -199,18 +247,18 @@ static bool is_on_portal(tl_vec3 left, tl_vec3 right, tl_vec3 point, int hand)
 // passed already, and those that the end lies on need not be.
 static tl_result pass_ends(funnel *f)
 {
-    tl_vec3 left, right;
+    const kept_portal *portal;
     f->last_portal = f->polygon_count - 1;
     while (f->portal < f->last_portal) {
-        TL_TRY(portal_at(f, f->portal, &left, &right));
-        if (!is_on_portal(left, right, f->start, 1)) {
+        TL_TRY(portal_at(f, f->portal, &portal));
+        if (!is_on_portal(portal->left, portal->right, f->start, 1)) {
             break;
         }
         f->portal++;
     }
     while (f->last_portal > f->portal) {
-        TL_TRY(portal_at(f, f->last_portal - 1, &left, &right));
-        if (!is_on_portal(left, right, f->end, -1)) {
+        TL_TRY(portal_at(f, f->last_portal - 1, &portal));
+        if (!is_on_portal(portal->left, portal->right, f->end, -1)) {
             break;
         }
         f->last_portal--;
@@ -227,12 +275,13 @@ static bool is_enough(const funnel *f)
 static tl_result pull(funnel *f)
 {
     while (f->portal <= f->last_portal && !is_enough(f)) {
-        tl_vec3 left, right;
-        TL_TRY(portal_at(f, f->portal, &left, &right));
+        const kept_portal *portal;
+        TL_TRY(portal_at(f, f->portal, &portal));
         if (f->portal == f->last_portal && tl_nav_is_same_place(f->end, f->apex)) {
             return TL_OK;
         }
-        if (!narrow_funnel(f, &f->right, &f->left, 1, right) && !narrow_funnel(f, &f->left, &f->right, -1, left)) {
+        if (!narrow_funnel(f, &f->right, &f->left, 1, portal->right) &&
+            !narrow_funnel(f, &f->left, &f->right, -1, portal->left)) {
             f->portal++;
         }
     }
@@ -276,10 +325,11 @@ static tl_result pull_pieces(funnel *f, const tl_nav_polygon_path *path, tl_vec3
         f->polygon_count = next - begin;
         f->start = begin == 0 ? start : f->end;
         f->end = link[0];
-        f->apex = f->start;
-        f->left.point = f->start;
-        f->right.point = f->start;
+        f->end_portal.left = f->end;
+        f->end_portal.right = f->end;
+        f->place.number = 0;
         f->portal = 0;
+        open_funnel(f, f->start);
         f->list.fixed = f->list.count + 1;
         add_funnel_corner(&f->list, f->start, f->polygons[0], begin == 0 ? TL_NAV_CORNER_START : 0, TL_NAV_NO_REF);
         TL_TRY(pass_ends(f));

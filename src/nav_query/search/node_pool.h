@@ -5,6 +5,8 @@
 #ifndef TALUS_SRC_NAV_QUERY_NODE_POOL_H
 #define TALUS_SRC_NAV_QUERY_NODE_POOL_H
 
+#include "base/hash.h"
+#include "nav_query/navmesh/navmesh.h"
 #include "nav_query/search/query.h"
 
 // Values of tl_nav_node.heap_at beside places in the heap.
@@ -29,8 +31,33 @@ struct tl_nav_node {
 
 /// Forgets all nodes. O(nodes used by the search before).
 void tl_nav_pool_reset(tl_nav_query *query);
+
+/// Keys of one tile follow one another, and so do their buckets: a search in a few tiles stays in a few lines of
+/// memory, however large the pool.
+static inline uint32_t *tl_nav_bucket_of(tl_nav_query *query, uint64_t key)
+{
+    const uint32_t tile = (uint32_t)tl_hash_mix(key >> TL_NAV_REF_POLYGON_BITS);
+    return &query->buckets[(tile + (uint32_t)key) & (query->bucket_count - 1)];
+}
+
 /// The node of a key, a fresh one if need be, or TL_NAV_NO_NODE when the pool is used up.
-uint32_t tl_nav_pool_get(tl_nav_query *query, uint64_t key);
+static inline uint32_t tl_nav_pool_get(tl_nav_query *query, uint64_t key)
+{
+    uint32_t *bucket = tl_nav_bucket_of(query, key);
+    for (uint32_t i = *bucket; i != TL_NAV_NO_NODE; i = query->nodes[i].next) {
+        if (query->nodes[i].key == key) {
+            return i;
+        }
+    }
+    if (query->node_count == query->max_nodes) {
+        return TL_NAV_NO_NODE;
+    }
+    const uint32_t index = query->node_count++;
+    const tl_nav_node node = { key, { 0.0f, 0.0f, 0.0f }, 0.0f, 0.0f, TL_NAV_NO_NODE, 0, 0, TL_NAV_NODE_NEW, *bucket };
+    query->nodes[index] = node;
+    *bucket = index;
+    return index;
+}
 
 /// A way into a polygon that a search has found.
 typedef struct tl_nav_way_in {

@@ -10,17 +10,16 @@
 #include "nav_query/navmesh/ring_step.h"
 
 // Whether an edge leads to a polygon: one of the same tile, or, over a seam, of another.
-static inline bool leads_to(const tl_nav_slot *slot, const tl_nav_ring_edge *edge, uint32_t own_slot, uint32_t to_slot,
-                            uint32_t to_polygon)
+static inline bool leads_to(const tl_nav_slot *slot, const tl_nav_ring_edge *edge, const tl_nav_portal_ends *ends)
 {
     if (edge->to < TL_NAV_RING_SEAM) {
-        return edge->to == to_polygon && to_slot == own_slot;
+        return edge->to == ends->to_polygon && ends->to_slot == ends->slot;
     }
     if (!tl_nav_ring_is_open(edge)) {
         return false;
     }
     const tl_nav_ring_seam *seam = &slot->rings.seams[edge->to & ~TL_NAV_RING_SEAM];
-    return seam->slot == to_slot && seam->polygon == to_polygon;
+    return seam->slot == ends->to_slot && seam->polygon == ends->to_polygon;
 }
 
 static tl_vec3 start_of(const tl_nav_ring_edge *edge)
@@ -28,19 +27,14 @@ static tl_vec3 start_of(const tl_nav_ring_edge *edge)
     return tl_vec3_make(edge->x, edge->y, edge->z);
 }
 
-bool tl_nav_portal_between(const tl_navmesh *navmesh, tl_nav_ref from, uint32_t to_slot, uint32_t to_polygon,
-                           tl_vec3 *left_out, tl_vec3 *right_out)
+bool tl_nav_find_portal(const tl_navmesh *navmesh, const tl_nav_portal_ends *ends, tl_vec3 *left_out,
+                        tl_vec3 *right_out)
 {
-    uint32_t own_slot = 0;
-    uint32_t polygon = 0;
-    if (!tl_nav_split_ref(navmesh, from, &own_slot, &polygon)) {
-        return false;
-    }
-    const tl_nav_slot *slot = &navmesh->slots[own_slot];
+    const tl_nav_slot *slot = &navmesh->slots[ends->slot];
     uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_of(&slot->rings, polygon, &count);
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(&slot->rings, ends->polygon, &count);
     uint32_t first = 0;
-    while (first < count && !leads_to(slot, &ring[first], own_slot, to_slot, to_polygon)) {
+    while (first < count && !leads_to(slot, &ring[first], ends)) {
         first++;
     }
     if (first == count) {
@@ -56,7 +50,7 @@ bool tl_nav_portal_between(const tl_navmesh *navmesh, tl_nav_ref from, uint32_t 
     double leftmost = dx * (double)end->x + dz * (double)end->z;
     double rightmost = dx * (double)begin->x + dz * (double)begin->z;
     for (uint32_t i = first + 1; i < count; i++) {
-        if (!leads_to(slot, &ring[i], own_slot, to_slot, to_polygon)) {
+        if (!leads_to(slot, &ring[i], ends)) {
             continue;
         }
         const tl_nav_ring_edge *next = &ring[i + 1 < count ? i + 1 : 0];
@@ -68,4 +62,12 @@ bool tl_nav_portal_between(const tl_navmesh *navmesh, tl_nav_ref from, uint32_t 
         rightmost = right < rightmost ? right : rightmost;
     }
     return true;
+}
+
+bool tl_nav_portal_between(const tl_navmesh *navmesh, tl_nav_ref from, uint32_t to_slot, uint32_t to_polygon,
+                           tl_vec3 *left_out, tl_vec3 *right_out)
+{
+    tl_nav_portal_ends ends = { 0, 0, to_slot, to_polygon };
+    return tl_nav_split_ref(navmesh, from, &ends.slot, &ends.polygon) &&
+           tl_nav_find_portal(navmesh, &ends, left_out, right_out);
 }

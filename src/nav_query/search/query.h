@@ -13,6 +13,7 @@
 #define TALUS_SRC_NAV_QUERY_QUERY_H
 
 #include "base/radix_sort.h"
+#include "nav_query/filter/nav_filter.h"
 
 #include <talus/nav_query.h>
 
@@ -84,6 +85,7 @@ struct tl_nav_query {
     uint32_t generation;   ///< of the search that wrote an entry
 
     tl_nav_path_run *run; ///< a path search in slices
+    tl_nav_known_costs known_costs;
 };
 
 #endif
