@@ -24,6 +24,7 @@
 #include "nav_query/exact/shortest_search.h"
 
 #include "nav_query/exact/wedge_root.inl"
+#include "nav_query/exact/wedge_straight.inl"
 #include "nav_query/navmesh/surface.h"
 
 #include <string.h>
@@ -225,7 +226,13 @@ tl_nav_search_end tl_nav_begin_shortest(tl_nav_shortest_search *search)
     search->only = TL_NAV_NO_NODE;
     search->best = TL_NAV_NO_NODE;
     wedge_search s = take_up(search);
-    search->last = look_from_root(&s, add_start(&s));
+    const uint32_t start = add_start(&s);
+    search->last = find_line_from_start(&s, start);
+    if (search->last != TL_NAV_NO_NODE) {
+        search->lower_bound = certain_length((float)tl_nav_shortest_length(search));
+        return TL_NAV_SEARCH_FOUND;
+    }
+    search->last = look_from_root(&s, start);
     lay_down(&s, search);
     if (search->last != TL_NAV_NO_NODE) {
         search->lower_bound = tl_nav_shortest_length(search);

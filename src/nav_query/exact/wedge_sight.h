@@ -6,6 +6,7 @@
 #ifndef TALUS_SRC_NAV_QUERY_WEDGE_SIGHT_H
 #define TALUS_SRC_NAV_QUERY_WEDGE_SIGHT_H
 
+#include "math/simd2d.h"
 #include "math/tolerance.h"
 #include "nav_query/exact/shortest_search.h"
 #include "nav_query/navmesh/rings.h"
@@ -91,31 +92,35 @@ static inline bool may_turn(const tl_nav_ring_walls *walls, tl_nav_direction d, 
            hand * wedge_cross(d, last) <= 2.0 * rounding * (size + fabs(last.x) + fabs(last.z));
 }
 
-// A vertex as a wedge sees it.
+// A vertex as a wedge sees it: which of its limits it lies clearly left of, which clearly right of, as bits. Neither:
+// on it within rounding.
 typedef struct seen_vertex {
     tl_nav_direction at;
-    bool left_of_left, right_of_left;   // limit; neither: on it within rounding
-    bool left_of_right, right_of_right; // limit
+    uint32_t left_of, right_of;
 } seen_vertex;
 
-// What a wedge compares vertices with.
+#define LEFT_LIMIT  1u
+#define RIGHT_LIMIT 2u
+
+// What a wedge compares vertices with: both limits side by side, the left one first.
 typedef struct wedge_view {
-    tl_nav_direction left, right;
     double root_x, root_z;
-    double left_error, right_error; // rounding of a cross product, as a share of the vertex's coordinates
-    bool left_open, right_open;
+    double x[2], z[2];
+    double error[2];                      // rounding of a cross product, as a share of the vertex's coordinates
+    uint32_t open_left_of, open_right_of; // open limits: all lies right of a left one, and left of a right one
 } wedge_view;
 
 static inline wedge_view make_view(const tl_nav_wedge *wedge)
 {
-    wedge_view view = { wedge->left,
-                        wedge->right,
-                        (double)wedge->root_x,
+    const tl_nav_direction left = wedge->left, right = wedge->right;
+    wedge_view view = { (double)wedge->root_x,
                         (double)wedge->root_z,
-                        TL_CROSS_ERROR * (fabs(wedge->left.x) + fabs(wedge->left.z)),
-                        TL_CROSS_ERROR * (fabs(wedge->right.x) + fabs(wedge->right.z)),
-                        is_open_direction(wedge->left),
-                        is_open_direction(wedge->right) };
+                        { left.x, right.x },
+                        { left.z, right.z },
+                        { TL_CROSS_ERROR * (fabs(left.x) + fabs(left.z)),
+                          TL_CROSS_ERROR * (fabs(right.x) + fabs(right.z)) },
+                        is_open_direction(right) ? RIGHT_LIMIT : 0,
+                        is_open_direction(left) ? LEFT_LIMIT : 0 };
     return view;
 }
 
@@ -124,15 +129,24 @@ static inline seen_vertex look_at(const wedge_view *view, const tl_nav_ring_edge
     seen_vertex seen;
     seen.at.x = (double)vertex->x - view->root_x;
     seen.at.z = (double)vertex->z - view->root_z;
-    double size = fabs(seen.at.x) + fabs(seen.at.z);
-    double to_left = wedge_cross(view->left, seen.at);
-    double to_right = wedge_cross(view->right, seen.at);
-    double left_error = view->left_error * size;
-    double right_error = view->right_error * size;
-    seen.left_of_left = to_left < -left_error;
-    seen.right_of_left = to_left > left_error || view->left_open;
-    seen.left_of_right = to_right < -right_error || view->right_open;
-    seen.right_of_right = to_right > right_error;
+    const double size = fabs(seen.at.x) + fabs(seen.at.z);
+#if TL_HAS_F64X2
+    const tl_f64x2 turn = tl_f64x2_sub(tl_f64x2_mul(tl_f64x2_load(view->x), tl_f64x2_all(seen.at.z)),
+                                       tl_f64x2_mul(tl_f64x2_load(view->z), tl_f64x2_all(seen.at.x)));
+    const tl_f64x2 error = tl_f64x2_mul(tl_f64x2_load(view->error), tl_f64x2_all(size));
+    const tl_f64x2 back = tl_f64x2_sub(tl_f64x2_all(0.0), turn);
+    seen.left_of = tl_f64x2_masks(tl_f64x2_where_less(error, back)) | view->open_left_of;
+    seen.right_of = tl_f64x2_masks(tl_f64x2_where_less(error, turn)) | view->open_right_of;
+#else
+    seen.left_of = view->open_left_of;
+    seen.right_of = view->open_right_of;
+    for (uint32_t i = 0; i < 2; i++) {
+        const double turn = view->x[i] * seen.at.z - view->z[i] * seen.at.x;
+        const double error = view->error[i] * size;
+        seen.left_of |= (uint32_t)(turn < -error) << i;
+        seen.right_of |= (uint32_t)(turn > error) << i;
+    }
+#endif
     return seen;
 }
 

@@ -45,6 +45,16 @@ typedef struct wedge_origin {
     double cost;
 } wedge_origin;
 
+// Offers the first wedge of a step: it is not the only one.
+static inline void offer_first(wedge_search *s)
+{
+    if (s->only != TL_NAV_NO_NODE) {
+        const uint32_t first = s->only;
+        s->only = TL_NAV_NO_NODE;
+        offer_wedge(s, first, total_of(s, &s->query->wedges[first], &s->only_edge));
+    }
+}
+
 // Adds a wedge through edge i of the polygon. The first one of a step is kept as it is: where it stays the only one the
 // search goes on with it at once, and its total is not asked for.
 static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i, wedge_origin root,
@@ -76,11 +86,7 @@ static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i,
         s->only_edge = *edge;
         return;
     }
-    if (s->only != TL_NAV_NO_NODE) {
-        uint32_t first = s->only;
-        s->only = TL_NAV_NO_NODE;
-        offer_wedge(s, first, total_of(s, &s->query->wedges[first], &s->only_edge));
-    }
+    offer_first(s);
     offer_wedge(s, index, total_of(s, wedge, edge));
 }
 
@@ -343,10 +349,10 @@ static TL_ALWAYS_INLINE void turn_at_limit(wedge_search *s, const step_from *fro
             step_from turned = *from;
             turned.wedge = add_turn(s, from->wedge, x, z, cost);
             add_edge_on(s, &turned, i, root, &edge);
-        } else if (hand > 0) {
-            add_wedge(s, from, i, root, &edge, edge.left, right > 0.0 ? limit : edge.right);
         } else {
-            add_wedge(s, from, i, root, &edge, left < 0.0 ? limit : edge.left, edge.right);
+            const tl_nav_direction *from_right = hand > 0 && right > 0.0 ? &limit : &edge.right;
+            const tl_nav_direction *to_left = hand < 0 && left < 0.0 ? &limit : &edge.left;
+            add_wedge(s, from, i, root, &edge, *to_left, *from_right);
         }
     }
 }
@@ -407,21 +413,21 @@ static inline bool is_outrun(const wedge_search *s, const tl_nav_wedge *wedge, c
 // seen from the root. Edges right of the wedge are reached by turning right, those left of it by turning left.
 static inline void expand_wedge(wedge_search *s, uint32_t index)
 {
-    const tl_nav_wedge wedge = s->query->wedges[index];
-    const wedge_origin root = { wedge.root_x, wedge.root_z, wedge.cost };
-    const wedge_view view = make_view(&wedge);
-    const step_from from = step_from_polygon(s, index, wedge.slot, wedge.polygon);
-    const entry_ends ends = ends_of_entry(&from, &wedge);
+    const tl_nav_wedge *wedge = &s->query->wedges[index];
+    const wedge_origin root = { wedge->root_x, wedge->root_z, wedge->cost };
+    const wedge_view view = make_view(wedge);
+    const step_from from = step_from_polygon(s, index, wedge->slot, wedge->polygon);
+    const entry_ends ends = ends_of_entry(&from, wedge);
     // With a filter a vertex's number says nothing of its walls.
-    if (s->in->filter == NULL && s->sight == NULL && is_outrun(s, &wedge, &ends)) {
+    if (s->in->filter == NULL && s->sight == NULL && is_outrun(s, wedge, &ends)) {
         return;
     }
-    if (s->navmesh->slots[wedge.slot].anchor_count > 0) {
+    if (s->navmesh->slots[wedge->slot].anchor_count > 0) {
         cross_wedge_links(s, index);
     }
     uint32_t first_seen = from.count; // the first way that ends left of the wedge's right side
     uint32_t last_seen = 1;           // the last one that begins right of its left side
-    uint32_t i = wedge.edge;
+    uint32_t i = wedge->edge;
     seen_vertex right, left;
     uint32_t left_is = UINT32_MAX; // the vertex that was looked at last
     for (uint32_t k = 1; k < from.count; k++) {
@@ -431,33 +437,35 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
         }
         const uint32_t next = vertex_behind(i, from.count);
         right = left_is == i ? left : look_at(&view, &from.ring[i]);
-        if (right.left_of_left) {
+        if ((right.left_of & LEFT_LIMIT) != 0) {
             break; // and so are all that follow
         }
         left = look_at(&view, &from.ring[next]);
         left_is = next;
-        if (left.right_of_right) {
+        if ((left.right_of & RIGHT_LIMIT) != 0) {
             continue;
         }
-        last_seen = right.right_of_left ? k : last_seen;
-        first_seen = left.left_of_right && k < first_seen ? k : first_seen;
+        const bool begins_right = (right.right_of & LEFT_LIMIT) != 0, ends_left = (left.left_of & RIGHT_LIMIT) != 0;
+        last_seen = begins_right ? k : last_seen;
+        first_seen = ends_left && k < first_seen ? k : first_seen;
         seen_edge edge = { right.at, left.at };
         edge_view v = view_of(s, &edge);
-        if (v.facing && right.right_of_left && left.left_of_right) {
+        if (v.facing && begins_right && ends_left) {
             // Chosen by index: as branches they would go one way as often as the other.
-            const tl_nav_direction lefts[2] = { left.at, wedge.left };
-            const tl_nav_direction rights[2] = { right.at, wedge.right };
-            add_wedge(s, &from, i, root, &edge, lefts[left.left_of_left], rights[right.right_of_right]);
+            const tl_nav_direction *lefts[2] = { &left.at, &wedge->left };
+            const tl_nav_direction *rights[2] = { &right.at, &wedge->right };
+            add_wedge(s, &from, i, root, &edge, *lefts[left.left_of & LEFT_LIMIT],
+                      *rights[(right.right_of & RIGHT_LIMIT) / RIGHT_LIMIT]);
         }
         if (v.edge_on) {
             add_edge_on(s, &from, i, root, &edge);
         }
     }
-    if (!view.left_open & ends.sees_left) {
-        turn_at_limit(s, &from, &wedge, 1, last_seen, from.count);
+    if (view.open_right_of == 0 && ends.sees_left) {
+        turn_at_limit(s, &from, wedge, 1, last_seen, from.count);
     }
-    if (!view.right_open & ends.sees_right) {
-        turn_at_limit(s, &from, &wedge, -1, 1, first_seen < from.count ? first_seen + 1 : from.count);
+    if (view.open_left_of == 0 && ends.sees_right) {
+        turn_at_limit(s, &from, wedge, -1, 1, first_seen < from.count ? first_seen + 1 : from.count);
     }
 }
 
