@@ -172,20 +172,60 @@ static uint32_t near_borders_of(const place_search *search, uint32_t wall, cell_
     return near;
 }
 
-static void offer_borders(place_search *search)
+// A border that comes near the cell, and its wall.
+typedef struct near_border {
+    border line;
+    uint32_t wall;
+} near_border;
+
+// All borders that come near the cell, wall by wall, in scratch memory; each wall is looked at twice, and not with each
+// other wall once more. NULL where there are none, or no memory, which the clearance tells.
+static near_border *take_near_borders(const place_search *search, uint32_t *count_out)
 {
     const cell_circle circle = circle_of_cell(search);
-    for (uint32_t i = 0; i < search->cell.near.wall_count; i++) {
-        border own[4];
-        uint32_t own_count = near_borders_of(search, i, circle, own);
-        for (uint32_t b = 0; b < own_count; b++) {
-            offer_nearest(search, &own[b]);
+    const uint32_t walls = search->cell.near.wall_count;
+    border own[4];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < walls; i++) {
+        count += near_borders_of(search, i, circle, own);
+    }
+    near_border *borders = count > 0 ? tl_nav_take_scratch(search->clearance, count, sizeof *borders) : NULL;
+    *count_out = borders != NULL ? count : 0;
+    for (uint32_t i = 0, at = 0; i < walls && borders != NULL; i++) {
+        const uint32_t own_count = near_borders_of(search, i, circle, own);
+        for (uint32_t b = 0; b < own_count; b++, at++) {
+            borders[at].line = own[b];
+            borders[at].wall = i;
         }
-        for (uint32_t k = 0; k < i && own_count > 0; k++) {
-            border other[4];
-            uint32_t other_count = near_borders_of(search, k, circle, other);
-            for (uint32_t pair = 0; pair < own_count * other_count; pair++) {
-                offer_crossings(search, &own[pair / other_count], &other[pair % other_count]);
+    }
+    return borders;
+}
+
+// Where the borders of one wall end that begin at `begin`.
+static uint32_t end_of_wall(const near_border *borders, uint32_t count, uint32_t begin)
+{
+    uint32_t end = begin;
+    while (end < count && borders[end].wall == borders[begin].wall) {
+        end++;
+    }
+    return end;
+}
+
+static void offer_borders(place_search *search)
+{
+    uint32_t count = 0;
+    const near_border *borders = take_near_borders(search, &count);
+    for (uint32_t begin = 0, end = 0; begin < count; begin = end) {
+        end = end_of_wall(borders, count, begin);
+        for (uint32_t own = begin; own < end; own++) {
+            offer_nearest(search, &borders[own].line);
+        }
+        for (uint32_t k = 0, k_end = 0; k < begin; k = k_end) {
+            k_end = end_of_wall(borders, count, k);
+            for (uint32_t own = begin; own < end; own++) {
+                for (uint32_t other = k; other < k_end; other++) {
+                    offer_crossings(search, &borders[own].line, &borders[other].line);
+                }
             }
         }
     }
@@ -213,7 +253,7 @@ static bool visit_polygon(place_search *search)
     }
     offer_borders(search);
     clearance->scratch = scratch;
-    return true;
+    return !clearance->is_full;
 }
 
 static void relax_polygon(place_search *search, uint32_t slot, uint32_t polygon, double distance_sq)
