@@ -118,6 +118,22 @@ static inline uint32_t tl_f32x16_less_equal_bits(tl_f32x16 a, tl_f32x16 b)
     return _mm512_cmple_epi32_mask(_mm512_castps_si512(a), _mm512_castps_si512(b));
 }
 
+static inline tl_f32x16 tl_f32x16_where_less_bits(tl_f32x16 a, tl_f32x16 b)
+{
+    __mmask16 less = _mm512_cmplt_epi32_mask(_mm512_castps_si512(a), _mm512_castps_si512(b));
+    return _mm512_castsi512_ps(_mm512_movm_epi32(less));
+}
+
+static inline tl_f32x16 tl_f32x16_and(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_and_ps(a, b);
+}
+
+static inline tl_f32x16 tl_f32x16_or(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_or_ps(a, b);
+}
+
 static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
 {
     _mm512_storeu_si512(sixteen, _mm512_castps_si512(a));
@@ -266,6 +282,24 @@ static inline uint32_t tl_f32x16_less_equal_bits(tl_f32x16 a, tl_f32x16 b)
 #endif
 }
 
+static inline tl_f32x16 tl_f32x16_where_less_bits(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_where_less_bits(a.low, b.low), tl_f32x8_where_less_bits(a.high, b.high) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_and(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_and(a.low, b.low), tl_f32x8_and(a.high, b.high) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_or(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_or(a.low, b.low), tl_f32x8_or(a.high, b.high) };
+    return r;
+}
+
 static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
 {
     tl_f32x8_store((float *)(void *)sixteen, a.low);
@@ -273,6 +307,16 @@ static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
 }
 
 #endif
+
+/// The least lane, as bits.
+static inline uint32_t tl_f32x16_least_bits(tl_f32x16 a)
+{
+#if TL_SIMD_LEVEL == 3
+    return tl_f32x8_least_bits(tl_f32x8_min_bits(_mm512_castps512_ps256(a), _mm512_extractf32x8_ps(a, 1)));
+#else
+    return tl_f32x8_least_bits(tl_f32x8_min_bits(a.low, a.high));
+#endif
+}
 
 /// Writes a value to each lane of the mask.
 static inline void tl_u32x16_store_where(uint32_t *sixteen, uint32_t mask, uint32_t value)

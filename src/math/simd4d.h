@@ -39,6 +39,16 @@ static inline void tl_f64x4_store_floats(float *four, tl_f64x4 a)
     _mm_storeu_ps(four, _mm256_cvtpd_ps(a));
 }
 
+static inline tl_f32x4 tl_f64x4_to_floats(tl_f64x4 a)
+{
+    return _mm256_cvtpd_ps(a);
+}
+
+static inline tl_f64x4 tl_f64x4_add(tl_f64x4 a, tl_f64x4 b)
+{
+    return _mm256_add_pd(a, b);
+}
+
 static inline tl_f64x4 tl_f64x4_sub(tl_f64x4 a, tl_f64x4 b)
 {
     return _mm256_sub_pd(a, b);
@@ -77,6 +87,11 @@ static inline double tl_f64x4_get_x(tl_f64x4 a)
 static inline double tl_f64x4_get_y(tl_f64x4 a)
 {
     return _mm_cvtsd_f64(_mm_unpackhi_pd(_mm256_castpd256_pd128(a), _mm256_castpd256_pd128(a)));
+}
+
+static inline double tl_f64x4_get_z(tl_f64x4 a)
+{
+    return _mm_cvtsd_f64(_mm256_extractf128_pd(a, 1));
 }
 
 static inline tl_f64x4 tl_f64x4_load(const double *four)
@@ -127,6 +142,16 @@ static inline void tl_f64x4_store_floats(float *four, tl_f64x4 a)
     tl_f32x4_store(four, tl_f64x2_to_floats(a.low, a.high));
 }
 
+static inline tl_f32x4 tl_f64x4_to_floats(tl_f64x4 a)
+{
+    return tl_f64x2_to_floats(a.low, a.high);
+}
+
+static inline tl_f64x4 tl_f64x4_add(tl_f64x4 a, tl_f64x4 b)
+{
+    return tl_f64x4_make(tl_f64x2_add(a.low, b.low), tl_f64x2_add(a.high, b.high));
+}
+
 static inline tl_f64x4 tl_f64x4_sub(tl_f64x4 a, tl_f64x4 b)
 {
     return tl_f64x4_make(tl_f64x2_sub(a.low, b.low), tl_f64x2_sub(a.high, b.high));
@@ -163,6 +188,11 @@ static inline double tl_f64x4_get_x(tl_f64x4 a)
 static inline double tl_f64x4_get_y(tl_f64x4 a)
 {
     return tl_f64x2_get_y(a.low);
+}
+
+static inline double tl_f64x4_get_z(tl_f64x4 a)
+{
+    return tl_f64x2_get_x(a.high);
 }
 
 static inline tl_f64x4 tl_f64x4_load(const double *four)
@@ -206,6 +236,20 @@ static inline void tl_f64x4_store_floats(float *four, tl_f64x4 a)
     for (int i = 0; i < 4; i++) {
         four[i] = (float)a.v[i];
     }
+}
+
+static inline tl_f32x4 tl_f64x4_to_floats(tl_f64x4 a)
+{
+    return tl_f32x4_make((float)a.v[0], (float)a.v[1], (float)a.v[2], (float)a.v[3]);
+}
+
+static inline tl_f64x4 tl_f64x4_add(tl_f64x4 a, tl_f64x4 b)
+{
+    tl_f64x4 r;
+    for (int i = 0; i < 4; i++) {
+        r.v[i] = a.v[i] + b.v[i];
+    }
+    return r;
 }
 
 static inline tl_f64x4 tl_f64x4_sub(tl_f64x4 a, tl_f64x4 b)
@@ -255,6 +299,11 @@ static inline double tl_f64x4_get_x(tl_f64x4 a)
 static inline double tl_f64x4_get_y(tl_f64x4 a)
 {
     return a.v[1];
+}
+
+static inline double tl_f64x4_get_z(tl_f64x4 a)
+{
+    return a.v[2];
 }
 
 static inline tl_f64x4 tl_f64x4_load(const double *four)

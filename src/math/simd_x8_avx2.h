@@ -122,6 +122,20 @@ static inline uint32_t tl_f32x8_less_bits(tl_f32x8 a, tl_f32x8 b)
     return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(less));
 }
 
+static inline tl_f32x8 tl_f32x8_where_less_bits(tl_f32x8 a, tl_f32x8 b)
+{
+    return _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_castps_si256(b), _mm256_castps_si256(a)));
+}
+
+static inline uint32_t tl_f32x8_least_bits(tl_f32x8 a)
+{
+    __m128i m = _mm_min_epi32(_mm256_castsi256_si128(_mm256_castps_si256(a)),
+                              _mm256_extracti128_si256(_mm256_castps_si256(a), 1));
+    m = _mm_min_epi32(m, _mm_shuffle_epi32(m, _MM_SHUFFLE(1, 0, 3, 2)));
+    m = _mm_min_epi32(m, _mm_shuffle_epi32(m, _MM_SHUFFLE(2, 3, 0, 1)));
+    return (uint32_t)_mm_cvtsi128_si32(m);
+}
+
 static inline tl_f32x8 tl_f32x8_and(tl_f32x8 a, tl_f32x8 b)
 {
     return _mm256_and_ps(a, b);

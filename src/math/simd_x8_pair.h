@@ -175,6 +175,22 @@ static inline uint32_t tl_f32x8_less_bits(tl_f32x8 a, tl_f32x8 b)
     return tl_f32x4_two_masks(tl_f32x4_where_less_bits(a.low, b.low), tl_f32x4_where_less_bits(a.high, b.high));
 }
 
+static inline tl_f32x8 tl_f32x8_where_less_bits(tl_f32x8 a, tl_f32x8 b)
+{
+    return tl_f32x8_join(tl_f32x4_where_less_bits(a.low, b.low), tl_f32x4_where_less_bits(a.high, b.high));
+}
+
+static inline uint32_t tl_f32x8_least_bits(tl_f32x8 a)
+{
+    tl_f32x4 least = tl_f32x4_min_bits(a.low, a.high);
+    static const uint32_t turned[4] = { 2, 3, 0, 1 }, swapped[4] = { 1, 0, 3, 2 };
+    least = tl_f32x4_min_bits(least, tl_f32x4_permute(least, turned));
+    float first = tl_f32x4_get_x(tl_f32x4_min_bits(least, tl_f32x4_permute(least, swapped)));
+    uint32_t bits;
+    memcpy(&bits, &first, sizeof bits);
+    return bits;
+}
+
 static inline void tl_f32x8_store(float *eight, tl_f32x8 a)
 {
     tl_f32x4_store(eight, a.low);

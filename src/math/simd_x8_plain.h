@@ -196,6 +196,26 @@ static inline uint32_t tl_f32x8_less_bits(tl_f32x8 a, tl_f32x8 b)
     return mask;
 }
 
+/// All ones where a[i] < b[i], as bits, else 0.
+static inline tl_f32x8 tl_f32x8_where_less_bits(tl_f32x8 a, tl_f32x8 b)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = tl_f32_of_bits(tl_f32_key(a.v[i]) < tl_f32_key(b.v[i]) ? UINT32_MAX : 0);
+    }
+    return r;
+}
+
+/// The least lane, as bits.
+static inline uint32_t tl_f32x8_least_bits(tl_f32x8 a)
+{
+    int32_t least = tl_f32_key(a.v[0]);
+    for (int i = 1; i < 8; i++) {
+        least = tl_f32_key(a.v[i]) < least ? tl_f32_key(a.v[i]) : least;
+    }
+    return (uint32_t)least;
+}
+
 static inline tl_f32x8 tl_f32x8_and(tl_f32x8 a, tl_f32x8 b)
 {
     tl_f32x8 r;

@@ -37,7 +37,8 @@ tl_result tl_moved_shape_make(const tl_convex *convex, tl_transform pose, tl_vec
     tl_vec3d half = tl_vec3d_scale(tl_vec3d_sub(high, low), 0.5);
     double size = tl_scene_size(shape_out->middle) + tl_vec3d_size(half) + tl_scene_size(pose.position);
     double wider = (double)TL_SCENE_WIDEN * (size + tl_vec3d_size(step)) + (double)FLT_MIN;
-    shape_out->half = tl_vec3d_add(half, tl_vec3d_make(wider, wider, wider));
+    half = tl_vec3d_add(half, tl_vec3d_make(wider, wider, wider));
+    shape_out->half = tl_vec3d_to_float(tl_vec3d_scale(half, 1.0 + (double)TL_FLOAT_OUTWARD));
     double x = tl_max_f64(fabs(low.x), fabs(high.x)) + fabs(step.x);
     double y = tl_max_f64(fabs(low.y), fabs(high.y)) + fabs(step.y);
     double z = tl_max_f64(fabs(low.z), fabs(high.z)) + fabs(step.z);

@@ -12,8 +12,8 @@ typedef struct tl_moved_shape {
     tl_transform pose;
     tl_aabb bounds; ///< world
     tl_vec3 middle;
-    tl_vec3d half; ///< of a box around the middle, wider than the bounds by all errors (instance_box.c)
-    double reach;  ///< metres: no coordinate of the moving shape is larger
+    tl_vec3 half; ///< of a box around the middle, wider than the bounds by all errors (instance_box.c)
+    double reach; ///< metres: no coordinate of the moving shape is larger
 } tl_moved_shape;
 
 /// TL_ERR_NOT_FINITE (pose, motion, or a shape that has no finite box), TL_ERR_ARGUMENT (a radius that is negative or

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // The top-level BVH (TLAS) over the boxes of the instances: built from the top down by the surface area heuristic with
-// bins of centroids, eight children a node.
+// bins of centroids, sixteen children a node.
 //
-// A node's range of instances is split, and of its parts the one with the largest surface again, until there are eight,
-// or none holds more than eight instances. Parts that fit into the free lanes are put there instance by instance. So
-// the last three levels of a binary tree, half of its work, are never built, and nodes are full: a visit costs the same
-// for two boxes as for eight.
+// A node's range of instances is split, and of its parts the one with the largest surface again, until there are
+// sixteen, or none holds more than sixteen instances. Parts that fit into the free lanes are put there instance by
+// instance. So the last four levels of a binary tree, half of its work, are never built, and nodes are full: a visit
+// costs the same for two boxes as for sixteen.
 //
 // Below a depth that costs never reach in practice the largest part is halved instead, which bounds a walk's stack for
 // any instances.
@@ -341,9 +341,9 @@ tl_result tl_scene_bake(const tl_scene_instance *instances, uint32_t count, cons
     const tl_allocator *allocator = host != NULL ? host->allocator : NULL;
     tl_arena arena;
     tl_arena_init(&arena, allocator);
-    // By induction a range of s >= 2 instances takes s / 2 + (s - 2) / 14 nodes at most: the worst are eight parts of
+    // By induction a range of s >= 2 instances takes s / 2 + (s - 2) / 30 nodes at most: the worst are sixteen parts of
     // two.
-    uint64_t max_nodes = (uint64_t)count / 2 + count / 14 + 1;
+    uint64_t max_nodes = (uint64_t)count / 2 + count / 30 + 1;
     scene_build b = { TL_PUSH(&arena, instance_ref, count), TL_PUSH(&arena, tl_scene_record, count),
                       TL_PUSH(&arena, scene_build_node, max_nodes), 0, 0 };
     tl_result result = TL_ERR_MEMORY;

@@ -125,7 +125,7 @@ static bool visit_by_shape(tl_scene_line *line, uint32_t instance)
         is_better_hit(s, &hit, instance)) {
         s->hit->hit = hit;
         s->instance = instance;
-        tl_scene_line_shorten(line, (double)hit.t);
+        tl_scene_line_shorten(line, hit.t);
     }
     return true;
 }
@@ -146,8 +146,13 @@ tl_result tl_scene_cast_shape(const tl_scene *scene, const tl_scene_instance *in
     tl_scene_shape_hit hit;
     scene_sweep s = { instances, tl_scene_records(scene),         filter, &moved,
                       motion,    WORLD_TOUCH_SHARE * moved.reach, &hit,   TL_NO_INSTANCE };
-    tl_scene_line line = { .instances = instances, .visit = visit_by_shape, .user = &s };
-    tl_scene_line_make(&line, scene, tl_scene_mask(filter), moved.middle, motion, moved.half, 1.0);
+    tl_scene_line line;
+    tl_scene_line_make(&line, scene, tl_scene_mask(filter), moved.middle, motion, 1.0f);
+    line.half = moved.half;
+    line.kind = TL_SCENE_LINE_OTHER;
+    line.any = false;
+    line.visit = visit_by_shape;
+    line.user = &s;
     tl_scene_line_walk(&line);
     if (s.instance == TL_NO_INSTANCE) {
         return TL_NOT_FOUND;

@@ -48,12 +48,24 @@ static float largest_of_eight(const float *eight)
     return tl_maxf(a, tl_maxf(tl_maxf(eight[4], eight[5]), tl_maxf(eight[6], eight[7])));
 }
 
+static_assert(TL_SCENE_WIDTH == 16, "lanes of min_of_lanes");
+
+static float min_of_lanes(const float *lanes)
+{
+    return tl_minf(min_of_eight(lanes), min_of_eight(lanes + 8));
+}
+
+static float largest_of_lanes(const float *lanes)
+{
+    return tl_maxf(largest_of_eight(lanes), largest_of_eight(lanes + 8));
+}
+
 // Around all children.
 static tl_aabb box_of_children(const tl_scene_node *node, uint32_t *mask_out)
 {
-    tl_aabb box = { { min_of_eight(node->plane[0]), min_of_eight(node->plane[2]), min_of_eight(node->plane[4]) },
-                    { largest_of_eight(node->plane[1]), largest_of_eight(node->plane[3]),
-                      largest_of_eight(node->plane[5]) } };
+    tl_aabb box = { { min_of_lanes(node->plane[0]), min_of_lanes(node->plane[2]), min_of_lanes(node->plane[4]) },
+                    { largest_of_lanes(node->plane[1]), largest_of_lanes(node->plane[3]),
+                      largest_of_lanes(node->plane[5]) } };
     *mask_out = 0;
     for (uint32_t i = 0; i < TL_SCENE_WIDTH; i++) {
         *mask_out |= node->mask[i];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The bytes of a scene: a record an instance, and nodes of eight boxes, breadth first, so that children lie behind
-// their parents. A node is four cache lines: planes, children, and the mask of all instances below each child, so that
-// a query skips subtrees that it ignores.
+// The bytes of a scene: a record an instance, and nodes of sixteen boxes, breadth first, so that children lie
+// behind their parents. A node is eight cache lines: planes, children, and the mask of all instances below each child,
+// so that a query skips subtrees that it ignores.
 
 #ifndef TALUS_SRC_SCENE_SCENE_LAYOUT_H
 #define TALUS_SRC_SCENE_SCENE_LAYOUT_H
@@ -11,14 +11,14 @@
 
 #include <talus/scene.h>
 
-enum { TL_SCENE_WIDTH = 8 };
+enum { TL_SCENE_WIDTH = 16 };
 
 /// In a child word: the rest is the index of an instance. Else it is that of a node; 0 is no child, since the root is
 /// nobody's child.
 #define TL_CHILD_INSTANCE 0x80000000u
 
-/// Nodes on the longest path: levels whose splits the costs choose, and log8 of the largest number of instances.
-enum { TL_SCENE_COST_DEPTH = 24, TL_SCENE_MAX_DEPTH = TL_SCENE_COST_DEPTH + 11 };
+/// Nodes on the longest path: levels whose splits the costs choose, and log16 of the largest number of instances.
+enum { TL_SCENE_COST_DEPTH = 24, TL_SCENE_MAX_DEPTH = TL_SCENE_COST_DEPTH + 8 };
 
 /// Each node on the path leaves all but one of its children on the stack.
 enum { TL_SCENE_STACK_SIZE = (TL_SCENE_WIDTH - 1) * TL_SCENE_MAX_DEPTH + TL_SCENE_WIDTH };

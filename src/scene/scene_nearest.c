@@ -39,7 +39,7 @@ static void set_scene_limit(scene_nearest_search *s, float distance)
     s->limit_key = distance * distance * (1.0f + TL_FLOAT_GAMMA(2)) + FLT_MIN;
 }
 
-// Lower bounds of the squared distances to eight boxes.
+// Lower bounds of the squared distances to sixteen boxes.
 static void measure_boxes(const scene_nearest_search *s, const tl_scene_node *node, float keys[TL_SCENE_WIDTH])
 {
     for (uint32_t i = 0; i < TL_SCENE_WIDTH; i++) {

@@ -96,8 +96,13 @@ static tl_vec3 no_motion(void)
 
 static bool walk_overlaps(scene_overlap_search *s, const tl_scene *scene, tl_scene_visit_fn *visit)
 {
-    tl_scene_line line = { .instances = s->instances, .visit = visit, .user = s, .any = true };
-    tl_scene_line_make(&line, scene, tl_scene_mask(s->filter), s->shape->middle, no_motion(), s->shape->half, 1.0);
+    tl_scene_line line;
+    tl_scene_line_make(&line, scene, tl_scene_mask(s->filter), s->shape->middle, no_motion(), 1.0f);
+    line.half = s->shape->half;
+    line.kind = TL_SCENE_LINE_OTHER;
+    line.any = true;
+    line.visit = visit;
+    line.user = s;
     return tl_scene_line_walk(&line);
 }
 

@@ -19,7 +19,10 @@
 #define TALUS_SRC_SCENE_SCENE_WALK_H
 
 #include "base/cpu.h"
+#include "math/tolerance.h"
 #include "scene/scene_layout.h"
+
+#include <float.h>
 
 typedef struct tl_scene_line tl_scene_line;
 
@@ -30,32 +33,48 @@ typedef bool tl_scene_visit_fn(tl_scene_line *line, uint32_t instance);
 /// Walks the BVH, compiled once per instruction set. False when a visit ended it.
 typedef bool tl_scene_walk_fn(tl_scene_line *line);
 
+/// What the line belongs to: visits of rays and sight are compiled into the walk, others are called.
+typedef enum tl_scene_line_kind { TL_SCENE_LINE_OTHER, TL_SCENE_LINE_RAY, TL_SCENE_LINE_SIGHT } tl_scene_line_kind;
+
 struct tl_scene_line {
     const tl_scene *scene;
-    const tl_scene_instance *instances;
     tl_scene_walk_fn *walk;
-    tl_scene_visit_fn *visit;
-    void *user;
-    uint32_t mask; ///< mask bits of instances that count
-    bool any;      ///< nearest first does not matter
-    bool every;    ///< out of range for float filters: every instance is visited, in order
+    tl_scene_line_kind kind;
+    tl_scene_visit_fn *visit; ///< of TL_SCENE_LINE_OTHER
+    void *user;               ///< of rays and sight: tl_scene_ray_search
+    uint32_t mask;            ///< mask bits of instances that count
+    bool any;                 ///< nearest first does not matter
+    tl_vec3 from, direction;  ///< the middle and its motion: for t from 0 to `limit`
+    tl_vec3 half;             ///< extents around the middle
+    float limit;              ///< boxes entered later are skipped: t, and in a walk a time of the unit line
 
-    // Plane p of axis i is met at p * scale[i] + near_base[i] at the earliest, and with far_base at the latest.
-    float scale[3];
-    float near_base[3];
-    float far_base[3];
+    // Filled by the walk. Plane p of axis i is met at p * scale[i] + near_base[i] at the earliest, and with far_base at
+    // the latest.
+    _Alignas(16) float scale[4];
+    float near_base[4];
+    float far_base[4];
     uint32_t backward; ///< bit i: it runs down along axis i, so it enters a box by its max plane
-    float limit;       ///< boxes entered later are skipped
-    double per_t;      ///< times of the unit line per t
+    float per_t;       ///< times of the unit line per t
+    float longest;     ///< no part of the line within the scene's box is longer
+    bool is_usual;     ///< neither tiny nor huge: instances' own boxes may be tested
 };
 
-/// Fills the line of `from + t * direction`, all finite, and `half` extents around it, for t up to `limit`. The caller
-/// sets `user`, `any`, `visit` and `instances`. A zero direction does not move.
+/// Sets the line of `from + t * direction`, all finite, for t up to `limit`. A zero direction does not move. The caller
+/// sets `kind`, `any` and `user`, and where they are needed `half`, which is zero, and `visit`.
 void tl_scene_line_make(tl_scene_line *line, const tl_scene *scene, uint32_t mask, tl_vec3 from, tl_vec3 direction,
-                        tl_vec3d half, double limit);
+                        float limit);
 
-/// Shortens the line to end at t.
-void tl_scene_line_shorten(tl_scene_line *line, double t);
+/// The time of the unit line beyond which there is no t or less, both rounded.
+static inline float tl_scene_line_time(const tl_scene_line *line, float t)
+{
+    return t * line->per_t * (1.0f + 8.0f * TL_FLOAT_ROUNDING) + FLT_MIN;
+}
+
+/// Shortens the line to end at t, during a walk.
+static inline void tl_scene_line_shorten(tl_scene_line *line, float t)
+{
+    line->limit = tl_scene_line_time(line, t);
+}
 
 /// Visits the instances whose boxes the line meets. False when a visit ended it.
 bool tl_scene_line_walk(tl_scene_line *line);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The walk for AVX2 with FMA: eight boxes in one register.
+// The walk for AVX2 with FMA: sixteen boxes in two registers.
 
 #include "base/cpu.h"
 

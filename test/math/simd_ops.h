@@ -9,7 +9,7 @@
 
 #include <stdint.h>
 
-enum { SIMD_LANES = 16, SIMD_MAX_OUTPUTS = 128 };
+enum { SIMD_LANES = 16, SIMD_MAX_OUTPUTS = 160 };
 
 typedef struct simd_input {
     float a[SIMD_LANES], b[SIMD_LANES], c[SIMD_LANES], d[SIMD_LANES];

@@ -121,6 +121,8 @@ static void run_x8(const simd_input *in, simd_output **out)
     put_x8(out, "f32x8_min_bits", SIMD_EXACT, tl_f32x8_min_bits(a, b));
     put_x8(out, "f32x8_max_bits", SIMD_EXACT, tl_f32x8_max_bits(a, b));
     put_bits(out, "f32x8_less_bits", tl_f32x8_less_bits(a, b));
+    put_x8(out, "f32x8_where_less_bits", SIMD_EXACT, tl_f32x8_where_less_bits(a, b));
+    put_bits(out, "f32x8_least_bits", tl_f32x8_least_bits(a));
     put_x8(out, "f32x8_and", SIMD_EXACT, tl_f32x8_and(a, b));
     put_x8(out, "f32x8_or", SIMD_EXACT, tl_f32x8_or(a, b));
     put_bits(out, "f32x8_signs", tl_f32x8_signs(a));
@@ -149,6 +151,10 @@ static void run_x16(const simd_input *in, simd_output **out)
     put_x16(out, "f32x16_min_bits", SIMD_EXACT, tl_f32x16_min_bits(a, b));
     put_x16(out, "f32x16_max_bits", SIMD_EXACT, tl_f32x16_max_bits(a, b));
     put_bits(out, "f32x16_less_equal_bits", tl_f32x16_less_equal_bits(a, b));
+    put_x16(out, "f32x16_where_less_bits", SIMD_EXACT, tl_f32x16_where_less_bits(a, b));
+    put_x16(out, "f32x16_and", SIMD_EXACT, tl_f32x16_and(a, b));
+    put_x16(out, "f32x16_or", SIMD_EXACT, tl_f32x16_or(a, b));
+    put_bits(out, "f32x16_least_bits", tl_f32x16_least_bits(a));
     put_x16(out, "f32x16_add", SIMD_NUMBER_32, tl_f32x16_add(a, b));
     put_x16(out, "f32x16_sub", SIMD_NUMBER_32, tl_f32x16_sub(a, b));
     put_x16(out, "f32x16_mul", SIMD_NUMBER_32, tl_f32x16_mul(a, b));
@@ -184,6 +190,7 @@ static void run_f64x4(const simd_input *in, simd_output **out)
     put_f64x4(out, "f64x4_from_floats", a);
     put_f64x4(out, "f64x4_all", tl_f64x4_all(in->p[0]));
     put_f64x4(out, "f64x4_gather_three", tl_f64x4_gather_three(in->a + 1, 5));
+    put_f64x4(out, "f64x4_add", tl_f64x4_add(a, b));
     put_f64x4(out, "f64x4_sub", tl_f64x4_sub(a, b));
     put_f64x4(out, "f64x4_mul", tl_f64x4_mul(a, b));
     put_f64x4(out, "f64x4_rotate_three", tl_f64x4_rotate_three(a));
@@ -192,6 +199,8 @@ static void run_f64x4(const simd_input *in, simd_output **out)
     put_f64(out, "f64x4_sum", tl_f64x4_sum(a));
     put_f64(out, "f64x4_get_x", tl_f64x4_get_x(a));
     put_f64(out, "f64x4_get_y", tl_f64x4_get_y(a));
+    put_f64(out, "f64x4_get_z", tl_f64x4_get_z(a));
+    put_x4(out, "f64x4_to_floats", SIMD_NUMBER_32, tl_f64x4_to_floats(tl_f64x4_mul(a, b)));
     tl_f64x4_store_floats(next_output(out, "f64x4_store_floats", SIMD_NUMBER_32, 16)->value.f32, tl_f64x4_mul(a, b));
 }
 

@@ -347,6 +347,55 @@ static void test_nothing_slips_through(void **state)
     TEST_CHECK(rays > 10000 && worst > 0.05);
 }
 
+// Flat soups, whose own boxes have no height, turned by quarters and at random, far from the origin too: rays at their
+// corners and edges, and along their planes.
+static void test_flat_soups(void **state)
+{
+    (void)state;
+    test_random random = { 8 };
+    regimes r = { 0 };
+    model m = model_terrain(5, 0, vec(-2, 1, -2), 3);
+    tl_soup *soup = model_soup(&m, NULL);
+    for (uint32_t k = 0; k < 30; k++) {
+        float range = k % 3 == 0 ? 4.0f : k % 3 == 1 ? 1000.0f : 1e6f;
+        tl_scene_instance instances[30];
+        for (uint32_t i = 0; i < 30; i++) {
+            tl_vec3 around = tl_scale(vec(1, 1, 1), range);
+            tl_quat quarter = { 0, 0, 0, 0.7071068f };
+            *(i % 3 == 0 ? &quarter.x : i % 3 == 1 ? &quarter.y : &quarter.z) = i % 2 ? 0.7071068f : -0.7071068f;
+            tl_scene_instance instance = {
+                soup, NULL, { quarter, test_random_point(&random, tl_neg(around), around) }, 1
+            };
+            instance.pose.rotation = i % 5 == 0 ? scene_rotation(&random) : quarter;
+            instances[i] = instance;
+        }
+        tl_scene *scene = scene_build(instances, 30);
+        for (uint32_t i = 0; i < 200; i++) {
+            const tl_scene_instance *a = &instances[test_random_below(&random, 30)];
+            const tl_scene_instance *b = i % 2 ? a : &instances[test_random_below(&random, 30)];
+            tl_vec3 to = tl_vec3d_to_float(corner_out(a, m.vertices[test_random_below(&random, m.vertex_count)]));
+            tl_vec3 from = tl_vec3d_to_float(corner_out(b, m.vertices[test_random_below(&random, m.vertex_count)]));
+            from = i % 4 == 1 ? tl_mul_add(from, test_random_direction(&random), 3.0f) : from;
+            tl_ray ray = { from, tl_sub(to, from), i % 3 == 0 ? 1.0f : INFINITY };
+            tl_scene_hit expected, hit;
+            bool met = ask_all(instances, 30, &ray, NULL, &expected);
+            for (int level = 0; level < 3; level++) {
+                tl_scene_walk_fn *walk = tl_scene_walk_for(level);
+                TEST_CHECK(walk == NULL || tl_scene_cast_ray_with(walk, scene, instances, &ray, NULL, &hit) == met);
+                TEST_CHECK(walk == NULL || !met || same_hit(&hit, &expected));
+            }
+            r.hits += met;
+            r.misses += !met;
+            check_sight(scene, instances, 30, from, to, NULL, &r);
+        }
+        tl_blob_free(scene);
+    }
+    print_message("flat soups: hits %u, misses %u, blocked %u, clear %u\n", r.hits, r.misses, r.blocked, r.clear);
+    TEST_CHECK(r.hits > 1000 && r.misses > 100 && r.blocked > 1000 && r.clear > 100);
+    tl_blob_free(soup);
+    model_free(&m);
+}
+
 int main(int argc, char **argv)
 {
     if (argc > 1) {
@@ -357,6 +406,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_far_and_tiny_rays),
         cmocka_unit_test(test_identity),
         cmocka_unit_test(test_nothing_slips_through),
+        cmocka_unit_test(test_flat_soups),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
