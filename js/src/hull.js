@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 import { Handle, PRIVATE, refuseNew } from './handle.js';
-import { F64, SLOT, U8, check, copyIn, copyOut, fail, putPose, putVec3, ready, release, slotAabb, slotVec3, wasm, watched } from './module.js';
+import { F32, F64, SLOT, U8, allocate, check, copyIn, copyOut, fail, putPose, putVec3, ready, release, slotAabb, slotVec3, wasm, watched } from './module.js';
 
 const NO_VERTEX = 0xffffffff;
 
@@ -19,6 +19,8 @@ function fromResult(address) {
 }
 
 export class Hull extends Handle {
+  #parts = null; // its topology: read once, for a hull never changes
+
   constructor(key, address, free, report) {
     refuseNew(key, 'Hull');
     super(address, free);
@@ -64,17 +66,22 @@ export class Hull extends Handle {
     return { size: F64[s], vertexCount: F64[s + 1], faceCount: F64[s + 2], halfEdgeCount: F64[s + 3], vertices: F64[s + 4] };
   }
 
-  // Words as js_hull_topology writes them.
   #topology() {
+    if (this.freed) this.#parts = null;
+    this.#parts ??= this.#readTopology();
+    return this.#parts;
+  }
+
+  // Words as js_hull_topology writes them.
+  #readTopology() {
     const { vertexCount, halfEdgeCount, faceCount } = this.#info();
-    const words = new Uint32Array(2 * vertexCount + 4 * halfEdgeCount + 2 * faceCount);
-    const address = copyIn(words);
+    const edges = 2 * vertexCount, faces = edges + 4 * halfEdgeCount, length = faces + 2 * faceCount;
+    const address = allocate(4 * length);
     try {
       wasm.js_hull_topology(this._address, address);
-      const filled = copyOut(Uint32Array, address, words.length), edges = 2 * vertexCount;
-      return { vertexCount, halfEdgeCount, faceCount, sources: filled.slice(0, vertexCount),
-               vertexEdges: filled.subarray(vertexCount, edges), halfEdges: filled.subarray(edges, edges + 4 * halfEdgeCount),
-               faces: filled.subarray(edges + 4 * halfEdgeCount) };
+      const words = copyOut(Uint32Array, address, length);
+      return { faceCount, halfEdgeCount, sources: words.subarray(0, vertexCount), vertexEdges: words.subarray(vertexCount, edges),
+               halfEdges: words.subarray(edges, faces), faces: words.subarray(faces) };
     } finally {
       release(address);
     }
@@ -110,7 +117,7 @@ export class Hull extends Handle {
   }
 
   sources() {
-    return this.#topology().sources;
+    return this.#topology().sources.slice();
   }
 
   faces() {
@@ -148,12 +155,10 @@ export class Hull extends Handle {
   }
 
   supportClimb(direction, start = 0) {
-    const info = this.#info();
-    const v = copyOut(Float32Array, info.vertices, 3 * info.vertexCount);
-    const { halfEdges: half, vertexEdges: anyEdge } = this.#topology();
+    const { halfEdges: half, vertexEdges: anyEdge } = this.#topology(), info = this.#info(), first = info.vertices / 4;
     // Products of floats are exact in doubles; the sum of three is rounded twice.
     const [x, y, z] = [0, 1, 2].map((i) => Math.fround(direction[i]));
-    const height = (i) => v[3 * i] * x + v[3 * i + 1] * y + v[3 * i + 2] * z;
+    const height = (i) => F32[first + 3 * i] * x + F32[first + 3 * i + 1] * y + F32[first + 3 * i + 2] * z;
     const visited = [start < info.vertexCount ? start : 0];
     for (;;) {
       const here = visited[visited.length - 1];

@@ -250,15 +250,16 @@ export function copyIn(array) {
   return address;
 }
 
-const viewOf = new Map([
-  [Uint8Array, () => U8], [Uint16Array, () => U16], [Int16Array, () => I16], [Int32Array, () => I32],
-  [Uint32Array, () => U32], [Float32Array, () => F32], [BigUint64Array, () => U64],
-]);
+// Comparisons, not a table of functions: the engine folds them away.
+function viewOf(Type) {
+  return Type === Float32Array ? F32 : Type === Uint32Array ? U32 : Type === BigUint64Array ? U64 : Type === Uint8Array ? U8
+    : Type === Uint16Array ? U16 : Type === Int32Array ? I32 : I16;
+}
 
-/** A copy of `count` elements at an address, of the array type given. */
+/** A copy of `count` elements at an address, of the array type given; an empty one where there is no address. */
 export function copyOut(Type, address, count) {
   const first = address / Type.BYTES_PER_ELEMENT;
-  return count === 0 || address === 0 ? new Type(0) : viewOf.get(Type)().slice(first, first + count);
+  return viewOf(Type).slice(first, address === 0 ? first : first + count);
 }
 
 export const slotVec3 = (at) => [F64[SLOT + at], F64[SLOT + at + 1], F64[SLOT + at + 2]];

@@ -4,7 +4,7 @@
 
 import { argumentError } from './error.js';
 import { Navmesh } from './navmesh.js';
-import { F64, SLOT, TL_ERR_NODES, U64, check, copyOut, fail, slotVec3, wasm } from './module.js';
+import { F32, F64, SLOT, TL_ERR_NODES, U32, U64, check, fail, slotVec3, wasm } from './module.js';
 
 const START_GIVEN = 1, GOAL_GIVEN = 2, FILTERED = 4, WITH_POLYGONS = 8;
 const HALF_EXTENTS = [2, 4, 2];
@@ -60,6 +60,26 @@ function placeFlags(start, goal, options) {
   return flags;
 }
 
+// Paths are plain arrays. They are short and asked for often, and V8 keeps a typed array of more than 64 bytes outside of
+// its heap: one takes as long to make as finding a prepared path does. A function for each type, so that each stays fast.
+function floatsAt(first, count) {
+  const list = new Array(count);
+  for (let i = 0; i < count; i++) list[i] = F32[first + i];
+  return list;
+}
+
+function wordsAt(first, count) {
+  const list = new Array(count);
+  for (let i = 0; i < count; i++) list[i] = U32[first + i];
+  return list;
+}
+
+function refsAt(first, count) {
+  const list = new Array(count);
+  for (let i = 0; i < count; i++) list[i] = U64[first + i];
+  return list;
+}
+
 // Where js_find_path leaves what.
 function readPath(words) {
   const s = SLOT;
@@ -67,10 +87,10 @@ function readPath(words) {
   const complete = F64[s] !== 0;
   return {
     status: words[F64[s]],
-    corners: complete ? copyOut(Float32Array, F64[s + 17], 3 * cornerCount) : new Float32Array(0),
-    cornerPolygons: copyOut(BigUint64Array, F64[s + 16], cornerCount),
-    cornerFlags: copyOut(Uint32Array, F64[s + 18], cornerCount),
-    polygons: copyOut(BigUint64Array, F64[s + 14], F64[s + 13]),
+    corners: floatsAt(F64[s + 17] / 4, complete ? 3 * cornerCount : 0),
+    cornerPolygons: refsAt(F64[s + 16] / 8, cornerCount),
+    cornerFlags: wordsAt(F64[s + 18] / 4, cornerCount),
+    polygons: refsAt(F64[s + 14] / 8, F64[s + 13]),
     length: F64[s + 1], lowerBound: F64[s + 2], surfaceLength: F64[s + 3],
     start: readLocation(5), goal: readLocation(9), nodeCount: F64[s + 4],
   };
@@ -129,7 +149,7 @@ const methods = {
     const result = check(wasm.js_find_route(navmesh, flags, a[0], a[1], a[2], b[0], b[1], b[2], h[0], h[1], h[2]));
     if (result !== 0) return null;
     const path = readPath(PATH_STATUS);
-    return { ...path, cost: path.lowerBound, lowerBound: 0, polygons: options.polygons ? path.polygons : new BigUint64Array(0) };
+    return { ...path, cost: path.lowerBound, lowerBound: 0, polygons: options.polygons ? path.polygons : [] };
   },
 
   findWidePath(start, goal, agentRadius, options = {}) {

@@ -66,6 +66,17 @@ test('hulls', () => {
   assert.equal(Hull.bake([0, 0, 0, 1, 0, 0, 0, 0, 1], { thickness: 0.1 }).report.thickened, true);
 });
 
+test('arrays of a hull are the caller\'s own, and end with it', () => {
+  const hull = Hull.bake(cube().vertices), read = () => [hull.sources(), hull.faces().first, hull.faces().indices, hull.edges(), hull.triangles()];
+  const before = read().map((array) => [...array]);
+  for (const array of read()) array.fill(7);
+  assert.deepEqual(read().map((array) => [...array]), before);
+  hull.free();
+  for (const call of [() => hull.sources(), () => hull.faces(), () => hull.edges(), () => hull.supportClimb([1, 0, 0])]) {
+    assert.equal(errorOf(call).result, 'TL_ERR_STALE');
+  }
+});
+
 test('the climb ends where the support is', () => {
   const random = randomNumbers(7), points = Float32Array.from({ length: 900 }, () => random() - 0.5);
   const hull = Hull.bake(points), v = hull.vertices();
