@@ -177,13 +177,14 @@ lint:
 	tools/setup lint
 	tools/lint
 
-# The modules of the npm package, built by Debian's Emscripten: js/dist/talus.wasm, talus-simd.wasm and talus-queries.wasm.
+# The modules of the npm package, built by Debian's Emscripten: js/dist/talus.wasm, talus-simd.wasm, talus-threads.wasm and
+# talus-queries.wasm.
 wasm:
 	tools/setup web
 	emcmake cmake -S wasm -B build/wasm -G Ninja -DTALUS_WERROR=$(WERROR) >/dev/null
 	cmake --build build/wasm --parallel $(JOBS)
 	mkdir -p js/dist
-	cp build/wasm/talus.wasm build/wasm/talus-simd.wasm build/wasm/talus-queries.wasm js/dist/
+	cp build/wasm/talus*.wasm js/dist/
 
 # The package's tests; bytes are compared with those of the command.
 js-test: wasm all

@@ -41,6 +41,7 @@ tl_nav_crowd *TL_JS_FULL_EXPORT(js_crowd_create)(void)
     def.neighbor_distance = tl_js_f32(count);
     def.agent_horizon = tl_js_f32(count + 1);
     def.wall_horizon = tl_js_f32(count + 2);
+    def.host = *tl_js_host();
     tl_nav_crowd *crowd = NULL;
     tl_js_put(0, tl_nav_crowd_create(&def, &crowd, &tl_js_report));
     return crowd;

@@ -4,6 +4,8 @@
 
 #include "js_slot.h"
 
+#include "js_threads.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,7 +29,10 @@ static bool update_progress(const char *stage, uint64_t done, uint64_t total, vo
 const tl_host *tl_js_host(void)
 {
     static const tl_progress progress = { update_progress, NULL };
-    static const tl_host host = { NULL, NULL, &progress };
+    static tl_host host;
+    host.allocator = tl_js_allocator();
+    host.tasks = tl_js_tasks();
+    host.progress = &progress;
     return &host;
 }
 

@@ -5,7 +5,8 @@
 // answer from the same place. A float, a 32-bit integer and a size below 2^53 are exact doubles; references are written
 // as the 64 bits that they are.
 //
-// No two calls run at once: the module has one thread. So the slot, the filters and the report are static.
+// No two calls run at once: JavaScript calls from one thread, and others only run the library's tasks (js_threads.h).
+// So the slot, the filters and the report are static.
 
 #ifndef TALUS_WASM_JS_SLOT_H
 #define TALUS_WASM_JS_SLOT_H
@@ -31,7 +32,7 @@ extern tl_report tl_js_report;
 /// The filter that JavaScript set last, for polygons.
 extern tl_nav_filter tl_js_nav_filter;
 
-/// A host whose progress goes to JavaScript.
+/// A host whose progress goes to JavaScript, and whose tasks run on the module's threads.
 const tl_host *tl_js_host(void);
 
 /// Slot entries as what they stand for.

@@ -28,6 +28,12 @@ tl_ray *TL_JS_EXPORT(js_batch_room)(uint32_t count)
     return size > SIZE_MAX ? NULL : tl_js_buffer_room((size_t)size);
 }
 
+// A filter's function is JavaScript's, which other threads cannot call.
+static const tl_host *host_of(const tl_ray_filter *filter)
+{
+    return filter == NULL || filter->accept == NULL ? tl_js_host() : NULL;
+}
+
 static tl_ray_hit *hits_of(void *room, uint32_t count)
 {
     return (tl_ray_hit *)(void *)((tl_ray *)room + count);
@@ -61,7 +67,7 @@ static float *spread_hits(const tl_ray_hit *hits, uint32_t count)
 float *TL_JS_EXPORT(js_soup_cast_rays)(const tl_soup *soup, tl_ray *rays, uint32_t count, const tl_ray_filter *filter)
 {
     tl_ray_hit *hits = hits_of(rays, count);
-    tl_soup_cast_rays(soup, rays, count, filter, NULL, hits);
+    tl_soup_cast_rays(soup, rays, count, filter, host_of(filter), hits);
     return spread_hits(hits, count);
 }
 
@@ -70,7 +76,7 @@ float *TL_JS_EXPORT(js_soup_cast_segments)(const tl_soup *soup, tl_segment *segm
                                            const tl_ray_filter *filter)
 {
     tl_ray_hit *hits = hits_of(segments, count);
-    tl_soup_cast_segments(soup, segments, count, filter, NULL, hits);
+    tl_soup_cast_segments(soup, segments, count, filter, host_of(filter), hits);
     return spread_hits(hits, count);
 }
 
@@ -79,7 +85,7 @@ bool *TL_JS_EXPORT(js_soup_occluded_rays)(const tl_soup *soup, tl_ray *rays, uin
                                           const tl_ray_filter *filter)
 {
     bool *occluded = (bool *)hits_of(rays, count);
-    tl_soup_occluded_rays(soup, rays, count, filter, NULL, occluded);
+    tl_soup_occluded_rays(soup, rays, count, filter, host_of(filter), occluded);
     return occluded;
 }
 
@@ -88,6 +94,6 @@ bool *TL_JS_EXPORT(js_soup_lines_of_sight)(const tl_soup *soup, tl_segment *segm
                                            const tl_ray_filter *filter)
 {
     bool *clear = (bool *)hits_of(segments, count);
-    tl_soup_lines_of_sight(soup, segments, count, filter, NULL, clear);
+    tl_soup_lines_of_sight(soup, segments, count, filter, host_of(filter), clear);
     return clear;
 }

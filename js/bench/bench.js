@@ -3,6 +3,7 @@
 // JavaScript peers in node: rays one call each (three-mesh-bvh, Rapier), batches in no order and of a camera, bakes
 // (recast-navigation), paths (recast-navigation, navcat). Warmed, alternated, medians; answers are compared first. Figures
 // are times as fast as the peer: above 1 talus is faster. Levels: two built-in ones, and the OBJ files named as arguments.
+// TALUS_THREADS=2 gives talus threads, which no peer has; TALUS_SCALAR=1 takes SIMD away.
 
 import RAPIER from '@dimforge/rapier3d-compat';
 import { DEFAULT_QUERY_FILTER, findPath } from 'navcat';
@@ -13,7 +14,7 @@ import { NavMeshQuery, init as initRecast } from 'recast-navigation';
 import { generateSoloNavMesh as recastBake } from 'recast-navigation/generators';
 import * as THREE from 'three';
 import { MeshBVH } from 'three-mesh-bvh';
-import { Mesh, Navmesh, Soup, hasSimd, init, sampleLevel } from '../src/index.js';
+import { Mesh, Navmesh, Soup, hasSimd, init, sampleLevel, threads } from '../src/index.js';
 
 const RAYS = 20000, PAIRS = 400, ROUNDS = 5;
 const ratios = new Map();
@@ -197,10 +198,10 @@ function readObj(path) {
   return new Mesh(vertices, indices);
 }
 
-await init({ simd: !process.env.TALUS_SCALAR });
+await init({ simd: !process.env.TALUS_SCALAR, threads: Number(process.env.TALUS_THREADS ?? 1) });
 await RAPIER.init();
 await initRecast();
-console.log(`talus ${hasSimd() ? 'with' : 'without'} SIMD, node ${process.version}; times as fast as the peer`);
+console.log(`talus ${hasSimd() ? 'with' : 'without'} SIMD, threads: ${threads().count}, node ${process.version}; times as fast as the peer`);
 const levels = [['courtyard', sampleLevel('courtyard')], ['dungeon', sampleLevel('dungeon')],
                 ...process.argv.slice(2).map((path) => [basename(path), readObj(path)])];
 for (const [name, mesh] of levels) {

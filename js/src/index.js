@@ -2,7 +2,7 @@
 //
 // The package. Types, units and errors: index.d.ts.
 
-export { init, isReady, hasBakes, hasSimd, version, memoryBytes } from './module.js';
+export { init, isReady, hasBakes, hasSimd, threads, version, memoryBytes } from './module.js';
 export { TalusError } from './error.js';
 export { Mesh, sampleLevel, sampleLevels } from './mesh.js';
 export { Soup } from './soup.js';

@@ -4,6 +4,7 @@
 // read `wasm`, `F64` and so on as they stand: after a call that may allocate, a view kept from before it is detached.
 
 import { TalusError, argumentError, resultError } from './error.js';
+import { sharedMemory, startThreads, whyNoThreads } from './threads.js';
 
 /** The exports. Null before init. */
 export let wasm = null;
@@ -11,7 +12,9 @@ export let U8, U16, I16, I32, U32, F32, F64, U64;
 /** Index of the slot in F64 and U64; see wasm/js_slot.h. */
 export let SLOT = 0;
 
+let memory = null;
 let simdLoaded = false;
+let running = { count: 0, reason: null };
 let loading = null;
 
 // What a listener threw during a call, and who listens.
@@ -20,7 +23,7 @@ let progressListener = null;
 let acceptFunction = null;
 
 function refreshViews() {
-  const buffer = wasm.memory.buffer;
+  const buffer = memory.buffer;
   U8 = new Uint8Array(buffer);
   U16 = new Uint16Array(buffer);
   I16 = new Int16Array(buffer);
@@ -75,15 +78,32 @@ function ownSource(part, simd) {
   return new URL('../dist/talus-simd.wasm', import.meta.url);
 }
 
+const isChoice = (given) => typeof given === 'object' && given !== null && 'simd' in given && 'scalar' in given;
+
+/** Why the module with threads is not the one to load; null: it is. */
+function whyOneThread({ wasm: given, part }, simd) {
+  if (part === 'queries') return "the module of queries has one thread: leave part: 'queries' out";
+  if (!simd) return 'the module with threads needs SIMD, which the engine lacks or `simd: false` forbids';
+  const missing = given && !(isChoice(given) && given.threads);
+  return whyNoThreads() ?? (missing ? 'wasm names no module with threads: give { simd, scalar, threads }' : null);
+}
+
 function chooseSource(options) {
   const simd = options.simd !== false && WebAssembly.validate(SIMD_PROBE);
-  const given = options.wasm, part = options.part ?? 'full';
+  const given = options.wasm ?? null, part = options.part ?? 'full', threads = options.threads ?? 1;
   if (part !== 'full' && part !== 'queries') throw argumentError('part', "'full' or 'queries'");
-  if (given === undefined || given === null) return { source: ownSource(part, simd), simd };
-  if (typeof given === 'object' && 'simd' in given && 'scalar' in given) {
-    return { source: simd ? given.simd : given.scalar, simd };
+  if (!Number.isInteger(threads) || threads < 1 || threads > 64) throw argumentError('threads', 'give 1 to 64');
+  let shared = null;
+  if (threads > 1) {
+    running.reason = whyOneThread(options, simd);
+    if (running.reason === null) {
+      shared = sharedMemory();
+      if (shared === null) running.reason = 'there is no room for memory that threads share';
+    }
   }
-  return { source: given, simd: null };
+  if (shared !== null) return { source: given?.threads ?? new URL('../dist/talus-threads.wasm', import.meta.url), simd, shared };
+  if (given === null) return { source: ownSource(part, simd), simd, shared };
+  return isChoice(given) ? { source: simd ? given.simd : given.scalar, simd, shared } : { source: given, simd: null, shared };
 }
 
 async function fetchModule(source) {
@@ -117,14 +137,24 @@ async function load(options) {
   if (typeof WebAssembly !== 'object') {
     throw new TalusError('TL_ERR_UNSUPPORTED', 'this engine has no WebAssembly');
   }
-  const { source, simd } = chooseSource(options);
+  running = { count: 1, reason: null };
+  const { source, simd, shared } = chooseSource(options);
   const module = await fetchModule(source);
-  const instance = await WebAssembly.instantiate(module, imports);
-  wasm = hasBakesIn(instance.exports) ? instance.exports : explained(instance.exports);
+  if (shared !== null) imports.env.memory = shared;
+  const { exports } = await WebAssembly.instantiate(module, imports);
+  memory = shared ?? exports.memory;
+  wasm = hasBakesIn(exports) ? exports : explained(exports);
   simdLoaded = simd ?? wasm.js_has_simd() !== 0;
   refreshViews();
   wasm._initialize?.();
   SLOT = wasm.js_slot_address() / 8;
+  if (shared === null) return;
+  try {
+    await startThreads(exports, module, shared, options.threads, options.createThread);
+    running.count = options.threads;
+  } catch (error) {
+    running.reason = `a thread could not be started: ${error.message}`;
+  }
 }
 
 export function init(options = {}) {
@@ -136,6 +166,7 @@ export function init(options = {}) {
 }
 
 export const isReady = () => wasm !== null;
+export const threads = () => ({ ...running });
 export const hasSimd = () => wasm !== null && simdLoaded;
 
 const hasBakesIn = (exports) => 'js_navmesh_bake' in exports;
@@ -146,7 +177,8 @@ export function version() {
 }
 
 export function memoryBytes() {
-  return ready().memory.buffer.byteLength;
+  ready();
+  return memory.buffer.byteLength;
 }
 
 /** The exports, or an error that says what is missing. */
@@ -155,12 +187,10 @@ export function ready() {
   return wasm;
 }
 
-/** A zero-terminated string; null for address 0. */
+/** A zero-terminated string; null for address 0. A copy is decoded: browsers refuse to decode memory that threads share. */
 export function readString(address) {
   if (address === 0) return null;
-  let end = address;
-  while (U8[end] !== 0) end++;
-  return new TextDecoder().decode(U8.subarray(address, end));
+  return new TextDecoder().decode(U8.slice(address, U8.indexOf(0, address)));
 }
 
 // --------------------------------------------------------------------------------------------------------

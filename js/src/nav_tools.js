@@ -7,7 +7,7 @@ import { withInput } from './mesh.js';
 import { Navmesh } from './navmesh.js';
 import { NAV_DEF_NUMBERS, readNavOptions, shortest } from './nav_options.js';
 import { putOffMeshLink } from './nav_change.js';
-import { F32, F64, SLOT, TL_ERR_MEMORY, U32, U64, U8, check, copyIn, copyOut, fail, putVec3, ready, release, slotAabb, slotVec3, wasm, watched } from './module.js';
+import { F32, F64, SLOT, TL_ERR_MEMORY, U32, U64, U8, check, copyIn, copyOut, fail, putVec3, readString, ready, release, slotAabb, slotVec3, wasm, watched } from './module.js';
 
 const NONE = 0xffffffff;
 const KINDS = ['drop', 'jump', 'climb'];
@@ -75,22 +75,16 @@ export function jumpLinkPoint(link, t) {
 }
 
 function readReason(at) {
-  const s = SLOT + at, name = readStringAt(s + 1);
-  const option = readStringAt(s + 4);
+  const s = SLOT + at, name = readString(F64[s + 1]);
+  const option = readString(F64[s + 4]);
   const triangle = F64[s + 8];
-  return { cause: CAUSES[F64[s]], name, text: readStringAt(s + 2), stage: readStringAt(s + 3),
+  return { cause: CAUSES[F64[s]], name, text: readString(F64[s + 2]), stage: readString(F64[s + 3]),
            option: option === null ? null : camelCase(option), value: shortest(F64[s + 5]), needed: shortest(F64[s + 6]),
            measured: F64[s + 7], triangle: triangle === NONE ? null : triangle };
 }
 
 const CAUSES = ['none', 'outside', 'no floor', 'slope', 'area input', 'ledge', 'ceiling', 'radius', 'volume', 'island', 'outline', 'changed', 'pruned'];
 const FINDINGS = ['blocked', 'step', 'no floor', 'missing'];
-
-function readStringAt(index) {
-  const address = F64[index];
-  if (address === 0) return null;
-  return new TextDecoder().decode(U8.subarray(address, U8.indexOf(0, address)));
-}
 
 function readFinding(index) {
   wasm.js_audit_finding(index);

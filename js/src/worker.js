@@ -48,6 +48,7 @@ export class TalusWorker {
   #job = null;    // the one under way: { resolve, reject, onProgress }
   #turn = Promise.resolve();
   #waiting = new Set(); // reject functions of what waits for its turn
+  #threads = null;
 
   constructor(options = {}) {
     ready();
@@ -61,12 +62,17 @@ export class TalusWorker {
       this.#job?.reject(error);
     };
     listen(worker, (message) => this.#take(message), lost);
-    const { wasm, simd } = this.#options;
-    worker.postMessage({ init: { wasm: wasm instanceof URL ? wasm.href : wasm, simd } });
+    const { wasm, simd, threads } = this.#options;
+    worker.postMessage({ init: { wasm: wasm instanceof URL ? wasm.href : wasm, simd, threads } });
     return worker;
   }
 
+  get threads() {
+    return this.#threads;
+  }
+
   #take(message) {
+    if (message.threads) this.#threads = message.threads;
     const job = this.#job;
     if (job === null) return;
     if (message.progress) {
@@ -78,7 +84,7 @@ export class TalusWorker {
     } else if (message.error) {
       job.reject(message.error.result ? new TalusError(message.error.result, message.error.message, message.error)
                                       : new Error(message.error.message));
-    } else {
+    } else if ('value' in message) {
       job.resolve(message.value);
     }
   }

@@ -10,7 +10,7 @@ import './nav_change.js';
 import { linksBytes } from './nav_tools.js';
 import { Soup } from './soup.js';
 import { bakeStages, polygonSteps } from './stages.js';
-import { init } from './module.js';
+import { init, threads } from './module.js';
 
 const meshOf = ({ vertices, indices, materials }) => new Mesh(vertices, indices, materials);
 
@@ -61,7 +61,7 @@ let started = null;
 
 async function answer(message, post) {
   if (message.init) {
-    started = init(message.init);
+    started = init(message.init).then(() => post({ threads: threads() }));
     started.catch(() => {}); // told by the first task
     return;
   }

@@ -19,7 +19,7 @@ installPackage(folder);
 test('the tarball holds the modules, the types and nothing of the tests', () => {
   const packed = join(folder, 'node_modules/talus');
   assert.deepEqual(readdirSync(packed).sort(), ['LICENSE', 'README.md', 'dist', 'package.json', 'src']);
-  assert.deepEqual(readdirSync(join(packed, 'dist')).sort(), ['talus-queries.wasm', 'talus-simd.wasm', 'talus.wasm']);
+  assert.deepEqual(readdirSync(join(packed, 'dist')).sort(), ['talus-queries.wasm', 'talus-simd.wasm', 'talus-threads.wasm', 'talus.wasm']);
 });
 
 test('the module of queries is a small download', () => {

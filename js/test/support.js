@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests share: the module, with SIMD or (TALUS_SCALAR=1) without, and a level.
+// What the tests share: the module, with SIMD or (TALUS_SCALAR=1) without, with one thread or (TALUS_THREADS=4) more, and
+// a level.
 
 import { Mesh, Navmesh, Soup, init, sampleLevel } from '../src/index.js';
 
 export { errorOf } from './errors.js';
 
-await init({ simd: !process.env.TALUS_SCALAR });
+await init({ simd: !process.env.TALUS_SCALAR, threads: Number(process.env.TALUS_THREADS ?? 1) });
 
 /** A floor 10 m square, two triangles, facing up. */
 export const floor = () => new Mesh([-5, 0, -5, -5, 0, 5, 5, 0, 5, 5, 0, -5], [0, 1, 2, 0, 2, 3]);

@@ -27,11 +27,12 @@ export type WasmSource = string | URL | Request | Response | ArrayBuffer | Uint8
 
 export interface InitOptions {
   /**
-   * The module, or how to choose it. By default the two files of the package, `dist/talus.wasm` and
-   * `dist/talus-simd.wasm`, beside the sources: the one with SIMD where the engine has it. Give both where a bundler or
-   * a server has them elsewhere; a single source is taken as it is.
+   * The module, or how to choose it. By default the files of the package, `dist/talus.wasm`, `dist/talus-simd.wasm` and
+   * `dist/talus-threads.wasm`, beside the sources: the one with SIMD where the engine has it, and the one with threads
+   * where they are asked for. Give all where a bundler or a server has them elsewhere; a single source is taken as it is,
+   * and has one thread.
    */
-  wasm?: WasmSource | { simd: WasmSource; scalar: WasmSource };
+  wasm?: WasmSource | { simd: WasmSource; scalar: WasmSource; threads?: WasmSource };
   /** False: the module without SIMD, also where the engine has it. */
   simd?: boolean;
   /**
@@ -42,6 +43,22 @@ export interface InitOptions {
    * without SIMD get the full module. Default 'full'. Ignored where `wasm` is given.
    */
   part?: 'full' | 'queries';
+  /**
+   * Threads that bakes, audits, crowds and batches of rays run on, the caller's among them: 1 (the default) to 64. More
+   * than one take a page that is cross-origin isolated (`crossOriginIsolated`), or node; where they cannot be had all
+   * runs on one, and `threads()` says why. The same bytes and answers with any number.
+   */
+  threads?: number;
+  /** Makes a thread's worker, for bundlers that want to see `new Worker(...)`; runs `talus/thread-entry`. */
+  createThread?: () => Worker;
+}
+
+/** The threads of the module that was loaded. */
+export interface Threads {
+  /** With the caller's; 0 before `init` has begun. */
+  count: number;
+  /** Why there are fewer than were asked for; null where there are as many. */
+  reason: string | null;
 }
 
 /**
@@ -58,6 +75,8 @@ export function version(): string;
 export function hasSimd(): boolean;
 /** Whether the module that was loaded bakes: not that of `part: 'queries'`. */
 export function hasBakes(): boolean;
+/** How many threads there are, and why no more. */
+export function threads(): Threads;
 /** Bytes of the module's memory now. It grows as needed, up to 4 GB, and never shrinks. */
 export function memoryBytes(): number;
 

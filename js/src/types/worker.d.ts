@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-import type { BakeHooks, InitOptions } from './base.js';
+import type { BakeHooks, InitOptions, Threads } from './base.js';
 import type { Hull, HullOptions } from './convex.js';
 import type { Mesh, WeldOptions } from './mesh.js';
 import type { NavBakeOptions, NavInput, NavOptions } from './nav_bake.js';
@@ -10,8 +10,8 @@ import type { Soup, SoupOptions } from './soup.js';
 import type { BakeStages, PolygonSteps } from './stages.js';
 import type { Vec3Like } from './base.js';
 
-/** How a worker is started. */
-export interface TalusWorkerOptions extends InitOptions {
+/** How a worker is started. `threads` are its own: two workers with four threads each are eight. */
+export interface TalusWorkerOptions extends Omit<InitOptions, 'part' | 'createThread'> {
   /** Where worker.js is; by default beside the package's sources. */
   url?: string | URL;
   /** Makes the worker, for bundlers that want to see `new Worker(...)`; runs `talus/worker-entry`. */
@@ -28,6 +28,8 @@ type StageOptions = NavOptions & NavInput & BakeHooks & { tileX?: number; tileZ?
  */
 export class TalusWorker {
   constructor(options?: TalusWorkerOptions);
+  /** How many threads the worker bakes with, and why no more; null until its first task has ended. */
+  readonly threads: Threads | null;
   weld(mesh: Mesh, options?: WeldOptions): Promise<ReturnType<Mesh['weld']>>;
   bakeSoup(mesh: Mesh, options?: SoupOptions): Promise<Soup>;
   bakeHull(points: ArrayLike<number>, options?: HullOptions): Promise<Hull>;
