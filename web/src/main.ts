@@ -151,7 +151,7 @@ async function start(root: HTMLElement): Promise<void> {
   const viewBox = h('main', { class: 'view' }, canvas);
   root.append(viewBox);
   const wasm = await loadWasm();
-  const engine = new EngineHost(wasm.module); // its worker starts while the graphics do
+  const engine = new EngineHost(wasm); // its worker starts while the graphics do
   const app = new Controller(new Store<View>(first), new Stage(canvas), engine);
   const files = fileOpener(app, viewBox);
   const chooser = levelChooser(app, files.open);
@@ -165,11 +165,11 @@ async function start(root: HTMLElement): Promise<void> {
     h('header', {}, h('h1', {}, 'talus'), chooser.element, buttons, h('span', { class: 'space' }),
       drawer(left, 'Bake'), drawer(right, 'Layers'),
       h('span', { class: 'row wide', style: 'margin: 0; flex-wrap: nowrap' }, ...shareButtons(app)), themeButton(app), help.button),
-    left, right, footer(app));
+    left, right, footer(app, wasm.reason));
   viewBox.append(hint, messageBox(app));
   new Pointer(app, chosen);
   keys(app, tools, help.show, root);
-  (window as unknown as { talusViewer: unknown }).talusViewer = { app, tools, simd: wasm.simd };
+  (window as unknown as { talusViewer: unknown }).talusViewer = { app, tools, simd: wasm.simd, threads: wasm.threads };
   if (faults.length > 0) app.say(`The link could not be read whole: ${faults.join('; ')}`, 'error');
 
   if (embedded) await app.open(embedded.source, true);

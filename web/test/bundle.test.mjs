@@ -10,7 +10,7 @@ import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { build } from 'vite';
 import { installPackage, snippets } from '../../js/test/snippets.js';
-import { openBrowser } from './harness.mjs';
+import { ISOLATED, openBrowser } from './harness.mjs';
 
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm' };
 let folder;
@@ -31,7 +31,7 @@ before(async () => {
   server = createServer((request, response) => {
     try {
       const bytes = readFileSync(join(folder, 'dist', new URL(request.url, 'http://localhost').pathname));
-      response.writeHead(200, { 'content-type': TYPES[extname(request.url)] ?? 'application/octet-stream' }).end(bytes);
+      response.writeHead(200, { 'content-type': TYPES[extname(request.url)] ?? 'application/octet-stream', ...ISOLATED }).end(bytes);
     } catch {
       response.writeHead(404).end();
     }

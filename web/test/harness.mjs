@@ -19,6 +19,9 @@ export async function openBrowser(args = SOFTWARE) {
   return chromium.launch({ executablePath: CHROMIUM, headless: true, args });
 }
 
+/** With these a page is cross-origin isolated: it may have threads. */
+export const ISOLATED = { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' };
+
 /** Serves the page, and nothing else. */
 export async function serve() {
   const page = readFileSync(PAGE);

@@ -2,10 +2,12 @@
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawn } from 'node:child_process';
+import { once } from 'node:events';
 import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { fileUrl, openBrowser, PAGE, serve, SHOTS, Viewer } from './harness.mjs';
 import { TALUS } from './native.mjs';
 
@@ -104,6 +106,55 @@ test('does without SIMD', async () => {
   assert.equal(await viewer.ask(({ simd }) => simd), false);
   assert.ok(await viewer.ask(({ app }) => app.session.get().bake.polygons > 10));
   await viewer.close();
+});
+
+/** The server of `make viewer`. */
+async function startOwnServer() {
+  const own = spawn('node', [fileURLToPath(new URL('../serve.mjs', import.meta.url))], { env: { ...process.env, PORT: '0' }, stdio: ['ignore', 'pipe', 'inherit'] });
+  const [line] = await once(own.stdout, 'data');
+  return { url: String(line).match(/http:\S+/)[0], close: () => own.kill() };
+}
+
+/** Opens the page on a machine of three processors, and gives the bytes of its tiles. */
+async function bakedTiles(url, before) {
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  const viewer = new Viewer(page, context);
+  page.on('console', (message) => { if (message.type() === 'error') viewer.errors.push(message.text()); });
+  await page.addInitScript(() => { Object.defineProperty(navigator, 'hardwareConcurrency', { value: 3 }); });
+  if (before) await before(page);
+  await page.goto(`${url}#level=sample:dungeon&tileSize=48`);
+  await viewer.ready();
+  const answer = await viewer.ask(async ({ app }) => {
+    const bytes = new Uint8Array(await app.engine.call('save'));
+    const hash = new Uint8Array(await crypto.subtle.digest('SHA-256', bytes)).join();
+    return { hash, threads: app.session.get().bake.threads, total: document.getElementById('total').innerText, why: document.getElementById('total').title };
+  });
+  return { viewer, answer };
+}
+
+test('bakes on several threads where the server isolates the page, the same bytes', async () => {
+  const own = await startOwnServer();
+  const many = await bakedTiles(own.url);
+  assert.deepEqual(many.answer.threads, { count: 3, reason: null });
+  assert.match(many.answer.total, /, 3 threads$/);
+  await many.viewer.shot('threads');
+  // A bake that is cancelled ends its threads, and the next one has its own.
+  await many.viewer.ask(({ app }) => app.view.set({ settings: { ...app.view.get().settings, cellSize: 0.05 } }));
+  await many.viewer.until(({ app }) => app.session.get().baking);
+  await many.viewer.ask(({ app }) => app.cancel());
+  await many.viewer.ask(({ app }) => app.view.set({ settings: { ...app.view.get().settings, cellSize: 0.5 } }));
+  await many.viewer.until(({ app }) => !app.session.get().baking && app.session.get().bake.threads.count === 3);
+  await many.viewer.close();
+  const one = await bakedTiles(server.url);
+  assert.equal(one.answer.threads.count, 1);
+  assert.match(one.answer.why, /server that isolates the page/);
+  assert.equal(many.answer.hash, one.answer.hash);
+  await one.viewer.close();
+  const missing = await bakedTiles(own.url, (page) => page.route('**/talus-threads.wasm', (route) => route.fulfill({ status: 204 })));
+  assert.match(missing.answer.why, /talus-threads.wasm, beside the page, could not be loaded/);
+  await missing.viewer.close();
+  own.close();
 });
 
 test('tells of memory that ran out, and goes on', async () => {

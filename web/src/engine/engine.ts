@@ -2,7 +2,7 @@
 // called from the page by its name.
 
 import {
-  bakeStages, Hull, loadPack, Mesh, Navmesh, polygonSteps, sampleLevel, sampleLevels, savePack, Soup, tileGrid,
+  bakeStages, Hull, loadPack, Mesh, Navmesh, polygonSteps, sampleLevel, sampleLevels, savePack, Soup, threads, tileGrid,
   type BakeStages, type JumpLink, type NavOptions, type PackMeta,
 } from 'talus';
 import { contourLayer, detailLayer, polygonLayer, tileLayer } from './geometry/polygons';
@@ -150,6 +150,7 @@ export class Engine {
     const grid = tileGrid(navmesh.options, navmesh.options.bounds!);
     return {
       milliseconds,
+      threads: threads(),
       stages: Object.entries(report?.times ?? {}).map(([stage, time]) => ({ stage, milliseconds: time })),
       tilesX: grid.x,
       tilesZ: grid.z,

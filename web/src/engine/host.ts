@@ -3,6 +3,7 @@
 // bake that fails leaves all as it was. A spare worker is kept ready, for a slider starts many bakes.
 
 import type { Engine } from './engine';
+import type { WasmChoice } from '../boot/wasm';
 import type { Progress } from './protocol';
 import EngineWorker from './worker?worker&inline';
 
@@ -42,7 +43,7 @@ class Runner {
   onProgress: (progress: Progress) => void = () => {};
   dead: Error | null = null;
 
-  constructor(wasm: WebAssembly.Module) {
+  constructor(wasm: WasmChoice) {
     this.worker.onmessage = (event: MessageEvent<Reply>) => this.take(event.data);
     this.worker.onerror = (event) => {
       event.preventDefault();
@@ -83,7 +84,7 @@ export class EngineHost {
   private spare: Runner | null;
   onProgress: (progress: Progress) => void = () => {};
 
-  constructor(private wasm: WebAssembly.Module) {
+  constructor(private wasm: WasmChoice) {
     this.spare = new Runner(wasm);
   }
 

@@ -62,6 +62,8 @@ export interface StageTime {
 
 export interface BakeInfo {
   milliseconds: number;
+  /** That it ran on, and why on no more. */
+  threads: { count: number; reason: string | null };
   stages: StageTime[];
   tilesX: number;
   tilesZ: number;

@@ -1,7 +1,7 @@
 // The parts of the package `talus` that the engine uses. The package's own worker is left out, for the engine is one
 // itself; the types are those of the whole package.
 
-export { init } from '../../../js/src/module.js';
+export { init, threads } from '../../../js/src/module.js';
 export { TalusError } from '../../../js/src/error.js';
 export { Mesh, sampleLevel, sampleLevels } from '../../../js/src/mesh.js';
 export { Soup } from '../../../js/src/soup.js';

@@ -2,6 +2,8 @@
 
 import { Engine } from './engine';
 import { init, TalusError } from 'talus';
+import ThreadWorker from '../../../js/src/thread_entry.js?worker&inline';
+import type { WasmChoice } from '../boot/wasm';
 import type { Progress } from './protocol';
 
 interface Call {
@@ -12,7 +14,7 @@ interface Call {
 
 const scope = self as unknown as {
   postMessage(message: unknown, transfer?: Transferable[]): void;
-  onmessage: ((event: MessageEvent<Call | { wasm: WebAssembly.Module }>) => void) | null;
+  onmessage: ((event: MessageEvent<Call | { wasm: WasmChoice }>) => void) | null;
 };
 
 let lastProgress = 0;
@@ -49,7 +51,8 @@ function faultOf(error: unknown): { message: string; result: string | null; fiel
 
 scope.onmessage = async (event) => {
   if ('wasm' in event.data) {
-    started = init({ wasm: event.data.wasm });
+    const { module, simd, threads } = event.data.wasm;
+    started = init({ wasm: { simd: module, scalar: module, threads: module }, simd, threads, createThread: () => new ThreadWorker() });
     started.catch(() => {}); // each call reports it
     return;
   }

@@ -4,7 +4,8 @@ import type { App } from '../app';
 import { colourOfId, css } from '../scene/palette';
 import { count, fill, h, milliseconds } from './dom';
 
-export function footer(app: App): HTMLElement {
+/** `oneThread`: why threads were not asked for. */
+export function footer(app: App, oneThread: string | null): HTMLElement {
   const bar = h('progress', { max: 1, value: 0, 'aria-label': 'Progress of the bake' });
   const stage = h('span', { class: 'muted', id: 'stage' });
   const cancel = h('button', { id: 'cancel', onclick: () => app.cancel() }, 'Cancel');
@@ -34,7 +35,10 @@ export function footer(app: App): HTMLElement {
         title: `${one.stage}: ${milliseconds(one.milliseconds)}`,
       })));
     }
-    total.textContent = !bake || busy ? '' : bake.milliseconds > 0 ? `bake ${milliseconds(bake.milliseconds)}` : 'as baked in the file';
+    const threads = bake?.threads.count ?? 1;
+    total.textContent = !bake || busy ? '' : bake.milliseconds === 0 ? 'as baked in the file'
+      : `bake ${milliseconds(bake.milliseconds)}${threads > 1 ? `, ${threads} threads` : ''}`;
+    total.title = threads > 1 ? '' : `On one thread: ${bake?.threads.reason ?? oneThread}`;
   });
   return h('footer', {}, work, numbers, times, total);
 }
