@@ -248,6 +248,7 @@ namespace Talus.Interop
         TL_NAV_OBSTACLE_CYLINDER = 0,
         TL_NAV_OBSTACLE_BOX = 1,
         TL_NAV_OBSTACLE_PRISM = 2,
+        TL_NAV_OBSTACLE_CONVEX = 3,
     }
 
     public enum tl_nav_prepared_kind
@@ -2217,6 +2218,8 @@ namespace Talus.Interop
         public tl_vec3 points_14;
         public tl_vec3 points_15;
         public uint point_count;
+        public tl_convex convex;
+        public tl_transform pose;
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -1203,7 +1203,7 @@ static unsafe class Layout
         Test.Equal(56, (byte*)&((tl_nav_links_report*)at)->no_landing - at, "tl_nav_links_report.no_landing");
         Test.Equal(60, (byte*)&((tl_nav_links_report*)at)->too_fast - at, "tl_nav_links_report.too_fast");
         Test.Equal(64, (byte*)&((tl_nav_links_report*)at)->kinds_0 - at, "tl_nav_links_report.kinds");
-        Test.Equal(240, sizeof(tl_nav_obstacle), "tl_nav_obstacle");
+        Test.Equal(352, sizeof(tl_nav_obstacle), "tl_nav_obstacle");
         Test.Equal(0, (byte*)&((tl_nav_obstacle*)at)->shape - at, "tl_nav_obstacle.shape");
         Test.Equal(4, (byte*)&((tl_nav_obstacle*)at)->area - at, "tl_nav_obstacle.area");
         Test.Equal(8, (byte*)&((tl_nav_obstacle*)at)->@base - at, "tl_nav_obstacle.base");
@@ -1215,6 +1215,8 @@ static unsafe class Layout
         Test.Equal(40, (byte*)&((tl_nav_obstacle*)at)->sine - at, "tl_nav_obstacle.sine");
         Test.Equal(44, (byte*)&((tl_nav_obstacle*)at)->points_0 - at, "tl_nav_obstacle.points");
         Test.Equal(236, (byte*)&((tl_nav_obstacle*)at)->point_count - at, "tl_nav_obstacle.point_count");
+        Test.Equal(240, (byte*)&((tl_nav_obstacle*)at)->convex - at, "tl_nav_obstacle.convex");
+        Test.Equal(320, (byte*)&((tl_nav_obstacle*)at)->pose - at, "tl_nav_obstacle.pose");
         Test.Equal(48, sizeof(tl_nav_rebaked_tile), "tl_nav_rebaked_tile");
         Test.Equal(0, (byte*)&((tl_nav_rebaked_tile*)at)->tile_x - at, "tl_nav_rebaked_tile.tile_x");
         Test.Equal(4, (byte*)&((tl_nav_rebaked_tile*)at)->tile_z - at, "tl_nav_rebaked_tile.tile_z");

@@ -17,6 +17,7 @@
 #ifndef TALUS_NAV_OBSTACLES_H
 #define TALUS_NAV_OBSTACLES_H
 
+#include <talus/convex.h>
 #include <talus/nav_bake.h>
 #include <talus/nav_query.h>
 
@@ -29,26 +30,33 @@ extern "C" {
 typedef enum tl_nav_obstacle_shape {
     TL_NAV_OBSTACLE_CYLINDER,
     TL_NAV_OBSTACLE_BOX,
-    TL_NAV_OBSTACLE_PRISM, ///< upright, over a convex outline
+    TL_NAV_OBSTACLE_PRISM,  ///< upright, over a convex outline
+    TL_NAV_OBSTACLE_CONVEX, ///< any shape of convex.h at any pose: hulls, tilted boxes, capsules, cones ...
 } tl_nav_obstacle_shape;
 
 /// An obstacle. Lengths in metres.
 typedef struct tl_nav_obstacle {
     tl_nav_obstacle_shape shape;
-    /// TL_NAV_NULL_AREA: a solid body. Floors where an agent would overlap it are removed: the columns of voxels of
-    /// which any point lies within the agent's radius of it, from agent_height below its base to its top. What is left
-    /// keeps the whole radius from the body, in the plan: outlines near it are simplified only away from it. Another
-    /// area: floors whose columns' middles lie inside it, from base to top, get that area (a cost, a danger), and none
-    /// is removed.
+    /// TL_NAV_NULL_AREA: a solid body. Floors where an agent would overlap it are removed: those on which the agent's
+    /// upright cylinder, agent_radius and agent_height, with its foot anywhere in the floor's column of voxels, shares
+    /// more than touching points with it. So of an upright body the columns go of which any point lies within the
+    /// radius of it, from agent_height below its base to its top; a ramp that leans leaves the floors under it where
+    /// the agent can stand. What is left keeps the whole radius from the body, in the plan: outlines near it are
+    /// simplified only away from it. Another area: floors whose columns' middles lie inside it get that area (a cost, a
+    /// danger), and none is removed.
     uint8_t area;
-    tl_vec3 base;         ///< the centre of its base
-    float height;         ///< >= 0
+    tl_vec3 base;         ///< all but CONVEX: the centre of its base
+    float height;         ///< all but CONVEX: >= 0
     float radius;         ///< CYLINDER: > 0
     float half_x, half_z; ///< BOX: >= 0, before it is turned
     float cosine, sine;   ///< BOX, PRISM: turned about y, so that local x points to (cosine, -sine) in (x, z). Any
                           ///< length; both 0: not turned
     tl_vec3 points[TL_NAV_MAX_OBSTACLE_POINTS]; ///< PRISM: convex outline around base in x and z, either winding; y: 0
     uint32_t point_count;                       ///< PRISM: >= 3
+    /// CONVEX: what it is. The hull, points or function that it borrows must live until the obstacle is removed or
+    /// changed, and points must be finite.
+    tl_convex convex;
+    tl_transform pose; ///< CONVEX: from its own frame to the world
 } tl_nav_obstacle;
 
 typedef struct tl_nav_obstacles tl_nav_obstacles;
@@ -68,8 +76,8 @@ TL_API tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input
 TL_API void tl_nav_obstacles_destroy(tl_nav_obstacles *obstacles);
 
 /// Adds an obstacle; the tiles that it touches wait to be rebaked. Takes a microsecond or less, and memory only
-/// where the list of obstacles grows. TL_ERR_ARGUMENT (a size, the area, an outline that is not convex),
-/// TL_ERR_NOT_FINITE, TL_ERR_MEMORY.
+/// where the list of obstacles grows. TL_ERR_ARGUMENT (a size, an outline that is not convex, a `convex` that no
+/// function of convex.h made), TL_ERR_NOT_FINITE, TL_ERR_MEMORY.
 TL_API tl_result tl_nav_obstacles_add(tl_nav_obstacles *obstacles, const tl_nav_obstacle *obstacle,
                                       tl_nav_obstacle_id *id_out, tl_report *report_out);
 /// Moves an obstacle, or changes its shape: the tiles of its old and its new place wait. TL_ERR_STALE: the id is not in

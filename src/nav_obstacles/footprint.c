@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Marking floors under an obstacle.
+// Marking floors under an obstacle: here those that stand upright; convex_marks.c has all others.
 //
 // A body's footprint is the Minkowski sum of its outline and a disc of the agent's radius: the places where the agent's
 // own disc would touch it. A column goes when any point of its square lies in it, so that what is left keeps the whole
@@ -10,8 +10,9 @@
 #include "nav_obstacles/footprint.h"
 
 #include "base/host.h"
-#include "math/column_range.h"
 #include "math/tolerance.h"
+#include "nav_obstacles/convex_marks.h"
+#include "nav_obstacles/obstacle_window.h"
 
 #include <math.h>
 
@@ -279,8 +280,11 @@ static tl_result check_prism(const tl_nav_obstacle *obstacle, tl_report *report)
 
 tl_result tl_obstacle_check(const tl_nav_obstacle *obstacle, tl_report *report)
 {
-    if ((unsigned)obstacle->shape > (unsigned)TL_NAV_OBSTACLE_PRISM) {
+    if ((unsigned)obstacle->shape > (unsigned)TL_NAV_OBSTACLE_CONVEX) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "shape", "use a tl_nav_obstacle_shape");
+    }
+    if (obstacle->shape == TL_NAV_OBSTACLE_CONVEX) {
+        return tl_convex_obstacle_check(obstacle, report);
     }
     if (!tl_is_finite(obstacle->base)) {
         return tl_report_field(report, TL_ERR_NOT_FINITE, "base", "use finite numbers");
@@ -305,13 +309,6 @@ tl_result tl_obstacle_check(const tl_nav_obstacle *obstacle, tl_report *report)
     return obstacle->shape == TL_NAV_OBSTACLE_PRISM ? check_prism(obstacle, report) : TL_OK;
 }
 
-// The smallest box that a float can name around [low, high].
-static void round_outward(double low, double high, float *min, float *max)
-{
-    *min = nextafterf((float)low, -INFINITY);
-    *max = nextafterf((float)high, INFINITY);
-}
-
 static tl_aabb footprint_box(const footprint *foot)
 {
     double grow = foot->grow > 0.0 ? foot->grow : 0.0;
@@ -329,30 +326,25 @@ static tl_aabb footprint_box(const footprint *foot)
         }
     }
     tl_aabb box;
-    round_outward(foot->base_x + min_x - grow, foot->base_x + max_x + grow, &box.min.x, &box.max.x);
-    round_outward(foot->low, foot->high, &box.min.y, &box.max.y);
-    round_outward(foot->base_z + min_z - grow, foot->base_z + max_z + grow, &box.min.z, &box.max.z);
+    tl_round_outward(foot->base_x + min_x - grow, foot->base_x + max_x + grow, &box.min.x, &box.max.x);
+    tl_round_outward(foot->low, foot->high, &box.min.y, &box.max.y);
+    tl_round_outward(foot->base_z + min_z - grow, foot->base_z + max_z + grow, &box.min.z, &box.max.z);
     return box;
 }
 
 tl_aabb tl_obstacle_box(const tl_nav_obstacle *obstacle, float agent_radius, float agent_height)
 {
+    if (obstacle->shape == TL_NAV_OBSTACLE_CONVEX) {
+        return tl_convex_obstacle_box(obstacle, agent_radius, agent_height);
+    }
     const footprint foot = make_footprint(obstacle, agent_radius, agent_height);
     return footprint_box(&foot);
-}
-
-// Columns [*first, *end) whose centres can lie in [min, max], metres.
-static void columns_near(const tl_column_axis *axis, float min, float max, uint32_t *first, uint32_t *end)
-{
-    const double low = floor(tl_column_of_center(axis, min)), high = ceil(tl_column_of_center(axis, max)) + 1.0;
-    tl_clamp_columns(axis, low, high, first, end);
 }
 
 static void mark_footprint_column(const footprint *foot, uint8_t area, uint32_t column, tl_nav_compact *compact)
 {
     for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
-        double y = (double)compact->lattice.origin.y + (double)compact->floor[i] * (double)compact->cell_height;
-        if (compact->area[i] != TL_NAV_NULL_AREA && height_is_in(foot, y)) {
+        if (compact->area[i] != TL_NAV_NULL_AREA && height_is_in(foot, tl_floor_height(compact, i))) {
             compact->area[i] = area;
         }
     }
@@ -360,22 +352,20 @@ static void mark_footprint_column(const footprint *foot, uint8_t area, uint32_t 
 
 void tl_obstacle_mark(const tl_nav_obstacle *obstacle, float agent_radius, float agent_height, tl_nav_compact *compact)
 {
-    const tl_nav_lattice *lattice = &compact->lattice;
+    if (obstacle->shape == TL_NAV_OBSTACLE_CONVEX) {
+        tl_convex_obstacle_mark(obstacle, agent_radius, agent_height, compact);
+        return;
+    }
     const footprint foot = make_footprint(obstacle, agent_radius, agent_height);
-    const tl_aabb box = footprint_box(&foot);
-    uint32_t first_x, end_x, first_z, end_z;
-    const tl_column_axis x_axis = { lattice->origin.x, compact->cell_size, lattice->first_x, compact->width };
-    const tl_column_axis z_axis = { lattice->origin.z, compact->cell_size, lattice->first_z, compact->height };
-    columns_near(&x_axis, box.min.x - compact->cell_size, box.max.x + compact->cell_size, &first_x, &end_x);
-    columns_near(&z_axis, box.min.z - compact->cell_size, box.max.z + compact->cell_size, &first_z, &end_z);
-    const double size = (double)compact->cell_size;
+    const tl_obstacle_window window = tl_obstacle_window_make(compact, footprint_box(&foot));
+    const double half = 0.5 * (double)compact->cell_size;
     const bool body = obstacle->area == TL_NAV_NULL_AREA;
-    for (uint32_t z = first_z; z < end_z; z++) {
-        double center_z = (double)lattice->origin.z + ((double)lattice->first_z + (double)z + 0.5) * size;
-        for (uint32_t x = first_x; x < end_x; x++) {
-            double center_x = (double)lattice->origin.x + ((double)lattice->first_x + (double)x + 0.5) * size;
+    for (uint32_t z = window.first_z; z < window.end_z; z++) {
+        const double center_z = tl_column_center_z(compact, z);
+        for (uint32_t x = window.first_x; x < window.end_x; x++) {
+            const double center_x = tl_column_center_x(compact, x);
             if (footprint_reaches(&foot, center_x, center_z) ||
-                (body && body_reaches_square(&foot, center_x, center_z, 0.5 * size))) {
+                (body && body_reaches_square(&foot, center_x, center_z, half))) {
                 mark_footprint_column(&foot, obstacle->area, z * compact->width + x, compact);
             }
         }

@@ -80,7 +80,7 @@ static tl_result nav_obstacles_destroy(contract_run *run)
     return TL_OK;
 }
 
-static const char *const OBSTACLE_FIELDS[] = { "shape", "base", "height", "radius", NULL };
+static const char *const OBSTACLE_FIELDS[] = { "shape", "base", "height", "radius", "convex", "pose", NULL };
 
 static tl_nav_obstacle obstacle_of(const contract_run *run)
 {
@@ -90,6 +90,11 @@ static tl_nav_obstacle obstacle_of(const contract_run *run)
         obstacle.base.x = run->variant == 1 ? 0.0f / (obstacle.cosine * 0.0f) : obstacle.base.x;
         obstacle.height = run->variant == 2 ? -1.0f : obstacle.height;
         obstacle.radius = run->variant == 3 ? 0.0f : obstacle.radius;
+        if (run->variant >= 4) {
+            obstacle.shape = TL_NAV_OBSTACLE_CONVEX;
+            obstacle.convex = tl_convex_sphere(obstacle.base, run->variant == 4 ? -1.0f : 1.0f);
+            obstacle.pose.position.y = run->variant == 5 ? 0.0f / (obstacle.cosine * 0.0f) : 0.0f;
+        }
     }
     return obstacle;
 }

@@ -168,6 +168,23 @@ static void test_marks(void **state)
     tl_nav_stages_free(&stages);
 }
 
+// Of any kind: tilted boxes and capsules too.
+static tl_nav_obstacle random_obstacle_at_any_pose(test_random *random)
+{
+    tl_nav_obstacle o = random_obstacle(random);
+    if (test_random_below(random, 2) == 0) {
+        return o;
+    }
+    const tl_vec3 axis = test_random_direction(random), half = tl_vec3_make(0.3f + o.half_x, 0.2f, 0.3f + o.half_z);
+    const tl_quat turn = { axis.x, axis.y, axis.z, test_random_range(random, -1.0f, 1.0f) };
+    o.shape = TL_NAV_OBSTACLE_CONVEX;
+    o.pose.position = o.base;
+    o.pose.rotation = tl_quat_normalize(turn);
+    o.convex = test_random_below(random, 2) == 0 ? tl_convex_box(tl_vec3_make(0, 0, 0), half, 0.0f)
+                                                 : tl_convex_capsule(tl_neg(half), half, 0.3f);
+    return o;
+}
+
 // Whatever comes, moves and goes, in whatever order: the same bytes as when only what is left had come.
 static void test_random_edits(void **state)
 {
@@ -182,14 +199,14 @@ static void test_random_edits(void **state)
     for (int edit = 0; edit < EDITS; edit++) {
         uint32_t what = test_random_below(&random, 3);
         if (count == 0 || (what == 0 && count < CAPACITY)) {
-            there[count] = random_obstacle(&random);
+            there[count] = random_obstacle_at_any_pose(&random);
             TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &there[count], &ids[count], NULL), TL_OK);
             count++;
             added++;
         } else {
             uint32_t which = test_random_below(&random, count);
             if (what == 1) {
-                there[which] = random_obstacle(&random);
+                there[which] = random_obstacle_at_any_pose(&random);
                 TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[which], &there[which], NULL), TL_OK);
                 moved++;
             } else {

@@ -170,6 +170,7 @@ pub type tl_nav_obstacle_shape = c_int;
 pub const TL_NAV_OBSTACLE_CYLINDER: tl_nav_obstacle_shape = 0;
 pub const TL_NAV_OBSTACLE_BOX: tl_nav_obstacle_shape = 1;
 pub const TL_NAV_OBSTACLE_PRISM: tl_nav_obstacle_shape = 2;
+pub const TL_NAV_OBSTACLE_CONVEX: tl_nav_obstacle_shape = 3;
 pub type tl_nav_prepared_kind = c_int;
 pub const TL_NAV_PREPARED_NONE: tl_nav_prepared_kind = 0;
 pub const TL_NAV_PREPARED_GRAPH: tl_nav_prepared_kind = 1;
@@ -1931,6 +1932,8 @@ pub struct tl_nav_obstacle {
     pub sine: f32,
     pub points: [tl_vec3; 16],
     pub point_count: u32,
+    pub convex: tl_convex,
+    pub pose: tl_transform,
 }
 #[repr(C)]
 pub struct tl_nav_obstacles {
@@ -5420,7 +5423,7 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_links_report, no_landing), 56);
         assert_eq!(core::mem::offset_of!(tl_nav_links_report, too_fast), 60);
         assert_eq!(core::mem::offset_of!(tl_nav_links_report, kinds), 64);
-        assert_eq!(core::mem::size_of::<tl_nav_obstacle>(), 240);
+        assert_eq!(core::mem::size_of::<tl_nav_obstacle>(), 352);
         assert_eq!(core::mem::offset_of!(tl_nav_obstacle, shape), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_obstacle, area), 4);
         assert_eq!(core::mem::offset_of!(tl_nav_obstacle, base), 8);
@@ -5432,6 +5435,8 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_obstacle, sine), 40);
         assert_eq!(core::mem::offset_of!(tl_nav_obstacle, points), 44);
         assert_eq!(core::mem::offset_of!(tl_nav_obstacle, point_count), 236);
+        assert_eq!(core::mem::offset_of!(tl_nav_obstacle, convex), 240);
+        assert_eq!(core::mem::offset_of!(tl_nav_obstacle, pose), 320);
         assert_eq!(core::mem::size_of::<tl_nav_rebaked_tile>(), 48);
         assert_eq!(core::mem::offset_of!(tl_nav_rebaked_tile, tile_x), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_rebaked_tile, tile_z), 4);
