@@ -128,34 +128,57 @@ static void add_presence(tl_text *text, const tl_crowd_obstacle *obstacle, float
     tl_text_add(text, "\"/>");
 }
 
+// A box from above; where it is tilted, all that it covers.
+static void add_box_outline(tl_text *text, const tl_crowd_obstacle *it)
+{
+    const double tilt = TL_CROWD_DEGREE * (double)it->tilt;
+    const float half = 0.5f * it->size[0] * (float)cos(tilt), lean = it->height * (float)sin(tilt);
+    add_attribute(text, "x", it->at.x - half - (lean > 0.0f ? lean : 0.0f));
+    add_attribute(text, "y", it->at.z - 0.5f * it->size[1]);
+    add_attribute(text, "width", 2.0f * half + fabsf(lean));
+    add_attribute(text, "height", it->size[1]);
+    tl_text_add(text, " transform=\"rotate(");
+    add_number(text, -it->turn); // SVG turns clockwise
+    tl_text_add(text, " ");
+    add_number(text, it->at.x);
+    tl_text_add(text, " ");
+    add_number(text, it->at.z);
+    tl_text_add(text, ")\"");
+}
+
+static void add_capsule_outline(tl_text *text, const tl_crowd_obstacle *it)
+{
+    tl_text_add(text, " stroke=\"#7a6a58\" stroke-linecap=\"round\"");
+    add_attribute(text, "stroke-width", 2.0f * it->radius);
+    add_attribute(text, "x1", it->at.x);
+    add_attribute(text, "y1", it->at.z);
+    add_attribute(text, "x2", it->to.x);
+    add_attribute(text, "y2", it->to.z);
+}
+
 static void add_obstacles(tl_text *text, const tl_crowd_film *film, const tl_crowd_scenario *scenario)
 {
     const float duration = film->interval * (float)(film->frame_count - 1);
     for (uint32_t i = 0; i < scenario->obstacle_count; ++i) {
         const tl_crowd_obstacle *it = &scenario->obstacles[i];
-        const bool is_round = it->radius > 0.0f;
-        tl_text_add(text, is_round ? "<circle" : "<rect");
+        const char *element = it->is_capsule ? "line" : it->radius > 0.0f ? "circle" : "rect";
+        tl_text_add(text, "<");
+        tl_text_add(text, element);
         tl_text_add(text, " fill=\"#7a6a58\"");
-        if (is_round) {
+        if (it->is_capsule) {
+            add_capsule_outline(text, it);
+        } else if (it->radius > 0.0f) {
             add_attribute(text, "r", it->radius);
             add_attribute(text, "cx", it->at.x);
             add_attribute(text, "cy", it->at.z);
         } else {
-            add_attribute(text, "x", it->at.x - 0.5f * it->size[0]);
-            add_attribute(text, "y", it->at.z - 0.5f * it->size[1]);
-            add_attribute(text, "width", it->size[0]);
-            add_attribute(text, "height", it->size[1]);
-            tl_text_add(text, " transform=\"rotate(");
-            add_number(text, -it->turn); // SVG turns clockwise
-            tl_text_add(text, " ");
-            add_number(text, it->at.x);
-            tl_text_add(text, " ");
-            add_number(text, it->at.z);
-            tl_text_add(text, ")\"");
+            add_box_outline(text, it);
         }
         tl_text_add(text, ">");
         add_presence(text, it, duration);
-        tl_text_add(text, is_round ? "</circle>\n" : "</rect>\n");
+        tl_text_add(text, "</");
+        tl_text_add(text, element);
+        tl_text_add(text, ">\n");
     }
 }
 

@@ -10,8 +10,6 @@
 
 enum { TILE_CELLS = 64 }; // where the options give none
 
-#define DEGREE 0.017453292519943295 // radians
-
 static bool bake_changing_tiles(tl_cli *cli, tl_input *input, const tl_bake_settings *settings, tl_crowd_obstacles *o,
                                 tl_exit *exit_out)
 {
@@ -74,10 +72,32 @@ bool tl_crowd_obstacles_make(tl_cli *cli, tl_input *input, const tl_bake_setting
     return bake_changing_tiles(cli, input, settings, o, exit_out);
 }
 
+// About the centre of its base: tilted, then turned.
+static void tilt_box(const tl_crowd_obstacle *it, tl_nav_obstacle *shape)
+{
+    const double turn = 0.5 * TL_CROWD_DEGREE * (double)it->turn, tilt = 0.5 * TL_CROWD_DEGREE * (double)it->tilt;
+    const tl_vec3 half = tl_vec3_make(0.5f * it->size[0], 0.5f * it->height, 0.5f * it->size[1]);
+    shape->shape = TL_NAV_OBSTACLE_CONVEX;
+    shape->convex = tl_convex_box(tl_vec3_make(0.0f, half.y, 0.0f), half, 0.0f);
+    shape->pose.position = it->at;
+    shape->pose.rotation = (tl_quat){ (float)(sin(turn) * sin(tilt)), (float)(sin(turn) * cos(tilt)),
+                                      (float)(cos(turn) * sin(tilt)), (float)(cos(turn) * cos(tilt)) };
+}
+
 static tl_nav_obstacle shape_of(const tl_crowd_obstacle *it)
 {
     tl_nav_obstacle shape;
     memset(&shape, 0, sizeof(shape));
+    if (it->is_capsule) {
+        shape.shape = TL_NAV_OBSTACLE_CONVEX;
+        shape.convex = tl_convex_capsule(tl_vec3_make(0, 0, 0), tl_sub(it->to, it->at), it->radius);
+        shape.pose.position = it->at;
+        return shape;
+    }
+    if (it->tilt != 0.0f) {
+        tilt_box(it, &shape);
+        return shape;
+    }
     shape.shape = it->radius > 0.0f ? TL_NAV_OBSTACLE_CYLINDER : TL_NAV_OBSTACLE_BOX;
     shape.area = TL_NAV_NULL_AREA;
     shape.base = it->at;
@@ -85,8 +105,8 @@ static tl_nav_obstacle shape_of(const tl_crowd_obstacle *it)
     shape.radius = it->radius;
     shape.half_x = 0.5f * it->size[0];
     shape.half_z = 0.5f * it->size[1];
-    shape.cosine = (float)cos(DEGREE * (double)it->turn);
-    shape.sine = (float)sin(DEGREE * (double)it->turn);
+    shape.cosine = (float)cos(TL_CROWD_DEGREE * (double)it->turn);
+    shape.sine = (float)sin(TL_CROWD_DEGREE * (double)it->turn);
     return shape;
 }
 

@@ -203,9 +203,29 @@ static void take_size(scenario_reader *r, const tl_json_place *at, float size[2]
     }
 }
 
+// A box is turned and tilted, a pillar lies where it has another end.
+static void take_pose(scenario_reader *r, const tl_json_place *at, tl_crowd_obstacle *obstacle)
+{
+    take_number(r, at, "turn", -360.0, 360.0, &obstacle->turn);
+    take_number(r, at, "tilt", -90.0, 90.0, &obstacle->tilt);
+    take_number(r, at, "height", 0.01, 1000.0, &obstacle->height);
+    obstacle->is_capsule = json_object_get(at->value, "to") != NULL;
+    if (obstacle->is_capsule) {
+        take_point(r, at, "to", &obstacle->to);
+    }
+    if (obstacle->is_capsule && obstacle->radius == 0.0f) {
+        tl_json_fail(&r->json, TL_ERR_FORMAT, at, "to", "is given without a radius");
+    }
+    if (obstacle->tilt != 0.0f && obstacle->radius > 0.0f) {
+        tl_json_fail(&r->json, TL_ERR_FORMAT, at, "tilt", "is for boxes; where a pillar leans give its other end, to");
+    }
+}
+
 static void take_obstacle(scenario_reader *r, const tl_json_place *at, tl_crowd_obstacle *obstacle)
 {
-    static const char *const known[] = { "at", "size", "radius", "turn", "height", "from", "until", NULL };
+    static const char *const known[] = {
+        "at", "size", "radius", "to", "turn", "tilt", "height", "from", "until", NULL
+    };
     if (!tl_json_keys_are_known(&r->json, at, known)) {
         return;
     }
@@ -218,8 +238,7 @@ static void take_obstacle(scenario_reader *r, const tl_json_place *at, tl_crowd_
         tl_json_fail(&r->json, TL_ERR_FORMAT, at, "radius", "is given beside a size; leave one out");
     }
     take_number(r, at, "radius", 0.01, 1000.0, &obstacle->radius);
-    take_number(r, at, "turn", -360.0, 360.0, &obstacle->turn);
-    take_number(r, at, "height", 0.01, 1000.0, &obstacle->height);
+    take_pose(r, at, obstacle);
     take_number(r, at, "from", 0.0, 1e6, &obstacle->from);
     take_number(r, at, "until", 0.0, 1e6, &obstacle->until);
     if (r->json.result == TL_OK && !(obstacle->from < obstacle->until)) {

@@ -12,7 +12,8 @@
 // A group stands around "at", and each of its agents walks to all goals, one after the other. With a "formation" one of
 // them does, who is nearest to "at", and the others follow it: "loose", "line", "column", "wedge", "ring", or their own
 // slots, [[forward, left], ...]; all in metres, neighbours "apart". A vehicle drives straight
-// and evades nobody. An obstacle stands from one time to another: a door that is shut, a crate, with "radius" a pillar.
+// and evades nobody. An obstacle stands from one time to another: a door that is shut, a crate, one that leans with a
+// "tilt"; with "radius" a pillar, with "radius" and "to" one that lies or leans from "at" to there.
 
 #ifndef TALUS_CLI_CROWD_SCENARIO_H
 #define TALUS_CLI_CROWD_SCENARIO_H
@@ -21,6 +22,8 @@
 
 #include <talus/nav_crowd.h>
 #include <talus/pack.h>
+
+#define TL_CROWD_DEGREE 0.017453292519943295 ///< radians
 
 typedef struct tl_crowd_group {
     char name[32];
@@ -45,9 +48,12 @@ typedef struct tl_crowd_vehicle {
 typedef struct tl_crowd_obstacle {
     tl_vec3 at;        ///< the centre of its base
     float size[2];     ///< metres along x and z, before it is turned
-    float radius;      ///< metres; > 0: a cylinder, without size
+    float radius;      ///< metres; > 0: a cylinder, or a capsule, without size
     float turn;        ///< degrees about the vertical, counter-clockwise from above
+    float tilt;        ///< degrees by which a box's own x axis rises, about the centre of its base
     float height;      ///< metres
+    tl_vec3 to;        ///< where is_capsule: the other end
+    bool is_capsule;   ///< from `at` to `to`, grown by the radius; without turn and height
     float from, until; ///< seconds; until INFINITY: to the end
 } tl_crowd_obstacle;
 

@@ -134,6 +134,33 @@ static void test_obstacles(void **state)
     cli_check_error(2, "crowd floor.obj shut.json --link 4,0,20,16,0,20", "linked by hand", "");
 }
 
+// A trunk that lies across the floor, and a wall that leans: nobody passes. Where the wall leans so far that its other
+// end is above the agents' heads, all do. Both are in the film.
+static void test_leaning_obstacles(void **state)
+{
+    (void)state;
+    const char *const obstacle[] = { "{ \"at\": [10, 0.5, -50], \"to\": [10, 0.5, 80], \"radius\": 0.5 }",
+                                     "{ \"at\": [10, 0, 20], \"size\": [0.2, 200], \"height\": 3, \"tilt\": 60 }",
+                                     "{ \"at\": [10, 2.5, 20], \"size\": [0.2, 200], \"height\": 3, \"tilt\": -60 }" };
+    for (int i = 0; i < 3; ++i) {
+        char scenario[400];
+        snprintf(
+            scenario, sizeof(scenario),
+            "{ \"seconds\": 60, \"groups\": [ { \"at\": [4, 0, 20], \"goals\": [[16, 0, 20]] } ], \"obstacles\": [ "
+            "%s ] }",
+            obstacle[i]);
+        cli_write_text("leaning.json", scenario);
+        json_t *found = cli_json(i < 2 ? 1 : 0, "crowd floor.obj leaning.json --json");
+        TEST_CHECK(cli_number(found, "arrived") == (i < 2 ? 0 : 1));
+        json_decref(found);
+        cli_do(i < 2 ? 1 : 0, "crowd floor.obj leaning.json -o leaning.svg");
+        size_t size;
+        char *svg = cli_read_file("leaning.svg", &size);
+        TEST_CHECK(strstr(svg, i == 0 ? "stroke-linecap=\"round\"" : "rotate(") != NULL && strstr(svg, "nan") == NULL);
+        free(svg);
+    }
+}
+
 // The scenarios that come with the sources.
 static void test_examples(void **state)
 {
@@ -211,6 +238,9 @@ static void test_faults(void **state)
         { "{\"groups\": [], \"obstacles\": [{\"at\": [0, 0, 0], \"size\": [1, 1], \"radius\": 1}]}", "beside a size" },
         { "{\"groups\": [], \"obstacles\": [{\"at\": [0, 0, 0], \"radius\": 1, \"from\": 5, \"until\": 5}]}",
           "until is not after from" },
+        { "{\"groups\": [], \"obstacles\": [{\"at\": [0, 0, 0], \"size\": [1, 1], \"to\": [1, 0, 0]}]}",
+          "obstacles[0].to is given without a radius" },
+        { "{\"groups\": [], \"obstacles\": [{\"at\": [0, 0, 0], \"radius\": 1, \"tilt\": 5}]}", "tilt is for boxes" },
         { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 0, 9]], \"formation\": \"square\"}]}",
           "groups[0].formation is none of loose" },
         { "{\"groups\": [{\"at\": [4, 0, 9], \"goals\": [[9, 0, 9]], \"count\": 3, \"formation\": [[1, 1]]}]}",
@@ -234,10 +264,15 @@ static void test_faults(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_arrive), cmocka_unit_test(test_goals_and_vehicles),
-        cmocka_unit_test(test_films),      cmocka_unit_test(test_obstacles),
-        cmocka_unit_test(test_examples),   cmocka_unit_test(test_not_all_arrive),
-        cmocka_unit_test(test_slots),      cmocka_unit_test(test_faults),
+        cmocka_unit_test(test_all_arrive),
+        cmocka_unit_test(test_goals_and_vehicles),
+        cmocka_unit_test(test_films),
+        cmocka_unit_test(test_obstacles),
+        cmocka_unit_test(test_leaning_obstacles),
+        cmocka_unit_test(test_examples),
+        cmocka_unit_test(test_not_all_arrive),
+        cmocka_unit_test(test_slots),
+        cmocka_unit_test(test_faults),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }
