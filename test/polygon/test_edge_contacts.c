@@ -59,7 +59,8 @@ static uint32_t split(const tl_lattice_point *points, uint32_t n, tl_arena *aren
         }
     }
     uint32_t faults = 0, fault_edge = 0;
-    TEST_RESULT(tl_outline_split_contacts(arena, nodes, edges, count, &faults, &fault_edge), TL_OK);
+    tl_outline_sweep sweep;
+    TEST_RESULT(tl_outline_split_contacts(arena, nodes, edges, count, &faults, &fault_edge, &sweep), TL_OK);
     return faults;
 }
 

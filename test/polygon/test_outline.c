@@ -4,7 +4,9 @@
 
 #include "polygon/outline/outline.h"
 
-#include "polygon_shapes.h"
+#include "polygon/triangulate/triangulate.h"
+
+#include "polygon_random_shapes.h"
 
 enum { MAX_POINTS = 4096, SIDE = 24 };
 
@@ -102,6 +104,49 @@ static void walks_bridged_contours_as_they_came(void **state)
     tl_arena_free(&r.arena);
 }
 
+// Contours with bridges are triangulated from the sweep that found nothing wrong with them: as without it.
+static void hands_its_sweep_on(void **state)
+{
+    (void)state;
+    test_random random = { 7 };
+    for (uint32_t rows = 3; rows <= 20; rows++) {
+        oracle_point p[MAX_POINTS];
+        const uint32_t n = shape_random_holes(&random, p, 23 - rows, rows);
+        prepared r;
+        prepare(&r, p, n);
+        TEST_CHECK(r.outline.faults == 0 && r.outline.sweep.place_of != NULL);
+        TEST_CHECK(r.outline.sweep.place_count == r.outline.nodes.count);
+        tl_lattice_point points[MAX_POINTS];
+        for (uint32_t i = 0; i < n; i++) {
+            points[i] = r.outline.nodes.points[r.outline.corners[i]];
+        }
+        uint32_t triangles[2][3 * MAX_POINTS], twins[2][3 * MAX_POINTS];
+        for (uint32_t k = 0; k < 2; k++) {
+            const tl_outline_sweep *sweep = k == 0 ? &r.outline.sweep : NULL;
+            const tl_triangulate_input input = { points, n, sweep, NULL, TL_EARS_BY_MESH };
+            TEST_RESULT(tl_triangulate(&r.arena, &input, triangles[k], twins[k]), TL_OK);
+        }
+        TEST_CHECK(memcmp(triangles[0], triangles[1], 3 * (n - 2) * sizeof **triangles) == 0);
+        TEST_CHECK(memcmp(twins[0], twins[1], 3 * (n - 2) * sizeof **twins) == 0);
+        tl_arena_free(&r.arena);
+    }
+}
+
+// A spike is left out of the walk: of that the contour's sweep says nothing.
+static void keeps_no_sweep_of_another_walk(void **state)
+{
+    (void)state;
+    oracle_point p[MAX_POINTS];
+    const uint32_t n = shape_holes(p, 8, 8);
+    p[n] = p[n - 1];
+    p[n + 1] = p[n - 1];
+    p[n].x -= 7; // a spike
+    prepared r;
+    prepare(&r, p, n + 2);
+    TEST_CHECK((r.outline.faults & TL_CONTOUR_FAULT_SPIKE) != 0 && r.outline.sweep.place_count == 0);
+    tl_arena_free(&r.arena);
+}
+
 // Doubled area of the cells around which a closed rectilinear walk winds at least once.
 static int64_t winding_area2(const oracle_point *p, uint32_t n, bool *odd)
 {
@@ -174,10 +219,9 @@ static void refuses_a_scribble_beyond_measure(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_what_is_wrong),
-        cmocka_unit_test(walks_bridged_contours_as_they_came),
-        cmocka_unit_test(covers_what_is_wound_around),
-        cmocka_unit_test(refuses_a_scribble_beyond_measure),
+        cmocka_unit_test(names_what_is_wrong),         cmocka_unit_test(walks_bridged_contours_as_they_came),
+        cmocka_unit_test(hands_its_sweep_on),          cmocka_unit_test(keeps_no_sweep_of_another_walk),
+        cmocka_unit_test(covers_what_is_wound_around), cmocka_unit_test(refuses_a_scribble_beyond_measure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -70,8 +70,8 @@ static tl_result triangulate_walks(tl_arena *arena, const tl_outline *outline, c
             }
             points = copy;
         }
-        const tl_sweep_record *record = outline->is_plain && outline->is_swept ? &outline->sweep : NULL;
-        const tl_triangulate_input input = { points, count, record, tracer, TL_EARS_BY_SIZE };
+        const tl_outline_sweep *sweep = outline->sweep.place_count > 0 ? &outline->sweep : NULL;
+        const tl_triangulate_input input = { points, count, sweep, tracer, TL_EARS_BY_SIZE };
         TL_TRY(tl_triangulate(arena, &input, triangles->corners + 3 * made, triangles->twins + 3 * made));
         for (uint32_t i = 3 * made; i < 3 * (made + count - 2) && !outline->is_plain; i++) {
             triangles->corners[i] = walk[triangles->corners[i]];

@@ -362,10 +362,8 @@ static tl_result gather_segments(edge_splitter *s, const tl_outline_edge *edges,
     tl_key_table table;
     s->segments = TL_PUSH(s->arena, tl_lattice_segment, count);
     s->source = TL_PUSH(s->arena, uint32_t, count);
-    s->segment_of = TL_PUSH(s->arena, uint32_t, count);
     s->segment_count = 0;
-    if (s->segments == NULL || s->source == NULL || s->segment_of == NULL ||
-        !tl_key_table_init(&table, s->arena, count)) {
+    if (s->segments == NULL || s->source == NULL || !tl_key_table_init(&table, s->arena, count)) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < count; i++) {
@@ -455,21 +453,32 @@ static tl_result split_edges(edge_splitter *s, tl_outline_edge **edges, uint32_t
 }
 
 tl_result tl_outline_split_contacts(tl_arena *arena, tl_outline_nodes *nodes, tl_outline_edge **edges, uint32_t *count,
-                                    uint32_t *faults, uint32_t *fault_edge)
+                                    uint32_t *faults, uint32_t *fault_edge, tl_outline_sweep *sweep)
 {
+    memset(sweep, 0, sizeof *sweep);
     for (uint32_t round = 0; round < MAX_ROUNDS; round++) {
         edge_splitter s;
         memset(&s, 0, sizeof s);
         s.arena = arena;
         s.nodes = nodes;
         s.first_contact = UINT32_MAX;
+        s.segment_of = TL_PUSH(arena, uint32_t, *count);
+        if (s.segment_of == NULL ||
+            (*count >= SMALLEST_SWEEP && !tl_sweep_record_init(&sweep->record, arena, nodes->count))) {
+            return TL_ERR_MEMORY;
+        }
         const tl_arena_mark mark = tl_arena_get_mark(arena);
         TL_TRY(gather_segments(&s, *edges, *count));
         bool apart = false;
         if (s.segment_count >= SMALLEST_SWEEP) {
-            TL_TRY(tl_sweep_segments(arena, nodes->points, nodes->count, s.segments, s.segment_count, NULL, &apart));
+            TL_TRY(tl_sweep_segments(arena, nodes->points, nodes->count, s.segments, s.segment_count, &sweep->record,
+                                     &apart));
         }
-        if (!apart) {
+        if (apart) {
+            sweep->place_count = nodes->count;
+            sweep->segment_count = s.segment_count;
+            sweep->segment_of = s.segment_of;
+        } else {
             TL_TRY(test_all_pairs(&s));
         }
         if (s.crossings > MAX_CROSSINGS) {

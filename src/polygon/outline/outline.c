@@ -73,9 +73,9 @@ static bool is_plain_by_pairs(const tl_lattice_point *points, uint32_t count)
 }
 
 static tl_result is_plain_by_sweep(tl_arena *arena, const tl_lattice_point *points, uint32_t count,
-                                   tl_sweep_record *record, bool *is_plain)
+                                   tl_outline_sweep *sweep, bool *is_plain)
 {
-    if (!tl_sweep_record_init(record, arena, count)) {
+    if (!tl_sweep_record_init(&sweep->record, arena, count)) {
         return TL_ERR_MEMORY;
     }
     const tl_arena_mark mark = tl_arena_get_mark(arena);
@@ -87,7 +87,8 @@ static tl_result is_plain_by_sweep(tl_arena *arena, const tl_lattice_point *poin
         segments[i].a = i;
         segments[i].b = i + 1 < count ? i + 1 : 0;
     }
-    TL_TRY(tl_sweep_segments(arena, points, count, segments, count, record, is_plain));
+    TL_TRY(tl_sweep_segments(arena, points, count, segments, count, &sweep->record, is_plain));
+    sweep->place_count = sweep->segment_count = *is_plain ? count : 0;
     tl_arena_rollback(arena, mark);
     return TL_OK;
 }
@@ -96,8 +97,7 @@ static tl_result is_plain_outline(tl_arena *arena, tl_outline *outline, bool *pl
 {
     const tl_lattice_point *points = outline->nodes.points;
     const uint32_t count = outline->nodes.count;
-    outline->is_swept = count > MAX_PAIRED_VERTICES;
-    if (outline->is_swept) {
+    if (count > MAX_PAIRED_VERTICES) {
         return is_plain_by_sweep(arena, points, count, &outline->sweep, plain_out);
     }
     *plain_out = is_plain_by_pairs(points, count);
@@ -210,6 +210,16 @@ static tl_result part_floors(tl_arena *arena, const tl_contour_vertex *vertices,
     return TL_OK;
 }
 
+// The sweep over the contour's edges serves its floor where that has one walk, the contour itself.
+static void keep_sweep(tl_outline *outline, uint32_t *places, uint32_t count)
+{
+    const bool is_one = outline->faults == 0 && outline->walk_count == 1 && outline->walk_first[1] == count;
+    if (!is_one || memcmp(outline->corners, places, count * sizeof *places) != 0) {
+        outline->sweep.place_count = outline->sweep.segment_count = 0;
+    }
+    outline->sweep.place_of = places;
+}
+
 static tl_result take_apart(tl_arena *arena, const tl_contour_vertex *vertices, uint32_t merge_height,
                             tl_outline *outline)
 {
@@ -234,7 +244,8 @@ static tl_result take_apart(tl_arena *arena, const tl_contour_vertex *vertices, 
     }
     uint32_t fault_edge = 0;
     uint32_t faults = 0;
-    TL_TRY(tl_outline_split_contacts(arena, &outline->nodes, &edges, &edge_count, &faults, &fault_edge));
+    TL_TRY(
+        tl_outline_split_contacts(arena, &outline->nodes, &edges, &edge_count, &faults, &fault_edge, &outline->sweep));
     if (outline->faults == 0) {
         outline->fault_vertex = fault_edge;
     }
@@ -243,6 +254,7 @@ static tl_result take_apart(tl_arena *arena, const tl_contour_vertex *vertices, 
         return TL_OK;
     }
     TL_TRY(tl_outline_trace_faces(arena, edges, edge_count, outline));
+    keep_sweep(outline, places, count);
     // Where edges were split they are no longer the contour's; such a contour is mended on one floor.
     bool is_split = (faults & (TL_CONTOUR_FAULT_TOUCH | TL_CONTOUR_FAULT_CROSSING)) != 0;
     return is_split || outline->walk_count == 0 ? TL_OK : part_floors(arena, vertices, starts, merge_height, outline);

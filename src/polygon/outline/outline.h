@@ -29,9 +29,8 @@ typedef struct tl_outline {
     uint32_t *corners;    // nodes in order
     uint32_t *edges; // the contour's edge that leaves each corner, TL_NO_EDGE_OF_CONTOUR where it runs none that way
     bool is_plain;   // one walk, over all nodes in order
-    bool is_swept;   // a plain one of many nodes
-    tl_sweep_record sweep; // over its edges
-    uint32_t faults;       // TL_CONTOUR_FAULT_ bits
+    tl_outline_sweep sweep; // of one walk over all vertices of the contour in order, when it is known
+    uint32_t faults;        // TL_CONTOUR_FAULT_ bits
     uint32_t fault_vertex;
     int64_t area2; // of the contour as it came
 } tl_outline;
@@ -62,8 +61,9 @@ typedef struct tl_outline_edge {
 
 /// Splits edges where they touch or cross until they meet only in nodes: *edges becomes the new list, nodes grow.
 /// Sets fault bits in *faults and the first faulty edge, TL_CONTOUR_FAULT_REFUSED when it takes too many crossings.
+/// Where a sweep showed that the edges meet in nodes only, *sweep has it, with nodes as places; else its counts are 0.
 tl_result tl_outline_split_contacts(tl_arena *arena, tl_outline_nodes *nodes, tl_outline_edge **edges, uint32_t *count,
-                                    uint32_t *faults, uint32_t *fault_edge);
+                                    uint32_t *faults, uint32_t *fault_edge, tl_outline_sweep *sweep);
 
 /// Finds the faces of the plane that a closed walk of edges, which meet only in nodes, cuts out and winds around, and
 /// writes their outlines as walks.

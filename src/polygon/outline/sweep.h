@@ -21,6 +21,15 @@ typedef struct tl_sweep_record {
     uint32_t *below; // [point] of points where segments only begin: the next segment below it, or TL_NO_SEGMENT
 } tl_sweep_record;
 
+/// A sweep over an outline's edges that found no contact. Vertices at one place are one point, edges that run along one
+/// another there and back are one segment.
+typedef struct tl_outline_sweep {
+    tl_sweep_record record;
+    uint32_t place_count, segment_count; // 0: there was none
+    uint32_t *place_of;   // [vertex], or NULL: each vertex has a place of its own, and each edge its segment
+    uint32_t *segment_of; // [edge] by the vertex where it starts
+} tl_outline_sweep;
+
 /// Room for `point_count` points. False: out of memory.
 bool tl_sweep_record_init(tl_sweep_record *record, tl_arena *arena, uint32_t point_count);
 

@@ -23,10 +23,10 @@ typedef struct tl_ear_mesh {
     uint32_t *outer; // [vertex] the edge from it to the next vertex of the outline
 } tl_ear_mesh;
 
-/// Triangulates a weakly simple outline, as tl_triangulate takes it. `record`: of a sweep over its edges, edge i from
-/// point i to the next; or NULL. The mesh lies in `arena`. TL_ERR_SELF_INTERSECTION: it is not weakly simple.
+/// Triangulates a weakly simple outline, as tl_triangulate takes it. `sweep`: over its edges, edge i from point i to
+/// the next; NULL when it is not known. The mesh lies in `arena`. TL_ERR_SELF_INTERSECTION: it is not weakly simple.
 tl_result tl_ear_mesh_init(tl_ear_mesh *mesh, tl_arena *arena, const tl_lattice_point *points, uint32_t count,
-                           const tl_sweep_record *record);
+                           const tl_outline_sweep *sweep);
 
 /// Whether the corner b between vertex a and the next one, which has a turn > 0, can be cut off: no vertex lies in the
 /// triangle but where its corners are. `from` and `to`: the points of the new edge, a's and the next one's.

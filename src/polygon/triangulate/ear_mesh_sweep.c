@@ -264,100 +264,109 @@ static void sweep_plain_outline(ear_sweep *s, const tl_sweep_record *record)
     }
 }
 
-// Vertices by their places, and edges by the segments along which they run.
-typedef struct united_outline {
-    tl_lattice_point *places;
-    uint32_t place_count;
-    uint32_t *first;      // [place] vertex there
-    uint32_t *next_there; // [vertex] the next one at its place, or TL_NO_VALUE
-    uint32_t *place_of;   // [vertex]
-    tl_lattice_segment *segments;
-    uint32_t segment_count;
-    uint32_t *forward; // [segment] the edge that runs along it on the sweep's way, or TL_NO_VALUE
-} united_outline;
-
-static bool unite_places(united_outline *u, tl_arena *arena, const ear_sweep *s)
+// An outline whose sides coincide in parts: the vertices at a place are swept one after another.
+static tl_result sweep_united_outline(ear_sweep *s, tl_arena *arena, const tl_outline_sweep *sweep)
 {
-    u->places = TL_PUSH(arena, tl_lattice_point, s->count);
-    u->first = TL_PUSH(arena, uint32_t, s->count);
-    u->next_there = TL_PUSH(arena, uint32_t, s->count);
-    u->place_of = TL_PUSH(arena, uint32_t, s->count);
-    tl_key_table table;
-    if (u->places == NULL || u->first == NULL || u->next_there == NULL || u->place_of == NULL ||
-        !tl_key_table_init(&table, arena, s->count)) {
-        return false;
-    }
-    for (uint32_t v = s->count; v-- > 0;) {
-        const tl_lattice_point p = s->points[v];
-        uint32_t *place = tl_key_table_at(&table, tl_pair_key((uint32_t)p.x, (uint32_t)p.z));
-        const bool is_new = *place == TL_NO_VALUE;
-        if (is_new) {
-            u->places[u->place_count] = p;
-            *place = u->place_count++;
-        }
-        u->next_there[v] = is_new ? TL_NO_VALUE : u->first[*place];
-        u->first[*place] = v;
-        u->place_of[v] = *place;
-    }
-    return true;
-}
-
-static bool unite_segments(united_outline *u, tl_arena *arena, ear_sweep *s)
-{
-    u->segments = TL_PUSH(arena, tl_lattice_segment, s->count);
-    u->forward = TL_PUSH(arena, uint32_t, s->count);
-    tl_key_table table;
-    if (u->segments == NULL || u->forward == NULL || !tl_key_table_init(&table, arena, s->count)) {
-        return false;
-    }
-    for (uint32_t v = 0; v < s->count; v++) {
-        const uint32_t from = u->place_of[v], to = u->place_of[vertex_after(s, v)];
-        if (from == to) {
-            s->is_broken = true;
-            continue;
-        }
-        const bool is_forward = tl_is_swept_first(u->places[from], u->places[to]);
-        const tl_lattice_segment segment = { is_forward ? from : to, is_forward ? to : from };
-        uint32_t *number = tl_key_table_at(&table, tl_pair_key(segment.a, segment.b));
-        if (*number == TL_NO_VALUE) {
-            u->segments[u->segment_count] = segment;
-            u->forward[u->segment_count] = TL_NO_VALUE;
-            *number = u->segment_count++;
-        }
-        if (is_forward) {
-            u->forward[*number] = v;
-        }
-    }
-    return true;
-}
-
-static tl_result sweep_united_outline(ear_sweep *s, tl_arena *arena)
-{
-    united_outline u;
-    memset(&u, 0, sizeof u);
-    tl_sweep_record record;
-    if (!unite_places(&u, arena, s) || !unite_segments(&u, arena, s) ||
-        !tl_sweep_record_init(&record, arena, u.place_count)) {
+    uint32_t *first = TL_PUSH(arena, uint32_t, sweep->place_count); // vertex there
+    uint32_t *next_there = TL_PUSH(arena, uint32_t, s->count);
+    uint32_t *forward = TL_PUSH(arena, uint32_t, sweep->segment_count); // the edge that runs on the sweep's way
+    if (first == NULL || next_there == NULL || forward == NULL) {
         return TL_ERR_MEMORY;
     }
-    bool is_apart = false;
-    if (s->is_broken) {
-        return TL_OK;
+    memset(first, 0xff, sweep->place_count * sizeof *first);
+    memset(forward, 0xff, sweep->segment_count * sizeof *forward);
+    for (uint32_t v = s->count; v-- > 0;) {
+        uint32_t *there = &first[sweep->place_of[v]];
+        next_there[v] = *there;
+        *there = v;
+        if (tl_is_swept_first(s->points[v], s->points[vertex_after(s, v)])) {
+            forward[sweep->segment_of[v]] = v;
+        }
     }
-    TL_TRY(tl_sweep_segments(arena, u.places, u.place_count, u.segments, u.segment_count, &record, &is_apart));
-    s->is_broken = !is_apart;
-    for (uint32_t i = 0; i < u.place_count && !s->is_broken; i++) {
-        const uint32_t place = record.order[i], below = record.below[place];
-        const uint32_t lower = below < u.segment_count ? u.forward[below] : TL_NO_VALUE;
-        for (uint32_t v = u.first[place]; v != TL_NO_VALUE && !s->is_broken; v = u.next_there[v]) {
+    const uint32_t *order = sweep->record.order, *below = sweep->record.below;
+    for (uint32_t i = 0; i < sweep->place_count && !s->is_broken; i++) {
+        if (2 * VERTICES_AHEAD < sweep->place_count - i) {
+            tl_prefetch(&first[order[i + 2 * VERTICES_AHEAD]]);
+            tl_prefetch(&below[order[i + 2 * VERTICES_AHEAD]]);
+            const uint32_t later = first[order[i + VERTICES_AHEAD]];
+            tl_prefetch(&s->points[later]);
+            tl_prefetch(&s->region_of[later]);
+            tl_prefetch(&next_there[later]);
+        }
+        const uint32_t segment = below[order[i]];
+        const uint32_t lower = segment < sweep->segment_count ? forward[segment] : NO_REGION;
+        for (uint32_t v = first[order[i]]; v != TL_NO_VALUE && !s->is_broken; v = next_there[v]) {
             sweep_vertex(s, v, lower);
         }
     }
     return TL_OK;
 }
 
+static bool unite_places(tl_outline_sweep *sweep, tl_lattice_point **places_out, tl_arena *arena, const ear_sweep *s)
+{
+    tl_lattice_point *places = *places_out = TL_PUSH(arena, tl_lattice_point, s->count);
+    sweep->place_of = TL_PUSH(arena, uint32_t, s->count);
+    tl_key_table table;
+    if (places == NULL || sweep->place_of == NULL || !tl_key_table_init(&table, arena, s->count)) {
+        return false;
+    }
+    for (uint32_t v = 0; v < s->count; v++) {
+        const tl_lattice_point p = s->points[v];
+        uint32_t *place = tl_key_table_at(&table, tl_pair_key((uint32_t)p.x, (uint32_t)p.z));
+        if (*place == TL_NO_VALUE) {
+            places[sweep->place_count] = p;
+            *place = sweep->place_count++;
+        }
+        sweep->place_of[v] = *place;
+    }
+    return true;
+}
+
+static bool unite_segments(tl_outline_sweep *sweep, tl_lattice_segment **segments_out, tl_arena *arena, ear_sweep *s)
+{
+    tl_lattice_segment *segments = *segments_out = TL_PUSH(arena, tl_lattice_segment, s->count);
+    sweep->segment_of = TL_PUSH(arena, uint32_t, s->count);
+    tl_key_table table;
+    if (segments == NULL || sweep->segment_of == NULL || !tl_key_table_init(&table, arena, s->count)) {
+        return false;
+    }
+    for (uint32_t v = 0; v < s->count && !s->is_broken; v++) {
+        const uint32_t from = sweep->place_of[v], to = sweep->place_of[vertex_after(s, v)];
+        const tl_lattice_segment segment = { from < to ? from : to, from < to ? to : from };
+        uint32_t *number = tl_key_table_at(&table, tl_pair_key(segment.a, segment.b));
+        if (*number == TL_NO_VALUE) {
+            segments[sweep->segment_count] = segment;
+            *number = sweep->segment_count++;
+        }
+        sweep->segment_of[v] = *number;
+        s->is_broken = from == to;
+    }
+    return true;
+}
+
+// An outline of which nothing is known.
+static tl_result sweep_unknown_outline(ear_sweep *s, tl_arena *arena)
+{
+    tl_outline_sweep sweep;
+    memset(&sweep, 0, sizeof sweep);
+    tl_lattice_point *places;
+    tl_lattice_segment *segments;
+    if (!unite_places(&sweep, &places, arena, s) || !unite_segments(&sweep, &segments, arena, s) ||
+        !tl_sweep_record_init(&sweep.record, arena, sweep.place_count)) {
+        return TL_ERR_MEMORY;
+    }
+    if (s->is_broken) {
+        return TL_OK;
+    }
+    bool is_apart = false;
+    TL_TRY(
+        tl_sweep_segments(arena, places, sweep.place_count, segments, sweep.segment_count, &sweep.record, &is_apart));
+    s->is_broken = !is_apart;
+    return is_apart ? sweep_united_outline(s, arena, &sweep) : TL_OK;
+}
+
 tl_result tl_ear_mesh_init(tl_ear_mesh *mesh, tl_arena *arena, const tl_lattice_point *points, uint32_t count,
-                           const tl_sweep_record *record)
+                           const tl_outline_sweep *sweep)
 {
     mesh->points = points;
     mesh->edges = TL_PUSH(arena, tl_ear_edge, 4 * ((uint64_t)count - 2));
@@ -372,10 +381,12 @@ tl_result tl_ear_mesh_init(tl_ear_mesh *mesh, tl_arena *arena, const tl_lattice_
         return TL_ERR_MEMORY;
     }
     memset(s.region_of, 0xff, count * sizeof *s.region_of);
-    if (record != NULL) {
-        sweep_plain_outline(&s, record);
+    if (sweep == NULL) {
+        TL_TRY(sweep_unknown_outline(&s, arena));
+    } else if (sweep->place_of == NULL) {
+        sweep_plain_outline(&s, &sweep->record);
     } else {
-        TL_TRY(sweep_united_outline(&s, arena));
+        TL_TRY(sweep_united_outline(&s, arena, sweep));
     }
     tl_arena_rollback(arena, mark);
     return s.is_broken || s.triangle_count != count - 2 ? TL_ERR_SELF_INTERSECTION : TL_OK;

@@ -189,7 +189,7 @@ static tl_result start_list(triangulation *t, tl_arena *scratch, uint32_t count)
 
 static tl_result start_mesh(triangulation *t, tl_arena *scratch, const tl_triangulate_input *input)
 {
-    TL_TRY(tl_ear_mesh_init(&t->mesh, scratch, input->points, input->count, input->record));
+    TL_TRY(tl_ear_mesh_init(&t->mesh, scratch, input->points, input->count, input->sweep));
     tl_partition_queue *queue = &t->queue;
     if (!tl_partition_queue_init(queue, scratch, input->count)) {
         return TL_ERR_MEMORY;

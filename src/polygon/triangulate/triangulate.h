@@ -23,7 +23,7 @@ typedef enum tl_ear_test {
 typedef struct tl_triangulate_input {
     const tl_lattice_point *points;
     uint32_t count;
-    const tl_sweep_record *record; // of a sweep over edges from each point to the next, or NULL
+    const tl_outline_sweep *sweep; // over the edges from each point to the next, or NULL: not known
     const tl_step_tracer *tracer;  // or NULL
     tl_ear_test ear_test;
 } tl_triangulate_input;
