@@ -143,7 +143,8 @@ TL_API tl_result tl_nav_tile_grid(const tl_nav_def *def, tl_aabb level_bounds, u
 
 /// Metres to voxels, for the tile (tile_x, tile_z). TL_ERR_ARGUMENT names the def's field in
 /// report_out->field and says in ->advice what to use instead; TL_ERR_EMPTY: both bounds are empty; TL_ERR_LIMIT
-/// when the lattice would be too large.
+/// when the lattice would be too large; TL_ERR_RANGE when bounds are beyond TL_MAX_COORDINATE, or so far out that
+/// neighbouring floats are no finer than the cells (0.3 m: from 4,194 km on).
 TL_API tl_result tl_nav_config_from_def(const tl_nav_def *def, tl_aabb level_bounds, uint32_t tile_x, uint32_t tile_z,
                                         tl_nav_config *config_out, tl_report *report_out);
 

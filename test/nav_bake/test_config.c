@@ -201,6 +201,33 @@ static void bounds_are_checked(void **state)
     TEST_CHECK(config.width == 10 && config.height == 20 && config.height_voxels == 15);
 }
 
+// The lines of the lattice that a tile uses are different floats, or the level is refused.
+static void cells_finer_than_floats_are_refused(void **state)
+{
+    (void)state;
+    tl_nav_config config;
+    tl_report report;
+    for (float far = 1e3f; far < 1e12f; far *= 1.7f) {
+        const tl_nav_def def = tl_default_nav_def();
+        const tl_aabb level = { { far, 0, 0 }, { far + 40.0f, 3, 40 } };
+        const tl_result result = tl_nav_config_from_def(&def, level, 0, 0, &config, &report);
+        if (far > 4194304.0f) {
+            TEST_RESULT(result, TL_ERR_RANGE);
+            assert_string_equal(report.field, "cell_size");
+            continue;
+        }
+        TEST_RESULT(result, TL_OK);
+        for (int64_t line = 0; line < (int64_t)config.width; line++) {
+            TEST_CHECK(tl_nav_lattice_to_world(config.lattice.origin.x, line, config.cell_size) <
+                       tl_nav_lattice_to_world(config.lattice.origin.x, line + 1, config.cell_size));
+        }
+    }
+    const tl_nav_def def = tl_default_nav_def();
+    const tl_aabb high = { { 0, 1e7f, 0 }, { 40, 1e7f + 3, 40 } };
+    TEST_RESULT(tl_nav_config_from_def(&def, high, 0, 0, &config, &report), TL_ERR_RANGE);
+    assert_string_equal(report.field, "cell_height");
+}
+
 static void tiles_share_one_lattice(void **state)
 {
     (void)state;
@@ -234,13 +261,10 @@ static void tiles_share_one_lattice(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(defaults_are_those_of_recasts_demo),
-        cmocka_unit_test(ratios_of_decimals_are_whole_numbers),
-        cmocka_unit_test(decimal_ratios_hold_in_general),
-        cmocka_unit_test(every_field_is_checked),
-        cmocka_unit_test(limits_are_named_before_any_work),
-        cmocka_unit_test(bounds_are_checked),
-        cmocka_unit_test(tiles_share_one_lattice),
+        cmocka_unit_test(defaults_are_those_of_recasts_demo),  cmocka_unit_test(ratios_of_decimals_are_whole_numbers),
+        cmocka_unit_test(decimal_ratios_hold_in_general),      cmocka_unit_test(every_field_is_checked),
+        cmocka_unit_test(limits_are_named_before_any_work),    cmocka_unit_test(bounds_are_checked),
+        cmocka_unit_test(cells_finer_than_floats_are_refused), cmocka_unit_test(tiles_share_one_lattice),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

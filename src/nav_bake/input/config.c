@@ -175,6 +175,30 @@ static tl_result agent_voxels(const tl_nav_def *def, level_lattice *level, tl_re
     return TL_OK;
 }
 
+// The distance from the largest of two coordinates to the next float.
+static float float_step(float min, float max)
+{
+    const float largest = tl_maxf(fabsf(min), fabsf(max));
+    return nextafterf(largest, INFINITY) - largest;
+}
+
+// Two lines of the lattice must not be the same float: edges of polygons would have no length.
+static tl_result check_float_steps(const tl_nav_def *def, const tl_aabb *bounds, tl_report *report)
+{
+    const float step_x = float_step(bounds->min.x, bounds->max.x), step_z = float_step(bounds->min.z, bounds->max.z);
+    if (tl_maxf(step_x, step_z) >= def->cell_size) {
+        return tl_report_field(report, TL_ERR_RANGE, "cell_size",
+                               "move the level towards the origin, or raise cell_size: floats this far out are no "
+                               "finer than the cells");
+    }
+    if (float_step(bounds->min.y, bounds->max.y) >= def->cell_height) {
+        return tl_report_field(report, TL_ERR_RANGE, "cell_height",
+                               "move the level towards the origin, or raise cell_height: floats this high up are no "
+                               "finer than the voxels");
+    }
+    return TL_OK;
+}
+
 static tl_result level_columns(const tl_nav_def *def, level_lattice *level, tl_report *report)
 {
     double columns_x = column_count(level->bounds.min.x, level->bounds.max.x, def->cell_size);
@@ -233,6 +257,7 @@ static tl_result make_level(const tl_nav_def *def, tl_aabb level_bounds, level_l
     TL_TRY(choose_bounds(def, level_bounds, &level->bounds, report));
     TL_TRY(agent_voxels(def, level, report));
     TL_TRY(level_columns(def, level, report));
+    TL_TRY(check_float_steps(def, &level->bounds, report));
     return level_tiles(def, level, report);
 }
 
