@@ -6,7 +6,7 @@
 // smaller than the cell and once to one a little larger: what lies in the smaller one must be covered, what misses the
 // larger one must not be, and the heights lie between theirs. "A little" is the documented displacement, 2^-10.
 
-#include "nav_bake/voxels/voxelize.h"
+#include "nav_bake/voxels/triangle_block.h"
 
 #include "nav_fields.h"
 
@@ -22,6 +22,7 @@ typedef struct bench {
     double heights[TL_VOXEL_HEIGHTS_PER_CELL * WIDTH];
     tl_span_item items[WIDTH * HEIGHT]; ///< of the last triangle, which has at most one a column
     uint32_t count;
+    test_random lane;
 } bench;
 
 static void bench_begin(bench *b)
@@ -36,13 +37,34 @@ static void bench_end(bench *b)
     tl_span_buffer_free(&b->buffer);
 }
 
+// Each lane of the block has the triangle; all levels of instructions place it alike.
+static void place(const tl_voxel_band *band, tl_triangle_block *block, tl_voxel_point p, tl_voxel_point q,
+                  tl_voxel_point r)
+{
+    const tl_voxel_point corners[3] = { p, q, r };
+    memset(block, 0, sizeof *block);
+    for (uint32_t c = 0; c < 3; c++) {
+        for (uint32_t i = 0; i < TL_TRIANGLE_BLOCK; i++) {
+            block->lattice[0][c][i] = corners[c].x;
+            block->lattice[1][c][i] = corners[c].y;
+            block->lattice[2][c][i] = corners[c].z;
+        }
+    }
+    tl_triangle_block other = *block;
+    tl_block_questions_scalar.place(band, block);
+    tl_block_questions_best()->place(band, &other);
+    TEST_CHECK(memcmp(block, &other, sizeof other) == 0);
+}
+
 static void voxelize(bench *b, tl_voxel_point p, tl_voxel_point q, tl_voxel_point r)
 {
     const uint32_t columns = b->band.width * b->band.row_count;
     uint32_t first[WIDTH * HEIGHT + 1];
     const tl_nav_span *spans;
     TEST_RESULT(tl_span_buffer_begin(&b->buffer, columns), TL_OK);
-    TEST_RESULT(tl_voxelize_triangle(&b->band, p, q, r, 1), TL_OK);
+    tl_triangle_block block;
+    place(&b->band, &block, p, q, r);
+    TEST_RESULT(tl_voxelize_triangle(&b->band, &block, test_random_below(&b->lane, TL_TRIANGLE_BLOCK), 1), TL_OK);
     TEST_RESULT(tl_span_buffer_merge(&b->buffer, first, &spans), TL_OK);
     b->count = first[columns];
     for (uint32_t c = 0; c < columns; c++) {

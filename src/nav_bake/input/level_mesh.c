@@ -32,6 +32,17 @@ static bool are_vertices_sound(const tl_mesh_view *mesh)
     return sound != 0;
 }
 
+// Whether all indices are those of vertices.
+static bool are_indices_sound(const tl_mesh_view *mesh)
+{
+    const size_t count = 3 * (size_t)mesh->triangle_count;
+    uint32_t largest = 0;
+    for (size_t i = 0; i < count; i++) {
+        largest = mesh->indices[i] > largest ? mesh->indices[i] : largest;
+    }
+    return largest < mesh->vertex_count;
+}
+
 tl_result tl_level_mesh_check(const tl_mesh_view *mesh, tl_aabb *bounds_out, tl_report *report)
 {
     if (mesh->triangle_count == 0) {
@@ -41,6 +52,9 @@ tl_result tl_level_mesh_check(const tl_mesh_view *mesh, tl_aabb *bounds_out, tl_
         return tl_report_fail(report, TL_ERR_LIMIT, "triangle", TL_MAX_MESH_TRIANGLES, "split the mesh");
     }
     const bool sound = are_vertices_sound(mesh);
+    if (bounds_out == NULL && sound && are_indices_sound(mesh)) {
+        return TL_OK;
+    }
     tl_aabb bounds = tl_aabb_empty();
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         const uint32_t *corner = mesh->indices + 3 * (size_t)i;

@@ -13,7 +13,7 @@
 #include "base/host.h"
 #include "nav_bake/input/level_mesh.h"
 #include "nav_bake/voxels/batches.h"
-#include "nav_bake/voxels/voxelize.h"
+#include "nav_bake/voxels/triangle_block.h"
 
 #include <string.h>
 
@@ -55,20 +55,34 @@ static tl_result prepare_worker(const tl_rasterizer *r, tl_raster_worker *worker
     return tl_span_buffer_begin(&worker->buffer, columns);
 }
 
+// The area of the block's triangle i, the mesh's `triangle`.
+static inline uint32_t area_of(const tl_rasterizer *r, const tl_triangle_block *block, uint32_t i, uint32_t triangle)
+{
+    bool walkable = block->slope[i] == TL_SLOPE_WALKABLE;
+    if (block->slope[i] == TL_SLOPE_UNDECIDED) {
+        const uint32_t *corner = r->mesh->indices + 3 * (size_t)triangle;
+        const tl_vec3 *vertices = r->mesh->vertices;
+        walkable = tl_triangle_is_walkable(vertices[corner[0]], vertices[corner[1]], vertices[corner[2]],
+                                           r->config->walkable_slope_cos);
+    }
+    if (!walkable) {
+        return TL_NAV_NULL_AREA;
+    }
+    return r->areas != NULL ? r->areas[triangle] : TL_NAV_WALKABLE_AREA;
+}
+
 static tl_result voxelize_list(const tl_rasterizer *r, const tl_voxel_band *band, tl_triangle_list list)
 {
-    const tl_nav_config *config = r->config;
-    const tl_mesh_view *mesh = r->mesh;
-    for (uint32_t i = 0; i < list.count; i++) {
-        uint32_t triangle = tl_triangle_list_get(&list, i);
-        const uint32_t *corner = mesh->indices + 3 * (size_t)triangle;
-        tl_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
-        uint32_t area = TL_NAV_NULL_AREA;
-        if (tl_triangle_is_walkable(a, b, c, config->walkable_slope_cos)) {
-            area = r->areas != NULL ? r->areas[triangle] : TL_NAV_WALKABLE_AREA;
+    const tl_block_questions *ask = tl_block_questions_best();
+    tl_triangle_block block;
+    for (uint32_t first = 0, count; first < list.count; first += count) {
+        count = tl_triangle_block_fill(&block, r->mesh, &list, first);
+        ask->map(&r->map, r->config->walkable_slope_cos, &block);
+        ask->place(band, &block);
+        for (uint32_t i = 0; i < count; i++) {
+            const uint32_t area = area_of(r, &block, i, tl_triangle_list_get(&list, first + i));
+            TL_TRY(tl_voxelize_triangle(band, &block, i, area));
         }
-        TL_TRY(tl_voxelize_triangle(band, tl_lattice_map_point(&r->map, a), tl_lattice_map_point(&r->map, b),
-                                    tl_lattice_map_point(&r->map, c), area));
     }
     return TL_OK;
 }

@@ -2,9 +2,9 @@
 //
 // Conservative voxelization of a triangle, by what it overlaps.
 //
-// Most triangles of a detailed level lie within one cell, and most others are walls along a row or a column of cells:
-// those are seen from the side, where a triangle is two slopes over a line of cells. Only what is left walks its edges
-// row by row (voxelize_rows.c).
+// Most triangles of a detailed level lie within one cell, which triangle_block.inl finds, and most others are walls
+// along a row or a column of cells: those are seen from the side, where a triangle is two slopes over a line of cells.
+// Only what is left walks its edges row by row (voxelize_rows.c).
 //
 // A column is covered when the triangle's projection overlaps the open cell; a triangle that projects to a line, when
 // the line runs through the cell, where a line along a border belongs to the higher cell. The heights are those of the
@@ -20,20 +20,7 @@
 #include "nav_bake/voxels/voxel_walk.h"
 
 #include "base/assert.h"
-
-#include <math.h>
-
-// Whether any piece of the heights [low, high], in subdivisions, has the same span: they end below the next voxel and
-// inside the field.
-static bool lies_in_one_layer(double low, double high, uint32_t height_voxels)
-{
-    const int32_t limit = (int32_t)height_voxels * TL_SUBDIVISIONS;
-    if (!(low > -1.0 && high < (double)limit + 1.0)) {
-        return false;
-    }
-    int32_t bottom = tl_voxel_round(low), top = tl_voxel_round(high);
-    return bottom >= 0 && top <= limit && bottom >> TL_SUBDIVISION_BITS == top >> TL_SUBDIVISION_BITS;
-}
+#include "nav_bake/voxels/triangle_block.h"
 
 // Cells in line, first..last along it.
 typedef struct cell_line {
@@ -103,36 +90,6 @@ static void walk_line(const tl_voxel_walk *w, const side_point *p, const side_po
     }
 }
 
-// Whether a range lies within one cell, borders included. A single point on a border lies in the cell to its right.
-static inline bool is_in_one_cell(double min, double max)
-{
-    return max <= floor(min) + 1.0;
-}
-
-// A wall exactly on the field's far side moves half a cell inwards.
-static void close_far_side(const tl_voxel_band *band, tl_voxel_point *a, tl_voxel_point *b, tl_voxel_point *c)
-{
-    const double end_x = (double)band->width, end_z = (double)band->field_height;
-    if (a->x == end_x && b->x == end_x && c->x == end_x) {
-        a->x = b->x = c->x = end_x - 0.5;
-    }
-    if (a->z == end_z && b->z == end_z && c->z == end_z) {
-        a->z = b->z = c->z = end_z - 0.5;
-    }
-}
-
-typedef struct point_box {
-    tl_voxel_point min, max;
-} point_box;
-
-static inline point_box box_of_points(const tl_voxel_point *a, const tl_voxel_point *b, const tl_voxel_point *c)
-{
-    return (point_box){ { tl_min_f64(a->x, tl_min_f64(b->x, c->x)), tl_min_f64(a->y, tl_min_f64(b->y, c->y)),
-                          tl_min_f64(a->z, tl_min_f64(b->z, c->z)) },
-                        { tl_max_f64(a->x, tl_max_f64(b->x, c->x)), tl_max_f64(a->y, tl_max_f64(b->y, c->y)),
-                          tl_max_f64(a->z, tl_max_f64(b->z, c->z)) } };
-}
-
 // The spans of a triangle that lies within one line of cells, in field and band.
 static tl_result add_line(const tl_voxel_walk *w, side_point p, side_point q, side_point r, cell_line line)
 {
@@ -151,74 +108,52 @@ static tl_result add_line(const tl_voxel_walk *w, side_point p, side_point q, si
     return TL_OK;
 }
 
-// Whether a box lies within one cell of the band, as those of most triangles do in a detailed level. One that reaches
-// out of the band is not asked about.
-static inline bool lies_in_one_cell_of(const tl_voxel_band *band, const point_box *box)
+// A triangle within one row or one column of cells.
+static tl_result add_thin(const tl_voxel_walk *w, const tl_triangle_block *block, uint32_t i, uint32_t column)
 {
-    const double first_row = (double)band->first_row;
-    if (!(box->min.x >= 0.0 && box->max.x < (double)band->width && box->min.z >= first_row &&
-          box->max.z < first_row + (double)band->row_count)) {
-        return false;
+    const tl_voxel_point a = tl_triangle_block_corner(block, 0, i), b = tl_triangle_block_corner(block, 1, i),
+                         c = tl_triangle_block_corner(block, 2, i);
+    const double ay = a.y * TL_SUBDIVISIONS, by = b.y * TL_SUBDIVISIONS, cy = c.y * TL_SUBDIVISIONS;
+    if ((block->place[i] & TL_PLACE_ONE_ROW) != 0) {
+        const cell_line line = { block->first_x[i], block->last_x[i], column, 1 };
+        return add_line(w, (side_point){ a.x, ay }, (side_point){ b.x, by }, (side_point){ c.x, cy }, line);
     }
-    const double end_x = (double)((int32_t)box->min.x + 1), end_z = (double)((int32_t)box->min.z + 1);
-    return box->max.x <= end_x && box->max.z <= end_z;
+    const cell_line line = { block->first_z[i], block->last_z[i], column, w->band->width };
+    const double first_row = (double)w->band->first_row;
+    return add_line(w, (side_point){ a.z - first_row, ay }, (side_point){ b.z - first_row, by },
+                    (side_point){ c.z - first_row, cy }, line);
 }
 
-static tl_result add_one_cell(const tl_voxel_band *band, const point_box *box, uint32_t area)
+// A triangle of several rows and columns.
+static tl_result add_rows(tl_voxel_walk *w, const tl_triangle_block *block, uint32_t i)
 {
-    const tl_voxel_walk w = { .band = band, .area = area };
-    const uint32_t row = (uint32_t)(int32_t)box->min.z - band->first_row;
-    const double low = box->min.y * TL_SUBDIVISIONS, high = box->max.y * TL_SUBDIVISIONS;
-    TL_TRY(tl_span_buffer_reserve(band->buffer, 1));
-    tl_voxel_add_heights(&w, low, high, row * band->width + (uint32_t)(int32_t)box->min.x);
-    return TL_OK;
-}
-
-tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_voxel_point a, tl_voxel_point b, tl_voxel_point c,
-                               uint32_t area)
-{
-    if (band->closed_far_side) {
-        close_far_side(band, &a, &b, &c);
-    }
-    const point_box box = box_of_points(&a, &b, &c);
-    if (lies_in_one_cell_of(band, &box)) {
-        return add_one_cell(band, &box, area);
-    }
-    const double first_row = (double)band->first_row, height = (double)band->height_voxels;
-    int32_t first_x, last_x, first_z, last_z; // columns and rows of the band
-    tl_voxel_cell_range(box.min.x, box.max.x, band->width, &first_x, &last_x);
-    tl_voxel_cell_range(box.min.z - first_row, box.max.z - first_row, band->row_count, &first_z, &last_z);
-    if (first_x > last_x || first_z > last_z || box.max.y < -1.0 || box.min.y > height + 1.0) {
-        return TL_OK;
-    }
-    const double low = box.min.y * TL_SUBDIVISIONS, high = box.max.y * TL_SUBDIVISIONS;
-    tl_voxel_walk w = { .band = band, .area = area };
-    const uint32_t column = (uint32_t)first_z * band->width + (uint32_t)first_x;
-    // Judged in the whole lattice, not in the band's or field's part of it: all that see a triangle treat it alike.
-    const bool in_one_row = is_in_one_cell(box.min.z, box.max.z), in_one_column = is_in_one_cell(box.min.x, box.max.x);
-    if (in_one_row && in_one_column) { // on the rim of the band
-        TL_TRY(tl_span_buffer_reserve(band->buffer, 1));
-        tl_voxel_add_heights(&w, low, high, column);
-        return TL_OK;
-    }
-    if (lies_in_one_layer(low, high, band->height_voxels)) {
-        w.level = tl_voxel_span_of_heights(low, high, band->height_voxels, &w.level_min, &w.level_max);
-    }
+    tl_voxel_point a = tl_triangle_block_corner(block, 0, i), b = tl_triangle_block_corner(block, 1, i),
+                   c = tl_triangle_block_corner(block, 2, i);
     a.y *= TL_SUBDIVISIONS;
     b.y *= TL_SUBDIVISIONS;
     c.y *= TL_SUBDIVISIONS;
-    if (in_one_row) {
-        const cell_line line = { first_x, last_x, column, 1 };
-        return add_line(&w, (side_point){ a.x, a.y }, (side_point){ b.x, b.y }, (side_point){ c.x, c.y }, line);
-    }
-    if (in_one_column) {
-        const cell_line line = { first_z, last_z, column, band->width };
-        return add_line(&w, (side_point){ a.z - first_row, a.y }, (side_point){ b.z - first_row, b.y },
-                        (side_point){ c.z - first_row, c.y }, line);
-    }
-    w.inside = box.min.y >= 0.0 && box.max.y <= height;
-    w.beyond = !(box.min.x >= 0.0 && box.max.x < (double)band->width);
-    const int32_t above = (int32_t)band->first_row;
+    w->inside = (block->place[i] & TL_PLACE_INSIDE) != 0;
+    w->beyond = (block->place[i] & (TL_PLACE_BEFORE | TL_PLACE_BEHIND)) != 0;
     const tl_voxel_point *const corners[3] = { &a, &b, &c };
-    return tl_voxelize_rows(&w, corners, first_z + above, last_z + above);
+    const int32_t first_row = (int32_t)w->band->first_row;
+    return tl_voxelize_rows(w, corners, block->first_z[i] + first_row, block->last_z[i] + first_row);
+}
+
+tl_result tl_voxelize_triangle(const tl_voxel_band *band, const tl_triangle_block *block, uint32_t i, uint32_t area)
+{
+    const int32_t first_x = block->first_x[i], first_z = block->first_z[i], place = block->place[i];
+    if (first_x > block->last_x[i] || first_z > block->last_z[i] || block->min[i] >= block->max[i]) {
+        return TL_OK;
+    }
+    const uint32_t column = (uint32_t)first_z * band->width + (uint32_t)first_x;
+    const uint32_t min = (uint32_t)block->min[i], max = (uint32_t)block->max[i];
+    if ((place & TL_PLACE_ONE_CELL) == TL_PLACE_ONE_CELL) {
+        TL_TRY(tl_span_buffer_reserve(band->buffer, 1));
+        tl_span_buffer_add(band->buffer, column, min, max, area);
+        return TL_OK;
+    }
+    tl_voxel_walk w = { .band = band, .area = area, .level = (place & TL_PLACE_LEVEL) != 0 };
+    w.level_min = min;
+    w.level_max = max;
+    return (place & TL_PLACE_ONE_CELL) != 0 ? add_thin(&w, block, i, column) : add_rows(&w, block, i);
 }

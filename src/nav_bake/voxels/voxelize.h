@@ -25,9 +25,10 @@ typedef struct tl_voxel_band {
 
 void tl_voxel_heights_init(double *heights, uint32_t line);
 
-/// Adds the spans of the triangle abc, of the given area, to the band's buffer. TL_ERR_MEMORY or TL_ERR_LIMIT when that
-/// can't grow.
-tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_voxel_point a, tl_voxel_point b, tl_voxel_point c,
-                               uint32_t area);
+typedef struct tl_triangle_block tl_triangle_block;
+
+/// Adds the spans of the block's triangle i, which was placed in the band, of the given area, to the band's buffer.
+/// TL_ERR_MEMORY or TL_ERR_LIMIT when that can't grow.
+tl_result tl_voxelize_triangle(const tl_voxel_band *band, const tl_triangle_block *block, uint32_t i, uint32_t area);
 
 #endif
