@@ -55,18 +55,6 @@ bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight);
 /// TL_ERR_NOT_FINITE, TL_ERR_STALE.
 tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
                                   tl_nav_shortest_search *search_out);
-/// Whether a polygon lies in a dead end of its tile that holds neither start nor goal: a path that enters one, over its
-/// only edge, comes back over that edge. Where links end on polygons it may not.
-static inline bool tl_nav_is_dead_end(const tl_nav_shortest_search *search, uint32_t slot, uint32_t polygon)
-{
-    const tl_nav_slot *slots = search->navmesh->slots;
-    const uint32_t dead_end = slots[slot].rings.cells[polygon].dead_end;
-    if (dead_end == 0 || slots[slot].anchor_count > 0) {
-        return false;
-    }
-    return !(slot == search->goal_slot && dead_end == slots[slot].rings.cells[search->goal_polygon].dead_end) &&
-           !(slot == search->start_slot && dead_end == slots[slot].rings.cells[search->start_polygon].dead_end);
-}
 /// Whether start and goal lie on two islands.
 bool tl_nav_is_cut_off(const tl_nav_shortest_search *search);
 

@@ -94,7 +94,7 @@ static inline void cross_wedge_links(wedge_search *s, uint32_t index)
         const tl_nav_anchor *from = &link->ends[end % 2];
         const tl_nav_anchor *to = &link->ends[1 - end % 2];
         if (from->slot == slot && from->polygon == polygon && tl_nav_may_cross(link, end % 2, s->in->filter) &&
-            may_enter(s, to->slot, to->polygon)) {
+            (s->in->filter == NULL || tl_nav_passes(s->in->filter, navmesh->slots[to->slot].tile, to->polygon))) {
             cross_wedge_link(s, index, end);
         }
         end = from->next;

@@ -56,7 +56,8 @@ static inline void look_out(wedge_search *s, uint32_t index, root_holders *gathe
         bool on_edge = v.edge_on && is_root_within(s, &edge);
         if (gathered != NULL && on_edge) {
             tl_nav_ring_seam to = tl_nav_ring_across(s->navmesh, from.slot, from.ring[i].to);
-            if (may_enter(s, to.slot, to.polygon)) {
+            const tl_nav_ring_seam here = { from.slot, from.polygon };
+            if (may_go(s, here, to)) {
                 add_holder(s, gathered, to.slot, to.polygon, index);
             }
         } else if (gathered == NULL && !on_edge && v.edge_on) {

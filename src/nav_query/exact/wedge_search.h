@@ -27,14 +27,16 @@ typedef struct wedge_search {
     const tl_nav_sight *sight; // NULL: a search; else all that is seen from the start is looked for, and no turn taken
 } wedge_search;
 
-static inline bool may_enter(const wedge_search *s, uint32_t slot, uint32_t polygon)
+// Whether a search may go from a polygon into another.
+static inline bool may_go(const wedge_search *s, tl_nav_ring_seam from, tl_nav_ring_seam to)
 {
     const tl_nav_shortest_search *in = s->in;
+    const tl_nav_ring_seam goal = { in->goal_slot, in->goal_polygon };
     if (s->sight != NULL) {
         return true;
     }
-    return !tl_nav_is_dead_end(in, slot, polygon) &&
-           (in->filter == NULL || tl_nav_passes(in->filter, s->navmesh->slots[slot].tile, polygon));
+    return !tl_nav_leads_astray(s->navmesh, from, to, goal) &&
+           (in->filter == NULL || tl_nav_passes(in->filter, s->navmesh->slots[to.slot].tile, to.polygon));
 }
 
 static inline uint32_t new_wedge(wedge_search *s)

@@ -60,10 +60,11 @@ static inline void offer_first(wedge_search *s)
 static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i, wedge_origin root,
                              const seen_edge *edge, tl_nav_direction left, tl_nav_direction right)
 {
-    tl_nav_ring_place twin = tl_nav_ring_twin(s->navmesh, from->slot, from->polygon, from->ring, from->count, i);
-    if (!may_enter(s, twin.slot, twin.polygon)) {
+    const tl_nav_ring_seam here = { from->slot, from->polygon };
+    if (!may_go(s, here, tl_nav_ring_across(s->navmesh, from->slot, from->ring[i].to))) {
         return;
     }
+    tl_nav_ring_place twin = tl_nav_ring_twin(s->navmesh, from->slot, from->polygon, from->ring, from->count, i);
     uint32_t index = new_wedge(s);
     if (index == TL_NAV_NO_NODE) {
         return;

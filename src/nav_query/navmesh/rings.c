@@ -303,7 +303,7 @@ static void fill_rings(const tl_nav_tile *tile, const tl_nav_side_links *sides[T
     ring_writer writer = { rings, 0, 0 };
     write_rings(&writer, tile, sides, is_changed, old);
     rings->cells[tile->polygon_count].first = (uint32_t)writer.edge_count;
-    rings->cells[tile->polygon_count].dead_end = 0;
+    rings->cells[tile->polygon_count].branch = 0;
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         if (is_changed[p]) {
             find_twins(rings, p);
@@ -323,17 +323,20 @@ static void copy_components(const tl_nav_rings *old, uint32_t node_count, tl_nav
 
 static uint64_t walls_size(const tl_nav_rings *rings)
 {
-    return rings->walls_count * (uint64_t)sizeof *rings->walls + rings->component_count * sizeof *rings->island;
+    return rings->walls_count * (uint64_t)sizeof *rings->walls + rings->component_count * sizeof *rings->island +
+           rings->branch_count * sizeof *rings->branch_end;
 }
 
 static void place_walls(tl_nav_rings *rings, void *block)
 {
     rings->walls = (tl_nav_ring_walls *)block;
     rings->island = (uint32_t *)(void *)(rings->walls + rings->walls_count);
+    rings->branch_end = rings->island + rings->component_count;
 }
 
 // Gives all vertices their walls: those of old rings, where edges name some, and others that are not known yet.
-static tl_result make_walls(const tl_allocator *allocator, const tl_nav_rings *old, tl_nav_rings *rings)
+static tl_result make_walls(const tl_allocator *allocator, const tl_nav_rings *old, const uint32_t *branch_end,
+                            tl_nav_rings *rings)
 {
     const uint64_t edges = rings->cells[rings->polygon_count].first;
     uint32_t *walls_of = tl_allocate_array(allocator, edges, sizeof *walls_of);
@@ -346,6 +349,7 @@ static tl_result make_walls(const tl_allocator *allocator, const tl_nav_rings *o
     if (block != NULL) {
         memset(block, 0, (size_t)walls_size(rings));
         place_walls(rings, block);
+        memcpy(rings->branch_end, branch_end, rings->branch_count * sizeof *rings->branch_end);
         if (old != NULL) {
             memcpy(rings->island, old->island, rings->component_count * sizeof *rings->island);
         }
@@ -385,8 +389,8 @@ static tl_result make_rings(const tl_allocator *allocator, const tl_nav_tile *ti
         label_components(rings, scratch);
         label_tree_nodes(tile, rings);
     }
-    tl_nav_mark_dead_ends(rings, scratch);
-    return make_walls(allocator, old, rings);
+    const uint32_t *branch_end = tl_nav_find_branches(rings, scratch);
+    return make_walls(allocator, old, branch_end, rings);
 }
 
 tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile,
@@ -396,13 +400,14 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
     memset(rings_out, 0, sizeof *rings_out);
     tl_nav_rings rings;
     memset(&rings, 0, sizeof rings);
-    uint32_t *scratch = tl_allocate_array(allocator, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
+    const uint64_t scratch_count = TL_NAV_BRANCH_SCRATCH * (uint64_t)tile->polygon_count + 1;
+    uint32_t *scratch = tl_allocate_array(allocator, scratch_count, sizeof *scratch);
     if (scratch == NULL) {
         return TL_ERR_MEMORY;
     }
     mark_changed(tile, changed_side, old, scratch);
     const tl_result result = make_rings(allocator, tile, sides, old, scratch, &rings);
-    tl_release_array(allocator, scratch, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
+    tl_release_array(allocator, scratch, scratch_count, sizeof *scratch);
     if (result != TL_OK) {
         tl_nav_rings_free(allocator, &rings);
         return result;

@@ -64,8 +64,8 @@ typedef union tl_nav_ring_numbers {
 } tl_nav_ring_numbers;
 
 typedef struct tl_nav_ring_cell {
-    uint32_t first;    ///< of the polygon's edges; they end where the next cell's begin
-    uint32_t dead_end; ///< 0, or the dead end of this tile that the polygon belongs to (dead_ends.c)
+    uint32_t first;  ///< of the polygon's edges; they end where the next cell's begin
+    uint32_t branch; ///< of the tile, to which the polygon belongs (branches.c)
 } tl_nav_ring_cell;
 
 typedef struct tl_nav_rings {
@@ -74,14 +74,15 @@ typedef struct tl_nav_rings {
     tl_nav_ring_walls *walls; ///< [walls_count]
     tl_nav_ring_seam *seams;
     uint32_t *island;                ///< by component: a node of the navmesh's islands (islands.c)
+    uint32_t *branch_end;            ///< by branch: those on it, and on those, are numbered from it up to here
     tl_nav_ring_numbers component;   ///< by polygon: its connected component within the tile, from 0
     tl_nav_ring_numbers next_member; ///< by polygon: the next one of its component, around
     /// By node of the tile's box tree: the component of all polygons below it, or the highest bit and those of theirs.
     tl_nav_ring_numbers node_component;
-    uint32_t polygon_count, component_count, walls_count;
+    uint32_t polygon_count, component_count, branch_count, walls_count;
     bool has_back; ///< some edge is a TL_NAV_RING_BACK
     bool is_wide;  ///< its numbers have 32 bits
-    void *block;   ///< that all arrays stand in but `walls`, behind which `island` stands
+    void *block;   ///< that all arrays stand in but `walls`, behind which `island` and `branch_end` stand
     uint64_t block_size;
 } tl_nav_rings;
 
@@ -110,8 +111,10 @@ static inline uint32_t tl_nav_inner_twin(const tl_nav_rings *rings, uint32_t pol
     return twin < TL_NAV_RING_FAR_TWIN ? twin : tl_nav_find_far_twin(rings, polygon, edge);
 }
 
-/// Finds the dead ends of a tile. `scratch` holds 2 * polygon_count numbers.
-void tl_nav_mark_dead_ends(tl_nav_rings *rings, uint32_t *scratch);
+/// Finds the branches of a tile, their number, and that of each polygon. Returns their ends, which stand in `scratch`:
+/// TL_NAV_BRANCH_SCRATCH * polygon_count + 1 numbers.
+const uint32_t *tl_nav_find_branches(tl_nav_rings *rings, uint32_t *scratch);
+enum { TL_NAV_BRANCH_SCRATCH = 6 };
 
 static inline uint32_t tl_nav_ring_number(const tl_nav_rings *rings, tl_nav_ring_numbers numbers, uint32_t i)
 {
@@ -135,6 +138,13 @@ static inline uint32_t tl_nav_node_component(const tl_nav_rings *rings, uint32_t
     return rings->is_wide || kept <= TL_NAV_MAX_SHORT_NUMBER
                ? kept
                : TL_NAV_MIXED_COMPONENTS | (kept & TL_NAV_MAX_SHORT_NUMBER);
+}
+
+/// Whether a polygon lies in a branch, or in one that hangs on it.
+static inline bool tl_nav_is_on_branch(const tl_nav_rings *rings, uint32_t branch, uint32_t polygon)
+{
+    const uint32_t of_polygon = rings->cells[polygon].branch;
+    return of_polygon >= branch && of_polygon < rings->branch_end[branch];
 }
 
 /// Whether an edge may be crossed.

@@ -122,6 +122,7 @@ static void expand_way(tl_nav_way_search *search, uint32_t index)
     const tl_nav_slot *slot = &search->navmesh->slots[node.slot];
     const tl_nav_ring_edge *ring = tl_nav_ring_of(&slot->rings, node.polygon, &count);
     const uint64_t first = (uint64_t)(ring - slot->rings.edges);
+    const tl_nav_ring_seam here = { node.slot, node.polygon }, goal_at = { search->goal_slot, search->goal_polygon };
     const tl_nav_spot from = tl_nav_spot_of(node.point), goal = tl_nav_spot_of(search->goal);
     for (const tl_nav_ring_edge *begin = ring; begin < ring + count; begin++) {
         if (!tl_nav_ring_is_open(begin)) {
@@ -129,7 +130,7 @@ static void expand_way(tl_nav_way_search *search, uint32_t index)
         }
         const tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, node.slot, begin->to);
         if ((to.polygon == before.polygon && to.slot == before.slot) ||
-            (search->ends != NULL && tl_nav_is_dead_end(search->ends, to.slot, to.polygon)) ||
+            (search->leaves_out_branches && tl_nav_leads_astray(search->navmesh, here, to, goal_at)) ||
             !tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
             continue;
         }
@@ -161,12 +162,12 @@ static tl_nav_path_status step_by_ways(tl_nav_way_search *search, uint64_t *step
     return TL_NAV_PATH_UNFINISHED;
 }
 
-static void begin_by_ways(tl_nav_path_run *run, bool leaves_out_dead_ends)
+static void begin_by_ways(tl_nav_path_run *run, bool leaves_out_branches)
 {
     tl_nav_way_search *search = &run->ways;
     search->detour = min_shortcut_distance(search);
     search->out_of_nodes = false;
-    search->ends = leaves_out_dead_ends ? &run->exact : NULL;
+    search->leaves_out_branches = leaves_out_branches;
     tl_nav_pool_reset(search->query);
     relax_way(search, PATH_START_KEY, run->exact.start_slot, run->exact.start_polygon, run->start.point, 0.0f,
               TL_NAV_NO_NODE);
@@ -327,11 +328,11 @@ static void note_exact_end(tl_nav_path_run *run, tl_nav_search_end end)
 
 static void note_ways_end(tl_nav_path_run *run, tl_nav_path_status end)
 {
-    const bool leaves_out_dead_ends = run->ways.ends != NULL;
+    const bool leaves_out_branches = run->ways.leaves_out_branches;
     if (end == TL_NAV_PATH_OUT_OF_NODES && tl_nav_query_grow(run->ways.query)) {
-        begin_by_ways(run, leaves_out_dead_ends);
-    } else if (end == TL_NAV_PATH_UNREACHABLE && leaves_out_dead_ends) {
-        begin_by_ways(run, false); // how far it can be gone, into dead ends too
+        begin_by_ways(run, leaves_out_branches);
+    } else if (end == TL_NAV_PATH_UNREACHABLE && leaves_out_branches) {
+        begin_by_ways(run, false); // how far it can be gone, into branches too
     } else {
         run->status = end;
     }
@@ -350,7 +351,7 @@ static tl_result set_up(tl_nav_query *query, const tl_navmesh *navmesh, const tl
     }
     tl_nav_way_search ways = {
         query,    navmesh, filter,         least, run->exact.goal_slot, run->exact.goal_polygon, request->goal.point,
-        INFINITY, false,   TL_NAV_NO_NODE, NULL
+        INFINITY, false,   TL_NAV_NO_NODE, false
     };
     run->ways = ways;
     run->start = request->start;

@@ -25,8 +25,8 @@ typedef struct tl_nav_way_search {
     tl_vec3 goal;
     float detour; ///< metres from the goal to the nearest end of a short cut; INFINITY: there is no short cut
     bool out_of_nodes;
-    uint32_t last;                      ///< the goal's node, once it is found
-    const tl_nav_shortest_search *ends; ///< say which dead ends are left out; NULL: none is
+    uint32_t last;            ///< the goal's node, once it is found
+    bool leaves_out_branches; ///< that do not hold the goal
 } tl_nav_way_search;
 
 typedef enum tl_nav_run_stage {

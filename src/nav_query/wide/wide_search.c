@@ -113,15 +113,6 @@ static bool leads_back(const tl_nav_wide_search *search, const tl_nav_node *node
     return before->slot == across.slot && before->polygon == across.polygon;
 }
 
-// Whether a polygon belongs to a dead end in which neither the node nor the goal lies.
-static bool is_dead_end(const tl_nav_wide_search *search, const tl_nav_node *node, tl_nav_ring_seam across)
-{
-    const tl_nav_ring_cell *cells = search->clearance->navmesh->slots[across.slot].rings.cells;
-    uint32_t dead_end = cells[across.polygon].dead_end;
-    return dead_end != 0 && !(node->slot == across.slot && cells[node->polygon].dead_end == dead_end) &&
-           !(search->goal.slot == across.slot && cells[search->goal.polygon].dead_end == dead_end);
-}
-
 // How many pieces of an outline's edge lie between two shares of it.
 static uint32_t count_pieces(const tl_nav_pieces *pieces, uint32_t edge, double first, double last)
 {
@@ -161,8 +152,10 @@ static void cross_wide_edge(tl_nav_wide_search *search, uint32_t index, const cu
     double last = share_of(p, q, tl_nav_spot_make((double)way->end->x, (double)way->end->z));
     bool is_back = entry != NULL && entry->edge == side && leads_back(search, &node, across);
     double entry_share = is_back ? share_of(p, q, node_spot(&node)) : 0.0;
-    // A dead end hangs by this edge alone. One that has a single piece of it is left by the way that it was entered.
-    if (is_dead_end(search, &node, across) && count_pieces(&cut->pieces, side, first, last) < 2) {
+    // What lies behind it hangs by this edge alone. By a single piece of it the path would come back where it went.
+    const tl_nav_ring_seam here = { node.slot, node.polygon }, goal = { search->goal.slot, search->goal.polygon };
+    if (tl_nav_leads_astray(clearance->navmesh, here, across, goal) &&
+        count_pieces(&cut->pieces, side, first, last) < 2) {
         return;
     }
     uint64_t place = (uint64_t)(edge - clearance->navmesh->slots[node.slot].rings.edges);
