@@ -4,9 +4,12 @@
 //
 // Where the end that is nearer to the triangle's plane projects into the triangle, the plane's distance is the answer:
 // that is the floor under a character, and most of what it ever asks. Else a nearest point lies at the other end or on
-// an edge. Source: Ericson, Real-Time Collision Detection, 2005, sections 5.1.9 and 5.1.10.
+// an edge that some point of the segment is outside of: the others are not asked. Source: Ericson, Real-Time Collision
+// Detection, 2005, sections 5.1.9 and 5.1.10.
 
 #include "character/capsule_gap.h"
+
+#define ALL_SIDES 7u
 
 static double clamp_to_one(double share)
 {
@@ -78,33 +81,55 @@ static bool crosses_triangle(const tl_mover_item *t, const tl_mover_core *core, 
     return true;
 }
 
+// On which sides of a triangle's edges the core's ends are: bit k for the inside of edge k, seen along the normal.
+typedef struct core_sides {
+    uint32_t low, top;
+} core_sides;
+
+static core_sides sides_of(const tl_mover_item *t, tl_vec3d low, tl_vec3d top)
+{
+    core_sides sides = { 0, 0 };
+    for (int k = 0; k < 3; k++) {
+        const tl_vec3d edge = tl_vec3d_sub(t->corners[(k + 1) % 3], t->corners[k]);
+        const tl_vec3d inward = tl_vec3d_cross(t->normal, edge);
+        sides.low |= (uint32_t)(tl_vec3d_dot(inward, tl_vec3d_sub(low, t->corners[k])) >= 0.0) << k;
+        sides.top |= (uint32_t)(tl_vec3d_dot(inward, tl_vec3d_sub(top, t->corners[k])) >= 0.0) << k;
+    }
+    return sides;
+}
+
 static void nearest_of_triangle(const tl_mover_item *t, const tl_mover_core *core, tl_mover_nearest *best)
 {
     double best_sq = (double)INFINITY;
-    tl_vec3d top = core->low;
-    top.y += core->length;
+    core_sides in = { 0, 0 };
     if (t->normal.x != 0.0 || t->normal.y != 0.0 || t->normal.z != 0.0) {
+        tl_vec3d top = core->low;
+        top.y += core->length;
         double low = tl_vec3d_dot(t->normal, tl_vec3d_sub(core->low, t->corners[0])),
                high = low + t->normal.y * core->length;
         if (crosses_triangle(t, core, low, high, best)) {
             return;
         }
+        in = sides_of(t, core->low, top);
         bool low_nearer = fabs(low) <= fabs(high), same_side = (low >= 0.0) == (high >= 0.0);
-        if (same_side && projects_inside(t, low_nearer ? core->low : top)) {
+        if (same_side && (low_nearer ? in.low : in.top) == ALL_SIDES) {
             take_plane(t, low_nearer ? core->low : top, low_nearer ? low : high, best);
             return;
         }
-        for (int end = 0; end < 2; end++) {
-            tl_vec3d p = end == 0 ? core->low : top;
-            double height = end == 0 ? low : high;
-            if (height * height < best_sq && projects_inside(t, p)) {
-                take_plane(t, p, height, best);
-                best_sq = height * height;
-            }
+        if (in.low == ALL_SIDES) {
+            take_plane(t, core->low, low, best);
+            best_sq = low * low;
+        }
+        if (in.top == ALL_SIDES && high * high < best_sq) {
+            take_plane(t, top, high, best);
+            best_sq = high * high;
         }
     }
+    // An edge that no point of the core is outside of holds no nearest point, but for its ends, which other edges have.
     for (int k = 0; k < 3; k++) {
-        try_edge_of(t, core, k, best, &best_sq);
+        if (((in.low & in.top) >> k & 1u) == 0) {
+            try_edge_of(t, core, k, best, &best_sq);
+        }
     }
     if (best->distance == 0.0 && tl_vec3d_dot(best->normal, best->normal) == 0.0) {
         best->normal = tl_vec3d_make(0.0, 1.0, 0.0); // a needle through the core
