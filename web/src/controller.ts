@@ -108,7 +108,7 @@ export class Controller implements App {
     this.asked = done.settings;
     const { level } = done;
     const fresh: Partial<View> = keepView ? {} : {
-      camera: null, start: null, goal: null, why: null, ray: null, guard: null, obstacles: [], links: [],
+      camera: null, cut: null, start: null, goal: null, why: null, ray: null, guard: null, obstacles: [], links: [],
     };
     this.stage.setLevel(level.min, level.max, keepView ? this.view.get().camera : null);
     this.view.set({ level: name, settings: done.settings, ...fresh });

@@ -10,7 +10,7 @@ import { ENDINGS, LevelError, readLevel } from './load/level_file';
 import { fill, h } from './panels/dom';
 import { footer } from './panels/footer';
 import { helpDialog } from './panels/help';
-import { layersPanel } from './panels/layers_panel';
+import { layersPanel, stepStage } from './panels/layers_panel';
 import { levelChooser, levelPanel } from './panels/level_panel';
 import { settingsPanel } from './panels/settings_panel';
 import { exportPicture, shareButtons } from './panels/share_panel';
@@ -40,13 +40,19 @@ function makeTools(app: Controller): { tools: readonly Tool[]; chosen(): Tool; p
   ];
   const chosen = (): Tool => tools.find((tool) => tool.name === app.view.get().tool)!;
   const panel = h('section', { id: 'tool-panel' });
-  const hint = h('div', { class: 'hint' });
+  const hint = h('div', { class: 'hint' }, h('span'));
   const buttons = h('nav', { class: 'tools', 'aria-label': 'Tools' });
   for (const tool of tools) {
     buttons.append(h('button', {
       id: `tool-${tool.name}`, title: `${tool.hint} (${tool.key})`, onclick: () => app.view.set({ tool: tool.name }),
     }, tool.label));
   }
+  // Where the panels are drawers, what the tool answers is told in the picture.
+  new MutationObserver(() => {
+    const answer = panel.querySelector('.good, .bad');
+    hint.classList.toggle('answered', answer !== null);
+    hint.dataset.answer = answer?.textContent ?? '';
+  }).observe(panel, { childList: true, subtree: true });
   const choose = (): void => {
     const now = chosen();
     for (const tool of tools) {
@@ -54,7 +60,7 @@ function makeTools(app: Controller): { tools: readonly Tool[]; chosen(): Tool; p
       document.getElementById(`tool-${tool.name}`)?.setAttribute('aria-pressed', String(tool === now));
     }
     fill(panel, h('h2', {}, now.label), now.panel);
-    hint.textContent = now.hint;
+    hint.firstElementChild!.textContent = now.hint;
     // All of them: paths, obstacles and links stay in the picture while another tool is in hand.
     for (const tool of tools) tool.refresh();
   };
@@ -130,6 +136,8 @@ function keys(app: Controller, tools: readonly Tool[], help: () => void, root: H
     o: () => document.getElementById('file')?.click(),
     p: () => exportPicture(app),
     h: () => root.classList.toggle('bare'),
+    ',': () => stepStage(app, -1),
+    '.': () => stepStage(app, 1),
     '?': help,
     Escape: () => app.cancel(),
   };
@@ -142,10 +150,14 @@ function keys(app: Controller, tools: readonly Tool[], help: () => void, root: H
   flyByKeys(app.stage, () => app.cameraMoved());
 }
 
+/** The page as a stranger sees it first: a path, which may be dragged. */
+const FIRST_SIGHT: Partial<View> = { tool: 'path', start: [14, 0, 28], goal: [20, 5, 20] };
+
 async function start(root: HTMLElement): Promise<void> {
   const embedded = readEmbedded();
   const asked = location.hash.length > 1 ? location.hash : embedded?.hash ?? '';
   const { view: first, faults } = hashToView(asked);
+  if (asked === '') Object.assign(first, FIRST_SIGHT);
   if (embedded && !hashHasSettings(asked)) first.settings = { ...first.settings, ...embedded.settings };
   const canvas = h('canvas', { tabIndex: 0, 'aria-label': 'The level in three dimensions' });
   const viewBox = h('main', { class: 'view' }, canvas);

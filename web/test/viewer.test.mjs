@@ -77,7 +77,53 @@ test('draws each layer, with a legend and a summary', async () => {
   }
   await viewer.ask(({ app }) => app.view.set({ layers: [] }));
   const { colours } = await viewer.pixels();
-  assert.ok(colours < 5, 'without layers nothing is drawn');
+  assert.ok(colours <= 256, `without layers nothing is drawn but the sky: ${colours} colours`);
+  await viewer.close();
+});
+
+test('opens on a path, steps through the stages of a bake, and looks into buildings', async () => {
+  const viewer = await open('');
+  await viewer.ready();
+  await viewer.page.waitForSelector('#path-status.good');
+  assert.match(await viewer.page.locator('#path-proof').innerText(), /no path is shorter/);
+  const seen = [];
+  await viewer.ask(({ app }) => app.view.set({ layers: ['triangles'] }));
+  for (let i = 0; i < 9; i++) {
+    await viewer.page.keyboard.press('.');
+    seen.push(await viewer.ask(({ app }) => app.view.get().layers.at(-1)));
+  }
+  assert.deepEqual(seen, ['spans', 'floors', 'distance', 'regions', 'contours', 'merging', 'polygons', 'detail', 'tiles']);
+  await viewer.page.click('button[aria-label="The stage before"]');
+  assert.deepEqual(await viewer.ask(({ app }) => app.view.get().layers), ['triangles', 'detail']);
+  // Rooms are closed by ceilings that are seen from behind: a click goes through, to a floor.
+  await viewer.page.selectOption('#level', 'sample:dungeon');
+  await viewer.until(({ app }) => app.session.get().level?.name.startsWith('dungeon') && !app.session.get().baking);
+  await viewer.settled();
+  const pick = () => viewer.ask(({ app }) => app.engine.call('pick', [8, 100, 8], [0, -1, 0]));
+  const floor = await pick();
+  assert.ok(!floor.back && floor.normal[1] > 0.9, 'a floor, seen from its front');
+  await viewer.shot('into-rooms');
+  // Above the cut nothing is drawn, and nothing is picked.
+  await viewer.page.selectOption('#level', 'sample:city');
+  await viewer.until(({ app }) => app.session.get().level?.name.startsWith('city') && !app.session.get().baking);
+  await viewer.settled();
+  const whole = await viewer.picture();
+  const roof = (await viewer.ask(({ app }) => app.session.get().level.max))[1];
+  await viewer.page.locator('#cut').evaluate((range) => {
+    range.value = '3';
+    range.dispatchEvent(new Event('input', { bubbles: true }));
+  });
+  await viewer.page.waitForFunction(() => /cut=3(\.|&|$)|cut=2\.9/.test(location.hash));
+  assert.notEqual(await viewer.picture(), whole);
+  await viewer.page.click('#tool-look');
+  for (const [x, y] of [[0.4, 0.4], [0.5, 0.5], [0.6, 0.4], [0.5, 0.6]]) {
+    const box = await viewer.page.locator('canvas').boundingBox();
+    await viewer.page.mouse.click(box.x + x * box.width, box.y + y * box.height);
+    await viewer.page.waitForTimeout(150);
+    const point = (await viewer.page.locator('#tool-panel dd').nth(1).innerText()).split(',').map(Number);
+    assert.ok(point[1] < 3.1 && roof > 10, `picked ${point}`);
+  }
+  await viewer.shot('cut');
   await viewer.close();
 });
 
@@ -468,6 +514,7 @@ test('works by keyboard and by touch', async () => {
   const at = await phone.screen([20, 0, 30]);
   await phone.page.touchscreen.tap(at.x, at.y);
   await phone.until(({ app }) => app.view.get().start !== null);
+  assert.match(await phone.page.locator('.hint').innerText(), /Click the start/);
   await phone.shot('phone');
   await phone.page.click('button.drawer >> nth=0');
   assert.equal(await phone.page.locator('#set-cellSize').isVisible(), true);

@@ -284,8 +284,10 @@ export class Engine {
   // -------------------------------------------------------------------------------------------------------
   // Questions.
 
+  /** What is seen first: a front, since backs are a haze, or a back where nothing else is. */
   pick(origin: Vec3, direction: Vec3): RayHit | null {
-    const hit = this.needSoup().castRay(...origin, ...direction);
+    const soup = this.needSoup();
+    const hit = soup.castRay(...origin, ...direction, Infinity, { cull: 'back' }) ?? soup.castRay(...origin, ...direction);
     if (!hit) return null;
     const point = origin.map((v, i) => v + hit.t * direction[i]!) as Vec3;
     return { point, normal: [hit.nx, hit.ny, hit.nz], t: hit.t, triangle: hit.triangle, back: hit.back };

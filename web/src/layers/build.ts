@@ -1,4 +1,4 @@
-// From a layer's arrays to objects of three.js. Every layer is one group with at most three objects in it.
+// From a layer's arrays to objects of three.js. Every layer is one group with a few objects in it.
 
 import * as THREE from 'three';
 import type { CellData, LayerData, LineData, TriangleData, Vec3 } from '../engine/protocol';
@@ -10,25 +10,28 @@ export interface LayerStyle {
   lit: boolean;
   /** Towards the eye, in units of polygon offset: which of two layers at the same place is seen. */
   rank: number;
+  /** Triangles are seen from their front; their backs are a haze, so that one looks into rooms from above. */
+  openBacks?: boolean;
 }
 
-function triangleMesh(data: TriangleData, style: LayerStyle): THREE.Mesh {
+const HAZE = 0.16;
+/** Vertices of a layer that is drawn twice, for its haze; larger ones have none, so that they turn as fast as they can. */
+const MOST_HAZE = 1_500_000;
+
+function triangleMeshes(data: TriangleData, style: LayerStyle): THREE.Mesh[] {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(data.positions, 3));
   geometry.setAttribute('color', new THREE.BufferAttribute(data.colours, 3, true));
-  const common = {
-    vertexColors: true,
-    side: THREE.DoubleSide,
-    transparent: style.opacity < 1,
-    opacity: style.opacity,
-    polygonOffset: true,
-    polygonOffsetFactor: -style.rank,
-    polygonOffsetUnits: -2 * style.rank,
+  const material = (side: THREE.Side, opacity: number): THREE.Material => {
+    const common = {
+      vertexColors: true, side, opacity, transparent: opacity < 1, depthWrite: opacity > HAZE,
+      polygonOffset: true, polygonOffsetFactor: -style.rank, polygonOffsetUnits: -2 * style.rank,
+    };
+    return style.lit ? new THREE.MeshLambertMaterial({ ...common, flatShading: true }) : new THREE.MeshBasicMaterial(common);
   };
-  const material = style.lit
-    ? new THREE.MeshLambertMaterial({ ...common, flatShading: true })
-    : new THREE.MeshBasicMaterial(common);
-  return new THREE.Mesh(geometry, material);
+  if (!style.openBacks) return [new THREE.Mesh(geometry, material(THREE.DoubleSide, style.opacity))];
+  const front = new THREE.Mesh(geometry, material(THREE.FrontSide, style.opacity));
+  return data.positions.length / 3 > MOST_HAZE ? [front] : [front, new THREE.Mesh(geometry, material(THREE.BackSide, HAZE))];
 }
 
 function lineSegments(data: LineData): THREE.LineSegments {
@@ -50,10 +53,12 @@ const CELL_VERTEX = `
   uniform vec3 origin;
   uniform vec2 size;
   out vec3 shade;
+  out float height;
   void main() {
     float y = mix(cell.z, cell.w, position.y) * size.y;
     vec3 at = origin + vec3((cell.x + position.x) * size.x, y, (cell.y + position.z) * size.x);
     shade = tint.rgb;
+    height = at.y;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(at, 1.0);
     gl_Position.z -= OFFSET * gl_Position.w;
   }
@@ -61,9 +66,14 @@ const CELL_VERTEX = `
 const CELL_FRAGMENT = `
   precision highp float;
   in vec3 shade;
+  in float height;
   uniform float light;
+  uniform float cut;
   out vec4 colour;
-  void main() { colour = vec4(shade * light, 1.0); }
+  void main() {
+    if (height > cut) discard;
+    colour = vec4(shade * light, 1.0);
+  }
 `;
 
 // Top, and the four sides in two shades of dark: boxes without normals.
@@ -96,6 +106,7 @@ function cellMeshes(data: CellData, anchor: Vec3, style: LayerStyle): THREE.Mesh
         origin: { value: new THREE.Vector3(...data.origin.map((v, i) => v - anchor[i]!)) },
         size: { value: new THREE.Vector2(data.cellSize, data.cellHeight) },
         light: { value: face.light },
+        cut: { value: 1e30 },
       },
     });
     const mesh = new THREE.Mesh(geometry, material);
@@ -106,10 +117,21 @@ function cellMeshes(data: CellData, anchor: Vec3, style: LayerStyle): THREE.Mesh
 
 export function buildLayer(data: LayerData, style: LayerStyle): THREE.Group {
   const group = new THREE.Group();
-  if (data.triangles && data.triangles.positions.length > 0) group.add(triangleMesh(data.triangles, style));
+  if (data.triangles && data.triangles.positions.length > 0) group.add(...triangleMeshes(data.triangles, style));
   if (data.cells && data.cells.cells.length > 0) group.add(...cellMeshes(data.cells, data.anchor, style));
   if (data.lines && data.lines.positions.length > 0) group.add(lineSegments(data.lines));
   return group;
+}
+
+/** Hides what lies above a plane; null shows all. */
+export function cutTree(root: THREE.Object3D, plane: THREE.Plane | null): void {
+  root.traverse((object) => {
+    const { material } = object as Partial<THREE.Mesh>;
+    for (const one of [material ?? []].flat()) {
+      if (one instanceof THREE.RawShaderMaterial) one.uniforms.cut!.value = plane?.constant ?? 1e30;
+      else one.clippingPlanes = plane ? [plane] : null;
+    }
+  });
 }
 
 export function disposeTree(root: THREE.Object3D): void {

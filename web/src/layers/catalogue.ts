@@ -16,7 +16,7 @@ const entry = (
 ): LayerEntry => ({ name, label, help, stage, style: { rank, lit, opacity } });
 
 export const CATALOGUE: readonly LayerEntry[] = [
-  entry('Level', 'triangles', 'Triangles', 'The level as it was read.', 0, true),
+  { ...entry('Level', 'triangles', 'Triangles', 'The level as it was read.', 0, true), style: { rank: 0, lit: true, opacity: 1, openBacks: true } },
   entry('Rays', 'pairs', 'Soup pairs', 'Triangles that share an edge are stored and tested together: a hue each pair.', 1, true),
   entry('Rays', 'boxes', 'Tree boxes', 'The boxes of the ray tree down to a depth.', 2),
   entry('Voxels', 'spans', 'Spans', 'Solid voxels of each column, their walkable tops coloured.', 1),
@@ -31,3 +31,17 @@ export const CATALOGUE: readonly LayerEntry[] = [
   entry('Navmesh', 'links', 'Links', 'Drops, jumps and climbs, and off-mesh links.', 9),
   entry('Convex', 'hull', 'Hull', 'The convex hull of the level.', 1, false, 0.25),
 ];
+
+// What a bake makes of the level, stage by stage. Spans hide the triangles that they are made of.
+const STAGES: readonly (readonly LayerName[])[] = [
+  ['triangles'], ['spans'],
+  ...(['floors', 'distance', 'regions', 'contours', 'merging', 'polygons', 'detail', 'tiles'] as const)
+    .map((name): readonly LayerName[] => ['triangles', name]),
+];
+
+/** The layers of the stage after the last one shown, or before it. */
+export function nextStage(shown: readonly LayerName[], by: 1 | -1): readonly LayerName[] {
+  let at = STAGES.length - 1;
+  while (at > 0 && !shown.includes(STAGES[at]!.at(-1)!)) at--;
+  return STAGES[Math.min(STAGES.length - 1, Math.max(0, at + by))]!;
+}

@@ -7,7 +7,7 @@ import type { LayerData, LayerName } from '../engine/protocol';
 import type { Stage } from '../scene/stage';
 import type { Store } from '../state/store';
 import type { View } from '../state/view';
-import { buildLayer, disposeTree } from './build';
+import { buildLayer, cutTree, disposeTree } from './build';
 import { CATALOGUE } from './catalogue';
 
 export interface ShownLayer {
@@ -37,6 +37,7 @@ export class Layers {
     view.watch((now, before) => {
       if (now.boxDepth !== before.boxDepth) this.drop(['boxes']);
       if (now.layers !== before.layers || now.boxDepth !== before.boxDepth) void this.update();
+      if (now.cut !== before.cut) this.cut();
     });
   }
 
@@ -114,8 +115,15 @@ export class Layers {
     group.renderOrder = entry.style.rank;
     this.root.add(group);
     this.shown.set(name, { data, group });
-    this.stage.render();
+    this.cut();
     this.tell();
+  }
+
+  /** What lies above the view's height is not drawn, so that one looks into buildings. */
+  cut(): void {
+    const { cut } = this.view.get();
+    cutTree(this.root, cut === null ? null : new THREE.Plane(new THREE.Vector3(0, -1, 0), cut - this.stage.anchor[1]));
+    this.stage.render();
   }
 
   private remove(group: THREE.Object3D): void {

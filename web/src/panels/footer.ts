@@ -1,7 +1,7 @@
 // The line at the bottom: how a bake goes on, and then what it made and how long each stage took.
 
 import type { App } from '../app';
-import { colourOfId, css } from '../scene/palette';
+import { colourOfId, css, mix } from '../scene/palette';
 import { count, fill, h, milliseconds } from './dom';
 
 /** `oneThread`: why threads were not asked for. */
@@ -31,9 +31,9 @@ export function footer(app: App, oneThread: string | null): HTMLElement {
       times.setAttribute('aria-label', 'Time of each stage: ' +
         bake.stages.map((one) => `${one.stage} ${milliseconds(one.milliseconds)}`).join(', '));
       fill(times, ...bake.stages.map((one, i) => h('span', {
-        style: `flex: ${one.milliseconds}; background: ${css(colourOfId(i + 3))}`,
+        style: `flex: ${one.milliseconds}; background: ${css(mix(colourOfId(i + 3), 0xffffff, 0.45))}`,
         title: `${one.stage}: ${milliseconds(one.milliseconds)}`,
-      })));
+      }, `${one.stage} ${milliseconds(one.milliseconds)}`)));
     }
     const threads = bake?.threads.count ?? 1;
     total.textContent = !bake || busy ? '' : bake.milliseconds === 0 ? 'as baked in the file'

@@ -7,6 +7,7 @@ const KEYS: readonly [string, string][] = [
   ['W A S D, arrows', 'fly over the level; Shift goes faster'],
   ['Q E', 'down and up'],
   ['F', 'show all of the level'],
+  [', .', 'the stage of the bake before, and the next one'],
   ['H', 'hide or show the panels'],
   ['O', 'open a file'],
   ['P', 'save the picture'],

@@ -2,9 +2,33 @@
 
 import type { App } from '../app';
 import type { LayerName } from '../engine/protocol';
-import { CATALOGUE } from '../layers/catalogue';
+import { CATALOGUE, nextStage } from '../layers/catalogue';
 import { css } from '../scene/palette';
 import { fill, h, slider } from './dom';
+
+/** Shows the stage of the bake after the one shown, or before. */
+export function stepStage(app: App, by: 1 | -1): void {
+  app.view.set({ layers: nextStage(app.view.get().layers, by) });
+}
+
+/** A height above which nothing is drawn: the level's own top is none. */
+function cutSlider(app: App): HTMLElement {
+  const holder = h('div');
+  let forget = (): void => {};
+  app.session.watch(({ level }, before) => {
+    if (level === null || (level === before.level && holder.childElementCount > 0)) return;
+    const [low, high] = [level.min[1], level.max[1]];
+    const control = slider({
+      id: 'cut', label: 'Cut off above', unit: 'm', min: low, max: high, step: (high - low) / 200 || 1,
+      help: 'Hides what lies above this height, to look into buildings.', value: app.view.get().cut ?? high,
+      change: (value) => app.view.set({ cut: value >= high ? null : value }),
+    });
+    forget();
+    forget = app.view.watch(({ cut }) => control.set(cut ?? high));
+    fill(holder, control.element);
+  });
+  return holder;
+}
 
 export function layersPanel(app: App): HTMLElement {
   const rows = new Map<LayerName, { box: HTMLInputElement; about: HTMLElement }>();
@@ -49,5 +73,10 @@ export function layersPanel(app: App): HTMLElement {
   };
   app.layers.watch(show);
   app.view.watch(show);
-  return h('section', {}, h('h2', {}, 'Layers'), ...elements);
+  const step = (by: 1 | -1, sign: string, words: string): HTMLElement =>
+    h('button', { class: 'quiet', 'aria-label': words, title: `${words} (${by < 0 ? ',' : '.'})`, onclick: () => stepStage(app, by) }, sign);
+  return h('section', {},
+    h('div', { class: 'heading' }, h('h2', {}, 'Layers'),
+      h('span', {}, step(-1, '‹', 'The stage before'), h('span', { class: 'muted' }, 'stage'), step(1, '›', 'The next stage'))),
+    cutSlider(app), ...elements);
 }

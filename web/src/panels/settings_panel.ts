@@ -48,7 +48,7 @@ export function settingsPanel(app: App): HTMLElement {
   }
   const reset = h('button', { class: 'quiet', onclick: () => app.view.set({ settings: { ...DEFAULTS } }) }, 'Reset all');
   const panel = h('div', {},
-    h('section', { class: 'row', style: 'margin: 0; justify-content: space-between' }, h('h2', { style: 'margin: 0' }, 'Bake'), reset),
+    h('section', { class: 'heading' }, h('h2', {}, 'Bake settings'), reset),
     ...[...groups].map(([name, elements], i) =>
       h('details', { class: 'group', open: i < 5 }, h('summary', {}, name), ...elements)));
   app.view.watch(({ settings }) => {

@@ -49,9 +49,9 @@ export function shareButtons(app: App): HTMLElement[] {
   };
   document.body.append(dialog);
   return [
-    h('button', { id: 'copy-link', title: 'A link that reproduces this view', onclick: copyLink }, 'Link'),
-    h('button', { id: 'export-talus', title: 'The baked file, as talus bake writes it', onclick: () => void exportPack(app) }, '.talus'),
-    h('button', { id: 'export-png', title: 'The picture', onclick: () => exportPicture(app) }, 'PNG'),
+    h('button', { id: 'copy-link', title: 'A link that reproduces this view', onclick: copyLink }, 'Copy link'),
+    h('button', { id: 'export-talus', title: 'The baked file, as talus bake writes it', onclick: () => void exportPack(app) }, 'Save .talus'),
+    h('button', { id: 'export-png', title: 'Save the picture (P)', onclick: () => exportPicture(app) }, 'Save PNG'),
     h('button', { id: 'show-command', title: 'The command line that does the same', onclick: showCommand }, 'Command'),
   ];
 }

@@ -5,6 +5,7 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Vec3 } from '../engine/protocol';
 import type { Camera } from '../state/view';
+import { mix } from './palette';
 
 THREE.ColorManagement.enabled = false;
 
@@ -18,6 +19,7 @@ export class Stage {
   readonly resolution = new THREE.Vector2(1, 1);
   anchor: Vec3 = [0, 0, 0];
   radius = 10;
+  private size: Vec3 = [10, 10, 10];
   frames = 0;
   private wanted = false;
   private beforeFrame = new Set<() => void>();
@@ -27,12 +29,13 @@ export class Stage {
     const context = canvas.getContext('webgl2', { antialias: true, stencil: false, powerPreference: 'high-performance' });
     if (!context) throw new NoWebGl('This browser or its graphics driver offers no WebGL 2.');
     this.renderer = new THREE.WebGLRenderer({ canvas, context });
+    this.renderer.localClippingEnabled = true;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     // Colours are what the palette says, as the page's own: no conversion on the way.
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     // A floor in the sun has its own colour, nearly; walls are a third darker, each side by another shade.
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x858b96, 1.9));
-    const sun = new THREE.DirectionalLight(0xffffff, 1.3);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb4bac6, 2.1));
+    const sun = new THREE.DirectionalLight(0xfff6e8, 1.2);
     sun.position.set(0.45, 1, 0.3);
     this.scene.add(sun);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -65,8 +68,20 @@ export class Stage {
     this.frames++;
   }
 
+  /** A colour that fades a little towards the top, as a sky does. */
   setBackground(colour: string): void {
-    this.scene.background = new THREE.Color(colour);
+    const canvas = document.createElement('canvas');
+    canvas.width = 1;
+    canvas.height = 256;
+    const paint = canvas.getContext('2d')!;
+    const fade = paint.createLinearGradient(0, 0, 0, 256);
+    const low = new THREE.Color(colour).getHex();
+    fade.addColorStop(0, `#${mix(low, 0x5b7fa6, 0.22).toString(16).padStart(6, '0')}`);
+    fade.addColorStop(0.75, colour);
+    paint.fillStyle = fade;
+    paint.fillRect(0, 0, 1, 256);
+    if (this.scene.background instanceof THREE.Texture) this.scene.background.dispose();
+    this.scene.background = new THREE.CanvasTexture(canvas);
     this.render();
   }
 
@@ -91,18 +106,37 @@ export class Stage {
   /** Tells how large the level is, and shows it all when no camera is given. */
   setLevel(min: Vec3, max: Vec3, camera: Camera | null): void {
     this.anchor = [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
-    this.radius = Math.max(1e-3, Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]) / 2);
+    this.size = [max[0] - min[0], max[1] - min[1], max[2] - min[2]];
+    this.radius = Math.max(1e-3, Math.hypot(...this.size) / 2);
     this.controls.maxDistance = 20 * this.radius;
     this.controls.minDistance = this.radius * 1e-3;
     if (camera) this.setCamera(camera);
     else this.showAll();
   }
 
+  /**
+   * The nearest camera, looking one way, that has the whole box in the picture, in its middle. A corner at x to the right
+   * and z ahead of the box' centre is in it if |x - shift| <= slope (z + distance): two lines in the plane of shift and
+   * distance. Of all corners' lines the highest of either kind meet at the least distance.
+   */
   showAll(): void {
-    const direction = new THREE.Vector3(0.55, 0.75, 0.85).normalize();
-    const fit = this.radius / Math.sin((this.camera.fov * Math.PI) / 360);
-    this.controls.target.set(0, 0, 0);
-    this.camera.position.copy(direction.multiplyScalar(fit * 0.9 * Math.max(1, 0.9 / this.camera.aspect)));
+    const back = new THREE.Vector3(0.55, 0.75, 0.85).normalize();
+    const right = new THREE.Vector3(0, 1, 0).cross(back).normalize();
+    const up = new THREE.Vector3().crossVectors(back, right);
+    const slope = 0.92 * Math.tan((this.camera.fov * Math.PI) / 360);
+    const fit = (axis: THREE.Vector3, tangent: number): { shift: number; distance: number } => {
+      const most = [-Infinity, -Infinity];
+      for (let i = 0; i < 8; i++) {
+        const corner = new THREE.Vector3(...this.size.map((size, k) => (i >> k & 1 ? 0.5 : -0.5) * size));
+        const ahead = -corner.dot(back);
+        [1, -1].forEach((sign, k) => { most[k] = Math.max(most[k]!, (sign * corner.dot(axis)) / tangent - ahead); });
+      }
+      return { shift: (tangent * (most[0]! - most[1]!)) / 2, distance: (most[0]! + most[1]!) / 2 };
+    };
+    const x = fit(right, slope * this.camera.aspect);
+    const y = fit(up, slope);
+    this.controls.target.set(0, 0, 0).addScaledVector(right, x.shift).addScaledVector(up, y.shift);
+    this.camera.position.copy(this.controls.target).addScaledVector(back, Math.max(x.distance, y.distance));
     this.controls.update();
     this.render();
   }

@@ -29,6 +29,7 @@ export function viewToHash(view: Readonly<View>): string {
   if (view.guard) parts.push(['guard', point(view.guard)]);
   if (view.eyeHeight !== usual.eyeHeight) parts.push(['eyeHeight', showNumber(view.eyeHeight)]);
   if (view.boxDepth !== usual.boxDepth) parts.push(['boxDepth', String(view.boxDepth)]);
+  if (view.cut !== null) parts.push(['cut', showNumber(view.cut)]);
   if (view.obstacles.length > 0) {
     parts.push(['obstacles', view.obstacles
       .map((o) => `${o.shape}:${point(o.base)}:${showNumber(o.radius)}:${showNumber(o.height)}`).join(';')]);
@@ -118,6 +119,7 @@ const READERS: Record<string, (text: string) => Partial<View>> = {
   guard: (text) => ({ guard: readPoint(text) }),
   eyeHeight: (text) => ({ eyeHeight: readPositive(text) }),
   boxDepth: (text) => ({ boxDepth: Math.min(64, Math.round(readPositive(text))) }),
+  cut: (text) => ({ cut: readNumbers(text, 1)[0]! }),
   obstacles: (text) => ({ obstacles: text === '' ? [] : text.split(';').map(readObstacle) }),
   links: (text) => ({ links: text === '' ? [] : text.split(';').map(readLink) }),
   theme: (text) => ({ theme: readOne(text, ['auto', 'light', 'dark'] as const) }),

@@ -30,6 +30,8 @@ export interface View {
   guard: Vec3 | null;
   eyeHeight: number;
   boxDepth: number;
+  /** Metres: what lies above is not drawn. */
+  cut: number | null;
   obstacles: readonly Obstacle[];
   links: readonly OffmeshLink[];
   theme: 'auto' | 'light' | 'dark';
@@ -52,6 +54,7 @@ export function defaultView(): View {
     guard: null,
     eyeHeight: 1.6,
     boxDepth: 4,
+    cut: null,
     obstacles: [],
     links: [],
     theme: 'auto',

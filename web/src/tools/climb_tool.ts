@@ -82,7 +82,7 @@ export class ClimbTool implements Tool {
     fill(this.answerBox,
       h('p', { class: same ? 'good' : 'muted', id: 'climb-text' },
         `${answer.path.length - 1} steps over edges to the top, of ${count(answer.vertices)} vertices` +
-        (same ? '; tl_hull_support agrees.' : '; tl_hull_support names another vertex just as far.')),
+        (same ? '; the library names the same one.' : '; the library names another one, just as far.')),
       facts([['Vertices compared', count(answer.neighbours.reduce((sum, around) => sum + around.length, 0))],
         ['Faces', count(answer.faces)]]));
     this.steps.setCount(answer.path.length);

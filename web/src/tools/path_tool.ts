@@ -8,8 +8,7 @@ import { Marks } from '../scene/marks';
 import { INK } from '../scene/palette';
 import type { Click, Handle, Tool } from './tool';
 
-const WORDS: Record<PathAnswer['status'], string> = {
-  complete: 'The goal is reachable.',
+const WORDS: Record<Exclude<PathAnswer['status'], 'complete'>, string> = {
   unreachable: 'No path leads to the goal: it lies on another island. That is proven, without a search.',
   'start blocked': 'The start is too near to a wall for an agent of this radius.',
   'goal blocked': 'The goal is too near to a wall for an agent of this radius.',
@@ -17,6 +16,11 @@ const WORDS: Record<PathAnswer['status'], string> = {
   'no start': 'There is no navmesh near the start.',
   'no goal': 'There is no navmesh near the goal.',
 };
+
+function proofOf({ length, lowerBound }: PathAnswer): string {
+  const gap = length - lowerBound;
+  return gap < 1e-6 * Math.max(1, length) ? 'Proven: no path is shorter.' : `Proven: no path is shorter than ${metres(lowerBound)}.`;
+}
 
 export class PathTool implements Tool {
   readonly name = 'path';
@@ -103,14 +107,8 @@ export class PathTool implements Tool {
     const good = answer.status === 'complete';
     const rows: [string, string][] = [];
     if (good) {
-      rows.push(['Length in the plane', metres(answer.length)]);
-      if (answer.exact) {
-        const gap = Math.max(0, answer.length - answer.lowerBound);
-        rows.push(['Proof', `no path is shorter than ${metres(answer.lowerBound)}` +
-          (gap < 1e-6 * Math.max(1, answer.length) ? ': this one is shortest' : ` (${metres(gap)} less)`)]);
-      }
-      if (answer.clearance !== null) rows.push(['Kept from walls', `${metres(answer.clearance)} more than the bake's radius`]);
       rows.push(['Length in space', metres(answer.surfaceLength)], ['As the crow flies', metres(answer.straight)]);
+      if (answer.clearance !== null) rows.push(['Kept from walls', `${metres(answer.clearance)} more than the bake's radius`]);
       rows.push(['Corners', String(answer.corners.length)]);
       if (answer.polygons > 0) rows.push(['Polygons', String(answer.polygons)]);
     }
@@ -119,8 +117,12 @@ export class PathTool implements Tool {
       rows.push(['Nearest reachable', `${metres(away)} from the goal`]);
     }
     rows.push(['Answered in', milliseconds(answer.milliseconds)]);
-    fill(this.answerBox, h('p', { class: good ? 'good' : 'bad', id: 'path-status' }, WORDS[answer.status]), facts(rows),
-      answer.nearest && h('button', { onclick: () => this.app.view.set({ goal: answer.nearest! }) }, 'Go there instead'),
-      h('button', { onclick: () => this.app.view.set({ start: null, goal: null }) }, 'Clear'));
+    fill(this.answerBox,
+      h('p', { class: good ? 'good answer' : 'bad', id: 'path-status' }, answer.status === 'complete' ? `${metres(answer.length)} in the plane` : WORDS[answer.status]),
+      good && answer.exact ? h('p', { class: 'muted', id: 'path-proof' }, proofOf(answer)) : null,
+      facts(rows),
+      h('div', { class: 'row' },
+        answer.nearest && h('button', { onclick: () => this.app.view.set({ goal: answer.nearest! }) }, 'Go there instead'),
+        h('button', { onclick: () => this.app.view.set({ start: null, goal: null }) }, 'Clear')));
   }
 }

@@ -3,7 +3,8 @@
 
 import type { App } from '../app';
 import { Latest } from '../engine/latest';
-import type { Handle, Tool } from './tool';
+import type { RayHit, Vec3 } from '../engine/protocol';
+import type { Click, Handle, Tool } from './tool';
 
 const CLICK_PIXELS = 5;
 const HANDLE_PIXELS = { mouse: 14, pen: 18, touch: 28 } as const;
@@ -64,10 +65,20 @@ export class Pointer {
     this.drag(down.handle, event.clientX, event.clientY);
   }
 
+  /** What the ray meets of what is drawn: it begins at the height where the level is cut off. */
+  private async pick({ origin, direction }: Click['ray']): Promise<RayHit | null> {
+    const { cut } = this.app.view.get();
+    const skipped = cut === null || origin[1] <= cut ? 0 : (cut - origin[1]) / direction[1];
+    if (!(skipped >= 0)) return null;
+    const from = origin.map((v, i) => v + skipped * direction[i]!) as Vec3;
+    const hit = await this.app.engine.call('pick', from, direction);
+    return hit && (cut === null || hit.point[1] <= cut + 1e-3) ? { ...hit, t: hit.t + skipped } : null;
+  }
+
   private drag(name: string, x: number, y: number): void {
     const ray = this.app.stage.rayAt(x, y);
     this.drags.run(async () => {
-      const hit = await this.app.engine.call('pick', ray.origin, ray.direction);
+      const hit = await this.pick(ray);
       if (hit) this.tool().handles().find((one) => one.name === name)?.move(hit);
     });
   }
@@ -78,7 +89,7 @@ export class Pointer {
     if (!down || down.id !== event.pointerId || down.moved || !this.app.engine.ready) return;
     const ray = this.app.stage.rayAt(event.clientX, event.clientY);
     const shift = event.shiftKey;
-    this.app.engine.call('pick', ray.origin, ray.direction)
+    this.pick(ray)
       .then((hit) => this.tool().click({ hit, ray, shift }))
       .catch((error: Error) => this.app.say(error.message, 'error'));
   }

@@ -7,6 +7,9 @@ import { Writer } from './writer';
 
 const plural = (n: number, word: string): string => `${n.toLocaleString('en')} ${word}${n === 1 ? '' : 's'}`;
 
+const FLAT = 0xdedad0;
+const STEEP = 0xc6c1b7;
+
 /** Flat colours by slope, so that what is too steep to walk can be told at a glance. */
 export function triangleLayer(mesh: Mesh, anchor: Vec3, maxSlope: number): LayerData {
   const { vertices, indices, triangleCount } = mesh;
@@ -26,14 +29,14 @@ export function triangleLayer(mesh: Mesh, anchor: Vec3, maxSlope: number): Layer
     const ny = uz * vx - ux * vz;
     const walkable = ny > limit * Math.hypot(uy * vz - uz * vy, ny, ux * vy - uy * vx);
     if (!walkable) steep++;
-    writer.triangle(vertices, a, b, c, walkable ? 0xd9d5cb : 0xb9b4ab);
+    writer.triangle(vertices, a, b, c, walkable ? FLAT : STEEP);
   }
   return {
     anchor,
     triangles: writer.triangles(),
     summary: `${plural(triangleCount, 'triangle')}, ${plural(triangleCount - steep, 'one')} less steep than ${maxSlope}°`
       .replace('ones less', 'less').replace('one less', 'less'),
-    legends: [{ colour: 0xd9d5cb, text: 'less steep than the limit' }, { colour: 0xb9b4ab, text: 'too steep' }],
+    legends: [{ colour: FLAT, text: 'less steep than the limit' }, { colour: STEEP, text: 'too steep' }],
   };
 }
 
