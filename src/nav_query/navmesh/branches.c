@@ -12,7 +12,7 @@
 // seams, with all that is connected with it by two ways, is 0. Source: Tarjan, A Note on Finding the Bridges of a
 // Graph, 1974: a depth-first search, and for each polygon how far back its part of the tree leads over other edges.
 
-#include "nav_query/navmesh/rings.h"
+#include "nav_query/navmesh/ring_step.h"
 
 #include "base/min_max.h"
 
@@ -141,4 +141,16 @@ const uint32_t *tl_nav_find_branches(tl_nav_rings *rings, uint32_t *scratch)
     // No edge is looked at any more.
     number_branches(&walk, walk.next);
     return walk.next;
+}
+
+bool tl_nav_leads_astray_over_seam(const tl_navmesh *navmesh, tl_nav_ring_seam from, tl_nav_ring_seam to,
+                                   tl_nav_ring_seam goal)
+{
+    const tl_nav_slot *out = &navmesh->slots[from.slot], *in = &navmesh->slots[to.slot];
+    const uint32_t branch = out->rings.cells[from.polygon].branch, into = in->rings.cells[to.polygon].branch;
+    // All other branches that are beside a seam hang on what lies beyond, which is numbered 0.
+    return (branch != 0 && out->anchor_count == 0 && goal.slot == from.slot &&
+            tl_nav_is_on_branch(&out->rings, branch, goal.polygon)) ||
+           (into != 0 && in->anchor_count == 0 &&
+            !(goal.slot == to.slot && tl_nav_is_on_branch(&in->rings, into, goal.polygon)));
 }

@@ -56,24 +56,28 @@ static inline tl_nav_ring_place tl_nav_ring_twin(const tl_navmesh *navmesh, uint
     return twin;
 }
 
+/// The same as tl_nav_leads_astray for a step over a seam (branches.c).
+bool tl_nav_leads_astray_over_seam(const tl_navmesh *navmesh, tl_nav_ring_seam from, tl_nav_ring_seam to,
+                                   tl_nav_ring_seam goal);
+
 /// Whether a step from a polygon into one across an edge leads away from the goal over the only edge that leads back:
-/// into a branch that does not hold it, or out of one that does (branches.c). Where off-mesh links end on a tile's
-/// polygons its branches have other ways.
+/// into a branch that does not hold it, or out of one that does. Where off-mesh links end on a tile's polygons its
+/// branches have other ways.
 static inline bool tl_nav_leads_astray(const tl_navmesh *navmesh, tl_nav_ring_seam from, tl_nav_ring_seam to,
                                        tl_nav_ring_seam goal)
 {
-    const tl_nav_slot *out = &navmesh->slots[from.slot], *in = &navmesh->slots[to.slot];
-    const uint32_t branch = out->rings.cells[from.polygon].branch, into = in->rings.cells[to.polygon].branch;
-    if (from.slot == to.slot && branch == into) {
+    if (from.slot != to.slot) {
+        return tl_nav_leads_astray_over_seam(navmesh, from, to, goal);
+    }
+    const tl_nav_slot *slot = &navmesh->slots[from.slot];
+    const uint32_t branch = slot->rings.cells[from.polygon].branch, into = slot->rings.cells[to.polygon].branch;
+    if (branch == into || slot->anchor_count > 0) {
         return false;
     }
-    // Beyond a seam lies what is numbered 0, and of two branches side by side that of the higher number hangs on the
-    // other.
-    const bool is_out = branch > (from.slot == to.slot ? into : 0), is_in = into > (from.slot == to.slot ? branch : 0);
-    return (is_out && out->anchor_count == 0 && goal.slot == from.slot &&
-            tl_nav_is_on_branch(&out->rings, branch, goal.polygon)) ||
-           (is_in && in->anchor_count == 0 &&
-            !(goal.slot == to.slot && tl_nav_is_on_branch(&in->rings, into, goal.polygon)));
+    // Of two branches side by side that of the higher number hangs on the other.
+    const bool is_out = branch > into;
+    return is_out ==
+           (goal.slot == from.slot && tl_nav_is_on_branch(&slot->rings, is_out ? branch : into, goal.polygon));
 }
 
 /// Goes around the vertex where the edge at `at` starts to the wall where its fan begins; what the filter (NULL: none)

@@ -33,20 +33,26 @@
 // Off-mesh links that were crossed: | the number of the end that was left.
 #define CROSSED_KEY ((uint64_t)1 << 62)
 
-// Offers a way to reach a node. `from` is TL_NAV_NO_NODE for the start.
-static inline void relax_way(tl_nav_way_search *search, uint64_t key, uint32_t slot, uint32_t polygon, tl_vec3 point,
-                             float cost, uint32_t from)
+// Offers a way to reach a node, which is `known` already, or not (TL_NAV_NO_NODE). Its parent is TL_NAV_NO_NODE for the
+// start.
+static inline void relax_known(tl_nav_way_search *search, uint32_t known, tl_nav_way_in way)
 {
-    if (cost == INFINITY) {
+    if (way.cost == INFINITY) {
         return; // it cannot be crossed
     }
-    const tl_nav_way_in way = { key, slot, polygon, point, cost, from };
-    tl_nav_node *node = tl_nav_pool_relax(search->query, way, &search->out_of_nodes);
+    tl_nav_node *node = tl_nav_pool_relax_known(search->query, known, way, &search->out_of_nodes);
     if (node != NULL) {
-        const float straight = tl_distance(point, search->goal);
-        node->total = cost + search->min_cost * (straight < search->detour ? straight : search->detour);
+        const float straight = tl_distance(way.point, search->goal);
+        node->total = way.cost + search->min_cost * (straight < search->detour ? straight : search->detour);
         tl_nav_heap_improve(search->query, (uint32_t)(node - search->query->nodes));
     }
+}
+
+static void relax_way(tl_nav_way_search *search, uint64_t key, uint32_t slot, uint32_t polygon, tl_vec3 point,
+                      float cost, uint32_t from)
+{
+    const tl_nav_way_in way = { key, slot, polygon, point, cost, from };
+    relax_known(search, tl_nav_pool_find(search->query, key), way);
 }
 
 // Where a straight way to the goal over a portal would cross it.
@@ -101,44 +107,91 @@ static float min_shortcut_distance(const tl_nav_way_search *search)
     return least;
 }
 
+// What all ways out of a node's polygon over its edges have in common.
+typedef struct way_step {
+    uint32_t index;
+    tl_nav_ring_seam here, before, goal_at; // before: from where it was entered
+    tl_vec3 point;
+    tl_nav_spot from, goal; // in the plane
+    float cost;             // up to the point
+    float metre_cost;       // in the polygon; where the filter has a function it is asked instead
+    const tl_nav_filter *asked;
+} way_step;
+
+static inline way_step step_from_node(const tl_nav_way_search *search, uint32_t index)
+{
+    const tl_nav_node *node = &search->query->nodes[index];
+    const tl_nav_filter *filter = search->filter;
+    way_step step = { index,
+                      { node->slot, node->polygon },
+                      { TL_NAV_NO_SLOT, TL_NO_POLYGON },
+                      { search->goal_slot, search->goal_polygon },
+                      node->point,
+                      tl_nav_spot_of(node->point),
+                      tl_nav_spot_of(search->goal),
+                      node->cost,
+                      1.0f,
+                      filter != NULL && filter->cost != NULL ? filter : NULL };
+    // Polygons are convex: to go back to the one we come from never pays.
+    if (node->parent != TL_NAV_NO_NODE && !is_crossing(node)) {
+        step.before.slot = search->query->nodes[node->parent].slot;
+        step.before.polygon = search->query->nodes[node->parent].polygon;
+    }
+    if (filter != NULL) {
+        step.metre_cost = filter->area_cost[tl_nav_tile_area(search->navmesh->slots[node->slot].tile, node->polygon)];
+    }
+    return step;
+}
+
+static inline bool may_step(const tl_nav_way_search *search, const way_step *step, tl_nav_ring_seam to)
+{
+    return (to.polygon != step->before.polygon || to.slot != step->before.slot) &&
+           !(search->leaves_out_branches && tl_nav_leads_astray(search->navmesh, step->here, to, step->goal_at)) &&
+           (search->refuses == NULL ||
+            tl_nav_passes(search->refuses, search->navmesh->slots[to.slot].tile, to.polygon));
+}
+
+// Goes over an edge of the node's polygon.
+static inline void step_over_edge(tl_nav_way_search *search, const way_step *step, const tl_nav_ring_edge *begin,
+                                  const tl_nav_ring_edge *end, uint64_t key)
+{
+    const tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, step->here.slot, begin->to);
+    if (!may_step(search, step, to)) {
+        return;
+    }
+    const uint32_t known = tl_nav_pool_find(search->query, key);
+    // No way from here costs less than nothing.
+    if (known != TL_NAV_NO_NODE &&
+        (search->query->nodes[known].heap_at == TL_NAV_NODE_CLOSED || search->query->nodes[known].cost <= step->cost)) {
+        return;
+    }
+    const tl_vec3 point = crossing_point(step->from, step->goal, begin, end);
+    const float across = step->asked == NULL
+                             ? step->metre_cost * tl_distance(step->point, point)
+                             : tl_nav_cost_between(step->asked, search->navmesh->slots[step->here.slot].tile,
+                                                   step->here.polygon, step->point, point);
+    const tl_nav_way_in way = { key, to.slot, to.polygon, point, step->cost + across, step->index };
+    relax_known(search, known, way);
+}
+
 static void expand_way(tl_nav_way_search *search, uint32_t index)
 {
-    const tl_nav_node node = search->query->nodes[index];
-    const tl_nav_tile *tile = search->navmesh->slots[node.slot].tile;
-    if (node.slot == search->goal_slot && node.polygon == search->goal_polygon) {
-        float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, search->goal);
-        relax_way(search, PATH_GOAL_KEY, node.slot, node.polygon, search->goal, node.cost + cost, index);
+    const way_step step = step_from_node(search, index);
+    const tl_nav_slot *slot = &search->navmesh->slots[step.here.slot];
+    if (step.here.slot == search->goal_slot && step.here.polygon == search->goal_polygon) {
+        const float cost = tl_nav_cost_between(search->filter, slot->tile, step.here.polygon, step.point, search->goal);
+        relax_way(search, PATH_GOAL_KEY, step.here.slot, step.here.polygon, search->goal, step.cost + cost, index);
     }
-    if (search->navmesh->slots[node.slot].anchor_count > 0) {
+    if (slot->anchor_count > 0) {
         relax_links(search, index);
     }
-    // Polygons are convex: to go back to the one we come from never pays.
-    tl_nav_ring_seam before = { TL_NAV_NO_SLOT, TL_NO_POLYGON };
-    if (node.parent != TL_NAV_NO_NODE && !is_crossing(&node)) {
-        before.slot = search->query->nodes[node.parent].slot;
-        before.polygon = search->query->nodes[node.parent].polygon;
-    }
     uint32_t count = 0;
-    const tl_nav_slot *slot = &search->navmesh->slots[node.slot];
-    const tl_nav_ring_edge *ring = tl_nav_ring_of(&slot->rings, node.polygon, &count);
-    const uint64_t first = (uint64_t)(ring - slot->rings.edges);
-    const tl_nav_ring_seam here = { node.slot, node.polygon }, goal_at = { search->goal_slot, search->goal_polygon };
-    const tl_nav_spot from = tl_nav_spot_of(node.point), goal = tl_nav_spot_of(search->goal);
-    for (const tl_nav_ring_edge *begin = ring; begin < ring + count; begin++) {
-        if (!tl_nav_ring_is_open(begin)) {
-            continue;
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(&slot->rings, step.here.polygon, &count);
+    const uint64_t first = tl_nav_way_key(step.here.slot, (uint64_t)(ring - slot->rings.edges));
+    for (uint32_t i = 0; i < count; i++) {
+        if (tl_nav_ring_is_open(&ring[i])) {
+            step_over_edge(search, &step, &ring[i], &ring[i + 1 < count ? i + 1 : 0], first + i);
         }
-        const tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, node.slot, begin->to);
-        if ((to.polygon == before.polygon && to.slot == before.slot) ||
-            (search->leaves_out_branches && tl_nav_leads_astray(search->navmesh, here, to, goal_at)) ||
-            !tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
-            continue;
-        }
-        const tl_nav_ring_edge *end = begin + 1 < ring + count ? begin + 1 : ring;
-        const tl_vec3 point = crossing_point(from, goal, begin, end);
-        const float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, point);
-        relax_way(search, tl_nav_way_key(node.slot, first + (uint64_t)(begin - ring)), to.slot, to.polygon, point,
-                  node.cost + cost, index);
     }
 }
 
@@ -349,10 +402,18 @@ static tl_result set_up(tl_nav_query *query, const tl_navmesh *navmesh, const tl
     if (filter != NULL && !tl_nav_filter_costs_again(&query->known_costs, filter, &least, is_uniform_out)) {
         return TL_ERR_ARGUMENT;
     }
-    tl_nav_way_search ways = {
-        query,    navmesh, filter,         least, run->exact.goal_slot, run->exact.goal_polygon, request->goal.point,
-        INFINITY, false,   TL_NAV_NO_NODE, false
-    };
+    tl_nav_way_search ways = { query,
+                               navmesh,
+                               filter,
+                               run->exact.filter,
+                               least,
+                               run->exact.goal_slot,
+                               run->exact.goal_polygon,
+                               request->goal.point,
+                               INFINITY,
+                               false,
+                               TL_NAV_NO_NODE,
+                               false };
     run->ways = ways;
     run->start = request->start;
     run->goal = request->goal;

@@ -20,7 +20,8 @@ typedef struct tl_nav_way_search {
     tl_nav_query *query;
     const tl_navmesh *navmesh;
     const tl_nav_filter *filter;
-    float min_cost; ///< of a metre
+    const tl_nav_filter *refuses; ///< the same, or NULL: it refuses no polygon
+    float min_cost;               ///< of a metre
     uint32_t goal_slot, goal_polygon;
     tl_vec3 goal;
     float detour; ///< metres from the goal to the nearest end of a short cut; INFINITY: there is no short cut

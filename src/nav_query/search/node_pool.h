@@ -36,27 +36,42 @@ void tl_nav_pool_reset(tl_nav_query *query);
 /// memory, however large the pool.
 static inline uint32_t *tl_nav_bucket_of(tl_nav_query *query, uint64_t key)
 {
-    const uint32_t tile = (uint32_t)tl_hash_mix(key >> TL_NAV_REF_POLYGON_BITS);
+    const uint32_t tile = (uint32_t)((key >> TL_NAV_REF_POLYGON_BITS) * 0x9e3779b97f4a7c15u >> 32);
     return &query->buckets[(tile + (uint32_t)key) & (query->bucket_count - 1)];
+}
+
+/// The node of a key, or TL_NAV_NO_NODE.
+static inline uint32_t tl_nav_pool_find(tl_nav_query *query, uint64_t key)
+{
+    uint32_t index = *tl_nav_bucket_of(query, key);
+    while (index != TL_NAV_NO_NODE && query->nodes[index].key != key) {
+        index = query->nodes[index].next;
+    }
+    return index;
+}
+
+/// A fresh node for a key that has none, of which nothing but the key is set; or TL_NAV_NO_NODE when the pool is used
+/// up.
+static inline uint32_t tl_nav_pool_add(tl_nav_query *query, uint64_t key)
+{
+    if (query->node_count == query->max_nodes) {
+        return TL_NAV_NO_NODE;
+    }
+    uint32_t *bucket = tl_nav_bucket_of(query, key);
+    const uint32_t index = query->node_count++;
+    tl_nav_node *node = &query->nodes[index];
+    node->key = key;
+    node->heap_at = TL_NAV_NODE_NEW;
+    node->next = *bucket;
+    *bucket = index;
+    return index;
 }
 
 /// The node of a key, a fresh one if need be, or TL_NAV_NO_NODE when the pool is used up.
 static inline uint32_t tl_nav_pool_get(tl_nav_query *query, uint64_t key)
 {
-    uint32_t *bucket = tl_nav_bucket_of(query, key);
-    for (uint32_t i = *bucket; i != TL_NAV_NO_NODE; i = query->nodes[i].next) {
-        if (query->nodes[i].key == key) {
-            return i;
-        }
-    }
-    if (query->node_count == query->max_nodes) {
-        return TL_NAV_NO_NODE;
-    }
-    const uint32_t index = query->node_count++;
-    const tl_nav_node node = { key, { 0.0f, 0.0f, 0.0f }, 0.0f, 0.0f, TL_NAV_NO_NODE, 0, 0, TL_NAV_NODE_NEW, *bucket };
-    query->nodes[index] = node;
-    *bucket = index;
-    return index;
+    const uint32_t index = tl_nav_pool_find(query, key);
+    return index != TL_NAV_NO_NODE ? index : tl_nav_pool_add(query, key);
 }
 
 /// A way into a polygon that a search has found.
@@ -69,17 +84,18 @@ typedef struct tl_nav_way_in {
 } tl_nav_way_in;
 
 /// Dijkstra's and A*'s relaxation: the node of the way's key when the way is cheaper than all before it, and then with
-/// all of it filled in; the caller sets `total` and improves the heap. NULL: it is not, or the pool is used up, which
-/// sets *is_full.
-static inline tl_nav_node *tl_nav_pool_relax(tl_nav_query *query, tl_nav_way_in way, bool *is_full)
+/// all of it filled in; the caller sets `total` and improves the heap. `known`: the node of the key, or TL_NAV_NO_NODE.
+/// NULL: it is not, or the pool is used up, which sets *is_full.
+static inline tl_nav_node *tl_nav_pool_relax_known(tl_nav_query *query, uint32_t known, tl_nav_way_in way,
+                                                   bool *is_full)
 {
-    const uint32_t index = tl_nav_pool_get(query, way.key);
+    const uint32_t index = known != TL_NAV_NO_NODE ? known : tl_nav_pool_add(query, way.key);
     if (index == TL_NAV_NO_NODE) {
         *is_full = true;
         return NULL;
     }
     tl_nav_node *node = &query->nodes[index];
-    if (node->heap_at == TL_NAV_NODE_CLOSED || (node->heap_at != TL_NAV_NODE_NEW && way.cost >= node->cost)) {
+    if (known != TL_NAV_NO_NODE && (node->heap_at == TL_NAV_NODE_CLOSED || way.cost >= node->cost)) {
         return NULL;
     }
     node->slot = way.slot;
@@ -88,6 +104,11 @@ static inline tl_nav_node *tl_nav_pool_relax(tl_nav_query *query, tl_nav_way_in 
     node->cost = way.cost;
     node->parent = way.parent;
     return node;
+}
+
+static inline tl_nav_node *tl_nav_pool_relax(tl_nav_query *query, tl_nav_way_in way, bool *is_full)
+{
+    return tl_nav_pool_relax_known(query, tl_nav_pool_find(query, way.key), way, is_full);
 }
 
 /// Puts a node into the heap, or moves it after its total has changed. A cheaper way may raise it: where it enters the

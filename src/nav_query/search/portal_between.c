@@ -9,22 +9,50 @@
 
 #include "nav_query/navmesh/ring_step.h"
 
-// Whether an edge leads to a polygon: one of the same tile, or, over a seam, of another.
-static inline bool leads_to(const tl_nav_slot *slot, const tl_nav_ring_edge *edge, const tl_nav_portal_ends *ends)
+// The first of a ring's edges from `edge` on that leads to a polygon; `count`: none does.
+static inline uint32_t next_to(const tl_nav_slot *slot, const tl_nav_ring_edge *ring, uint32_t edge, uint32_t count,
+                               const tl_nav_portal_ends *ends)
 {
-    if (edge->to < TL_NAV_RING_SEAM) {
-        return edge->to == ends->to_polygon && ends->to_slot == ends->slot;
+    if (ends->to_slot == ends->slot) {
+        while (edge < count && ring[edge].to != ends->to_polygon) {
+            edge++;
+        }
+        return edge;
     }
-    if (!tl_nav_ring_is_open(edge)) {
-        return false;
+    for (; edge < count; edge++) {
+        if (ring[edge].to >= TL_NAV_RING_SEAM && tl_nav_ring_is_open(&ring[edge])) {
+            const tl_nav_ring_seam *seam = &slot->rings.seams[ring[edge].to & ~TL_NAV_RING_SEAM];
+            if (seam->slot == ends->to_slot && seam->polygon == ends->to_polygon) {
+                break;
+            }
+        }
     }
-    const tl_nav_ring_seam *seam = &slot->rings.seams[edge->to & ~TL_NAV_RING_SEAM];
-    return seam->slot == ends->to_slot && seam->polygon == ends->to_polygon;
+    return edge;
 }
 
 static tl_vec3 start_of(const tl_nav_ring_edge *edge)
 {
     return tl_vec3_make(edge->x, edge->y, edge->z);
+}
+
+// Where the portal goes on behind its first edge: two polygons share more than one edge where a vertex lies between, or
+// a seam is cut there. All of them are one.
+static void add_edges(const tl_nav_slot *slot, const tl_nav_ring_edge *ring, uint32_t first, uint32_t count,
+                      const tl_nav_portal_ends *ends, tl_vec3 *left, tl_vec3 *right)
+{
+    const double dx = (double)left->x - (double)right->x;
+    const double dz = (double)left->z - (double)right->z;
+    double leftmost = dx * (double)left->x + dz * (double)left->z;
+    double rightmost = dx * (double)right->x + dz * (double)right->z;
+    for (uint32_t i = first; i < count; i = next_to(slot, ring, i + 1, count, ends)) {
+        const tl_nav_ring_edge *next = &ring[i + 1 < count ? i + 1 : 0];
+        const double to_left = dx * (double)next->x + dz * (double)next->z;
+        const double to_right = dx * (double)ring[i].x + dz * (double)ring[i].z;
+        *left = to_left > leftmost ? start_of(next) : *left;
+        *right = to_right < rightmost ? start_of(&ring[i]) : *right;
+        leftmost = to_left > leftmost ? to_left : leftmost;
+        rightmost = to_right < rightmost ? to_right : rightmost;
+    }
 }
 
 bool tl_nav_find_portal(const tl_navmesh *navmesh, const tl_nav_portal_ends *ends, tl_vec3 *left_out,
@@ -33,33 +61,15 @@ bool tl_nav_find_portal(const tl_navmesh *navmesh, const tl_nav_portal_ends *end
     const tl_nav_slot *slot = &navmesh->slots[ends->slot];
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_of(&slot->rings, ends->polygon, &count);
-    uint32_t first = 0;
-    while (first < count && !leads_to(slot, &ring[first], ends)) {
-        first++;
-    }
+    const uint32_t first = next_to(slot, ring, 0, count, ends);
     if (first == count) {
         return false;
     }
-    const tl_nav_ring_edge *begin = &ring[first];
-    const tl_nav_ring_edge *end = &ring[first + 1 < count ? first + 1 : 0];
-    *right_out = start_of(begin);
-    *left_out = start_of(end);
-    // Two polygons share more than one edge where a vertex lies between, or a seam is cut there: all of them are one.
-    const double dx = (double)end->x - (double)begin->x;
-    const double dz = (double)end->z - (double)begin->z;
-    double leftmost = dx * (double)end->x + dz * (double)end->z;
-    double rightmost = dx * (double)begin->x + dz * (double)begin->z;
-    for (uint32_t i = first + 1; i < count; i++) {
-        if (!leads_to(slot, &ring[i], ends)) {
-            continue;
-        }
-        const tl_nav_ring_edge *next = &ring[i + 1 < count ? i + 1 : 0];
-        const double left = dx * (double)next->x + dz * (double)next->z;
-        const double right = dx * (double)ring[i].x + dz * (double)ring[i].z;
-        *left_out = left > leftmost ? start_of(next) : *left_out;
-        *right_out = right < rightmost ? start_of(&ring[i]) : *right_out;
-        leftmost = left > leftmost ? left : leftmost;
-        rightmost = right < rightmost ? right : rightmost;
+    *right_out = start_of(&ring[first]);
+    *left_out = start_of(&ring[first + 1 < count ? first + 1 : 0]);
+    const uint32_t second = next_to(slot, ring, first + 1, count, ends);
+    if (second < count) {
+        add_edges(slot, ring, second, count, ends, left_out, right_out);
     }
     return true;
 }
