@@ -407,6 +407,8 @@ static PyObject *nav_bake(PyObject *self, PyObject *args)
         }
         made.def.host = (tl_host){ NULL, NULL, NULL };
         binding_end(&host);
+        made.obstacle_shapes = result == TL_OK && with_obstacles ? PyDict_New() : NULL;
+        result = result == TL_OK && with_obstacles && made.obstacle_shapes == NULL ? TL_ERR_MEMORY : result;
         if (result == TL_OK) {
             PyObject *capsule = binding_navmesh_capsule(&made);
             PyObject *counts = capsule != NULL ? report_dict(&report) : NULL;

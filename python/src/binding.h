@@ -121,6 +121,7 @@ typedef struct binding_navmesh {
     tl_nav_def def;
     uint32_t tiles_x, tiles_z;
     tl_nav_obstacles *obstacles;
+    PyObject *obstacle_shapes;      ///< of ids to the capsules of the shapes that they borrow; NULL: no obstacles
     tl_navmesh *removed;            ///< what was pruned, as a navmesh; NULL: nothing
     const tl_pack_pruning *pruning; ///< the rules; NULL: nothing was asked for
     const tl_nav_links *links;      ///< found and added; NULL: none

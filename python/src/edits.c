@@ -137,42 +137,86 @@ static binding_navmesh *with_obstacles(PyObject *capsule)
     return held;
 }
 
-// obstacle_set(navmesh, id or 0, kind, area, (base), height, numbers (radius, half x, half z, cosine, sine), points)
-//   -> id: adds one, or moves the one of that id
+// The obstacle of an id borrows this shape from now on; None: none.
+static bool keep_shape(const binding_navmesh *held, tl_nav_obstacle_id id, PyObject *shape)
+{
+    PyObject *key = PyLong_FromUnsignedLongLong(id);
+    int failed = key == NULL ? -1 : PyDict_SetItem(held->obstacle_shapes, key, shape);
+    Py_XDECREF(key);
+    return failed == 0;
+}
+
+static bool take_shape(PyObject *shape, const Py_buffer *pose, tl_nav_obstacle *o)
+{
+    if (shape == Py_None) {
+        return true;
+    }
+    const tl_convex *convex = binding_shape_of(shape);
+    if (convex == NULL || !binding_has(pose, sizeof(tl_transform), 1, false, "pose")) {
+        return false;
+    }
+    o->convex = *convex;
+    memcpy(&o->pose, pose->buf, sizeof(o->pose));
+    return true;
+}
+
+static bool take_outline(const Py_buffer *points, tl_nav_obstacle *o)
+{
+    const Py_ssize_t count = binding_count(points, sizeof(tl_vec3), "points");
+    if (count > TL_NAV_MAX_OBSTACLE_POINTS) {
+        PyErr_Format(PyExc_ValueError, "an outline has at most %d points", TL_NAV_MAX_OBSTACLE_POINTS);
+    }
+    if (count < 0 || count > TL_NAV_MAX_OBSTACLE_POINTS) {
+        return false;
+    }
+    memcpy(o->points, points->buf, (size_t)points->len);
+    o->point_count = (uint32_t)count;
+    return true;
+}
+
+// Adds the obstacle where id is 0, or moves the one of that id.
+static PyObject *place_obstacle(const binding_navmesh *held, tl_nav_obstacle_id id, const tl_nav_obstacle *o,
+                                PyObject *shape)
+{
+    tl_report report;
+    tl_nav_obstacle_id made = id;
+    const tl_result result = id == 0 ? tl_nav_obstacles_add(held->obstacles, o, &made, &report)
+                                     : tl_nav_obstacles_move(held->obstacles, id, o, &report);
+    if (result != TL_OK) {
+        return binding_raise(result, &report);
+    }
+    if (!keep_shape(held, made, shape)) {
+        tl_nav_obstacles_remove(held->obstacles, made);
+        return NULL;
+    }
+    return PyLong_FromUnsignedLongLong(made);
+}
+
+// obstacle_set(navmesh, id or 0, kind, area, (base), height, numbers (radius, half x, half z, cosine, sine), points,
+//   shape or None, pose) -> id: adds one, or moves the one of that id
 static PyObject *obstacle_set(PyObject *self, PyObject *args)
 {
     (void)self;
     PyObject *capsule;
+    PyObject *shape;
     unsigned long long id = 0;
     int kind = 0;
     int area = 0;
     tl_nav_obstacle o;
     memset(&o, 0, sizeof(o));
-    Py_buffer points;
-    if (!PyArg_ParseTuple(args, "OKii(fff)f(fffff)y*", &capsule, &id, &kind, &area, &o.base.x, &o.base.y, &o.base.z,
-                          &o.height, &o.radius, &o.half_x, &o.half_z, &o.cosine, &o.sine, &points)) {
+    Py_buffer buffers[2];
+    if (!PyArg_ParseTuple(args, "OKii(fff)f(fffff)y*Oy*", &capsule, &id, &kind, &area, &o.base.x, &o.base.y, &o.base.z,
+                          &o.height, &o.radius, &o.half_x, &o.half_z, &o.cosine, &o.sine, &buffers[0], &shape,
+                          &buffers[1])) {
         return NULL;
     }
     o.shape = (tl_nav_obstacle_shape)kind;
     o.area = (uint8_t)area;
     const binding_navmesh *held = with_obstacles(capsule);
-    Py_ssize_t count = held != NULL ? binding_count(&points, sizeof(tl_vec3), "points") : -1;
-    tl_result result = TL_ERR_ARGUMENT;
-    tl_nav_obstacle_id made = id;
-    if (count > TL_NAV_MAX_OBSTACLE_POINTS) {
-        PyErr_Format(PyExc_ValueError, "an outline has at most %d points", TL_NAV_MAX_OBSTACLE_POINTS);
-    } else if (count >= 0) {
-        memcpy(o.points, points.buf, (size_t)points.len);
-        o.point_count = (uint32_t)count;
-        tl_report report;
-        result = id == 0 ? tl_nav_obstacles_add(held->obstacles, &o, &made, &report)
-                         : tl_nav_obstacles_move(held->obstacles, id, &o, &report);
-        if (result != TL_OK) {
-            binding_raise(result, &report);
-        }
-    }
-    PyBuffer_Release(&points);
-    return result == TL_OK ? PyLong_FromUnsignedLongLong(made) : NULL;
+    const bool good = held != NULL && take_outline(&buffers[0], &o) && take_shape(shape, &buffers[1], &o);
+    PyObject *made = good ? place_obstacle(held, id, &o, shape) : NULL;
+    binding_release(buffers, 2);
+    return made;
 }
 
 // obstacle_remove(navmesh, id)
@@ -189,7 +233,13 @@ static PyObject *obstacle_remove(PyObject *self, PyObject *args)
         return NULL;
     }
     tl_result result = tl_nav_obstacles_remove(held->obstacles, id);
-    return result == TL_OK ? Py_NewRef(Py_None) : binding_raise(result, NULL);
+    if (result != TL_OK) {
+        return binding_raise(result, NULL);
+    }
+    PyObject *key = PyLong_FromUnsignedLongLong(id);
+    int failed = key == NULL ? -1 : PyDict_DelItem(held->obstacle_shapes, key);
+    Py_XDECREF(key);
+    return failed == 0 ? Py_NewRef(Py_None) : NULL;
 }
 
 // obstacles_update(navmesh, max tiles) -> tiles still waiting

@@ -21,6 +21,7 @@ void binding_navmesh_free_parts(binding_navmesh *navmesh)
         return;
     }
     tl_nav_obstacles_destroy(navmesh->obstacles);
+    Py_XDECREF(navmesh->obstacle_shapes);
     tl_navmesh_destroy(navmesh->navmesh);
     tl_navmesh_destroy(navmesh->removed);
     tl_blob_free(navmesh->own_pruning);

@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _talus
 from ._arrays import ArrayLike, Floats, triple
+from .shapes import Shape, pose_array
 
 WALKABLE_AREA = 63
 """The area of floors that were given none."""
@@ -147,7 +148,7 @@ def filter_tuple(filter: Filter | None) -> tuple[int, int, Floats | None] | None
 
 @dataclass(frozen=True)
 class Obstacle:
-    """A temporary obstacle. Made by `Obstacle.cylinder`, `Obstacle.box` and `Obstacle.prism`."""
+    """A temporary obstacle. Made by `Obstacle.cylinder`, `Obstacle.box`, `Obstacle.prism` and `Obstacle.convex`."""
 
     kind: int
     base: tuple[float, float, float]
@@ -156,6 +157,9 @@ class Obstacle:
     outline: tuple[tuple[float, float], ...] = ()
     area: int = 0
     """0 is a solid body; another area marks the floors inside it."""
+    shape: Shape | None = None
+    """Any convex shape, at a pose; `base`, `height` and `numbers` are zero then."""
+    pose: tuple[float, ...] = (0.0,) * 7
 
     @classmethod
     def cylinder(cls, base: ArrayLike, radius: float, height: float, *, area: int = 0) -> Obstacle:
@@ -179,8 +183,22 @@ class Obstacle:
         pairs = tuple((float(x), float(z)) for x, z in points)
         return cls(2, triple(base, "base"), float(height), (0.0, 0.0, 0.0, 1.0, 0.0), pairs, area)
 
+    @classmethod
+    def convex(cls, shape: Shape, pose: ArrayLike | None = None, *, area: int = 0) -> Obstacle:
+        """Any convex shape at any pose: a hull, a tilted box, a capsule, a cone. One pose, as `talus.poses` makes them.
+
+        >>> ramp = talus.Obstacle.convex(talus.box([2, 0.1, 1]), talus.poses([10, 0.6, 10], [0, 0, 0.3, 0.954]))
+        """
+        rows = pose_array(pose)
+        if len(rows) != 1:
+            raise ValueError(f"an obstacle has one pose, not {len(rows)}")
+        at = tuple(float(number) for number in rows[0])
+        return cls(3, (0.0, 0.0, 0.0), 0.0, (0.0,) * 5, (), area, shape, at)
+
     def _fields(self) -> tuple[Any, ...]:
         points = np.zeros((len(self.outline), 3), np.float32)
         if self.outline:
             points[:, [0, 2]] = self.outline
-        return self.kind, int(self.area), self.base, self.height, self.numbers, points
+        shape = self.shape._shape if self.shape is not None else None
+        pose = np.array(self.pose, np.float32)
+        return self.kind, int(self.area), self.base, self.height, self.numbers, points, shape, pose

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import gc
 import math
 import threading
 
@@ -191,6 +192,20 @@ def test_obstacles(hall: Mesh) -> None:
     navmesh.remove_obstacle(third)
     navmesh.remove_obstacle(crate)
     assert navmesh.shortest_path(start, goal).length == free
+    # A hull that nothing else holds, tilted; and a capsule that lies across the way.
+    corners = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-4, 4)]
+    tilted = talus.poses([10, 1, 20], [0, 0, 0.3826834, 0.9238795])
+    block = navmesh.add_obstacle(talus.Obstacle.convex(talus.convex(talus.Hull(corners)), tilted))
+    gc.collect()
+    assert navmesh.shortest_path(start, goal).length > free + 0.5
+    pipe = talus.capsule([10, 0.5, 18], [10, 0.5, 22], 0.5)
+    navmesh.move_obstacle(block, talus.Obstacle.convex(pipe))
+    assert navmesh.shortest_path(start, goal).length > free + 0.2
+    navmesh.move_obstacle(block, talus.Obstacle.convex(pipe, [0, 30, 0]))  # far above
+    assert navmesh.shortest_path(start, goal).length == free
+    navmesh.remove_obstacle(block)
+    with pytest.raises(ValueError, match="one pose"):
+        talus.Obstacle.convex(pipe, [[0, 0, 0], [1, 0, 0]])
     plain = talus.Navmesh.bake(*hall)
     with pytest.raises(ValueError, match="obstacles=True"):
         plain.add_obstacle(talus.Obstacle.cylinder([1, 0, 1], 1, 1))
