@@ -105,7 +105,7 @@ msan:
 
 fuzz:
 	tools/setup tools tests lint
-	cmake -S . -B build/fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DTALUS_FUZZ=ON -DTALUS_TESTS=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo
+	cmake -S . -B build/fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DTALUS_FUZZ=ON -DTALUS_TESTS=OFF -DTALUS_EXAMPLES=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo
 	cmake --build build/fuzz --parallel $(JOBS)
 	tools/fuzz build/fuzz/fuzz
 
