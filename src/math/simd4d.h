@@ -29,9 +29,9 @@ static inline tl_f64x4 tl_f64x4_gather_three(const float *first, uint32_t stride
     return _mm256_cvtps_pd(_mm_castsi128_ps(xyz));
 }
 
-static inline tl_f64x4 tl_f64x4_from_floats(const float *four)
+static inline tl_f64x4 tl_f64x4_of_floats(tl_f32x4 a)
 {
-    return _mm256_cvtps_pd(_mm_loadu_ps(four));
+    return _mm256_cvtps_pd(a);
 }
 
 static inline void tl_f64x4_store_floats(float *four, tl_f64x4 a)
@@ -65,18 +65,16 @@ static inline tl_f64x4 tl_f64x4_rotate_three(tl_f64x4 a)
     return _mm256_permute4x64_pd(a, _MM_SHUFFLE(3, 0, 2, 1));
 }
 
-/// Of each vector (lane 0 + lane 1) + (lane 2 + lane 3).
-static inline tl_f64x4 tl_f64x4_sums(tl_f64x4 a, tl_f64x4 b, tl_f64x4 c, tl_f64x4 d)
+/// Lanes 1, 0, 3, 2.
+static inline tl_f64x4 tl_f64x4_swap_lanes(tl_f64x4 a)
 {
-    __m256d ab = _mm256_hadd_pd(a, b), cd = _mm256_hadd_pd(c, d);
-    return _mm256_add_pd(_mm256_permute2f128_pd(ab, cd, 0x20), _mm256_permute2f128_pd(ab, cd, 0x31));
+    return _mm256_permute_pd(a, 5);
 }
 
-/// (lane 0 + lane 1) + (lane 2 + lane 3).
-static inline double tl_f64x4_sum(tl_f64x4 a)
+/// Lanes 2, 3, 0, 1.
+static inline tl_f64x4 tl_f64x4_swap_halves(tl_f64x4 a)
 {
-    __m128d pairs = _mm_hadd_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));
-    return _mm_cvtsd_f64(_mm_add_sd(pairs, _mm_unpackhi_pd(pairs, pairs)));
+    return _mm256_permute2f128_pd(a, a, 1);
 }
 
 static inline double tl_f64x4_get_x(tl_f64x4 a)
@@ -132,11 +130,6 @@ static inline tl_f64x4 tl_f64x4_gather_three(const float *first, uint32_t stride
     return tl_f64x4_of_floats(tl_f32x4_gather_three(first, first + stride, first + 2 * (size_t)stride));
 }
 
-static inline tl_f64x4 tl_f64x4_from_floats(const float *four)
-{
-    return tl_f64x4_of_floats(tl_f32x4_load(four));
-}
-
 static inline void tl_f64x4_store_floats(float *four, tl_f64x4 a)
 {
     tl_f32x4_store(four, tl_f64x2_to_floats(a.low, a.high));
@@ -167,17 +160,14 @@ static inline tl_f64x4 tl_f64x4_rotate_three(tl_f64x4 a)
     return tl_f64x4_make(tl_f64x2_yx(a.low, a.high), tl_f64x2_xy(a.low, a.high));
 }
 
-static inline tl_f64x4 tl_f64x4_sums(tl_f64x4 a, tl_f64x4 b, tl_f64x4 c, tl_f64x4 d)
+static inline tl_f64x4 tl_f64x4_swap_lanes(tl_f64x4 a)
 {
-    tl_f64x2 ab_low = tl_f64x2_pair_sums(a.low, b.low), ab_high = tl_f64x2_pair_sums(a.high, b.high);
-    tl_f64x2 cd_low = tl_f64x2_pair_sums(c.low, d.low), cd_high = tl_f64x2_pair_sums(c.high, d.high);
-    return tl_f64x4_make(tl_f64x2_add(ab_low, ab_high), tl_f64x2_add(cd_low, cd_high));
+    return tl_f64x4_make(tl_f64x2_swap(a.low), tl_f64x2_swap(a.high));
 }
 
-static inline double tl_f64x4_sum(tl_f64x4 a)
+static inline tl_f64x4 tl_f64x4_swap_halves(tl_f64x4 a)
 {
-    tl_f64x2 pairs = tl_f64x2_pair_sums(a.low, a.high);
-    return tl_f64x2_get_x(pairs) + tl_f64x2_get_y(pairs);
+    return tl_f64x4_make(a.high, a.low);
 }
 
 static inline double tl_f64x4_get_x(tl_f64x4 a)
@@ -225,8 +215,10 @@ static inline tl_f64x4 tl_f64x4_gather_three(const float *first, uint32_t stride
     return r;
 }
 
-static inline tl_f64x4 tl_f64x4_from_floats(const float *four)
+static inline tl_f64x4 tl_f64x4_of_floats(tl_f32x4 a)
 {
+    float four[4];
+    tl_f32x4_store(four, a);
     tl_f64x4 r = { { (double)four[0], (double)four[1], (double)four[2], (double)four[3] } };
     return r;
 }
@@ -276,19 +268,16 @@ static inline tl_f64x4 tl_f64x4_rotate_three(tl_f64x4 a)
     return r;
 }
 
-static inline tl_f64x4 tl_f64x4_sums(tl_f64x4 a, tl_f64x4 b, tl_f64x4 c, tl_f64x4 d)
+static inline tl_f64x4 tl_f64x4_swap_lanes(tl_f64x4 a)
 {
-    const tl_f64x4 v[4] = { a, b, c, d };
-    tl_f64x4 r;
-    for (int i = 0; i < 4; i++) {
-        r.v[i] = (v[i].v[0] + v[i].v[1]) + (v[i].v[2] + v[i].v[3]);
-    }
+    tl_f64x4 r = { { a.v[1], a.v[0], a.v[3], a.v[2] } };
     return r;
 }
 
-static inline double tl_f64x4_sum(tl_f64x4 a)
+static inline tl_f64x4 tl_f64x4_swap_halves(tl_f64x4 a)
 {
-    return (a.v[0] + a.v[1]) + (a.v[2] + a.v[3]);
+    tl_f64x4 r = { { a.v[2], a.v[3], a.v[0], a.v[1] } };
+    return r;
 }
 
 static inline double tl_f64x4_get_x(tl_f64x4 a)

@@ -43,6 +43,11 @@ static inline tl_f32x4 tl_f32x4_load_three(const float *three)
     return tl_f32x4_gather_three(three, three + 1, three + 2);
 }
 
+static inline tl_f32x4 tl_f32x4_gather_four(const float *x, const float *y, const float *z, const float *w)
+{
+    return vld1q_lane_f32(w, tl_f32x4_gather_three(x, y, z), 3);
+}
+
 static inline float tl_f32x4_get_x(tl_f32x4 a)
 {
     return vgetq_lane_f32(a, 0);
@@ -196,6 +201,26 @@ static inline void tl_f32x4_two_from_bytes(const uint8_t *eight, tl_f32x4 *low, 
     uint16x8_t words = vmovl_u8(vld1_u8(eight));
     *low = vcvtq_f32_u32(vmovl_u16(vget_low_u16(words)));
     *high = vcvtq_f32_u32(vmovl_high_u16(words));
+}
+
+static inline tl_f32x4 tl_f32x4_zip_low(tl_f32x4 a, tl_f32x4 b)
+{
+    return vzip1q_f32(a, b);
+}
+
+static inline tl_f32x4 tl_f32x4_zip_high(tl_f32x4 a, tl_f32x4 b)
+{
+    return vzip2q_f32(a, b);
+}
+
+static inline tl_f32x4 tl_f32x4_twice_z_and_low(tl_f32x4 a, tl_f32x4 b)
+{
+    return vcombine_f32(vdup_laneq_f32(a, 2), vget_low_f32(b));
+}
+
+static inline tl_f32x4 tl_f32x4_twice_z_and_high(tl_f32x4 a, tl_f32x4 b)
+{
+    return vcombine_f32(vdup_laneq_f32(a, 2), vget_high_f32(b));
 }
 
 static inline void tl_f32x4_transpose(tl_f32x4 *a, tl_f32x4 *b, tl_f32x4 *c, tl_f32x4 *d)

@@ -50,6 +50,12 @@ static inline tl_f32x4 tl_f32x4_load_three(const float *three)
     return tl_f32x4_make(three[0], three[1], three[2], 0.0f);
 }
 
+/// Floats from anywhere.
+static inline tl_f32x4 tl_f32x4_gather_four(const float *x, const float *y, const float *z, const float *w)
+{
+    return tl_f32x4_make(*x, *y, *z, *w);
+}
+
 static inline float tl_f32x4_get_x(tl_f32x4 a)
 {
     return a.v[0];
@@ -225,6 +231,30 @@ static inline float tl_f32x4_least_of_three(tl_f32x4 a)
 {
     float xy = a.v[0] < a.v[1] ? a.v[0] : a.v[1];
     return xy < a.v[2] ? xy : a.v[2];
+}
+
+/// { a[0], b[0], a[1], b[1] }.
+static inline tl_f32x4 tl_f32x4_zip_low(tl_f32x4 a, tl_f32x4 b)
+{
+    return tl_f32x4_make(a.v[0], b.v[0], a.v[1], b.v[1]);
+}
+
+/// { a[2], b[2], a[3], b[3] }.
+static inline tl_f32x4 tl_f32x4_zip_high(tl_f32x4 a, tl_f32x4 b)
+{
+    return tl_f32x4_make(a.v[2], b.v[2], a.v[3], b.v[3]);
+}
+
+/// { a[2], a[2], b[0], b[1] }.
+static inline tl_f32x4 tl_f32x4_twice_z_and_low(tl_f32x4 a, tl_f32x4 b)
+{
+    return tl_f32x4_make(a.v[2], a.v[2], b.v[0], b.v[1]);
+}
+
+/// { a[2], a[2], b[2], b[3] }.
+static inline tl_f32x4 tl_f32x4_twice_z_and_high(tl_f32x4 a, tl_f32x4 b)
+{
+    return tl_f32x4_make(a.v[2], a.v[2], b.v[2], b.v[3]);
 }
 
 static inline void tl_f32x4_transpose(tl_f32x4 *a, tl_f32x4 *b, tl_f32x4 *c, tl_f32x4 *d)

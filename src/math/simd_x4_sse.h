@@ -38,6 +38,18 @@ static inline tl_f32x4 tl_f32x4_load_three(const float *three)
     return _mm_insert_ps(xy, _mm_load_ss(three + 2), 0x20);
 }
 
+// As integers: compilers make two shuffles of a float that is loaded to be inserted.
+static inline tl_f32x4 tl_f32x4_gather_four(const float *x, const float *y, const float *z, const float *w)
+{
+    int32_t lane[4];
+    memcpy(&lane[0], x, sizeof *lane);
+    memcpy(&lane[1], y, sizeof *lane);
+    memcpy(&lane[2], z, sizeof *lane);
+    memcpy(&lane[3], w, sizeof *lane);
+    __m128i xy = _mm_insert_epi32(_mm_cvtsi32_si128(lane[0]), lane[1], 1);
+    return _mm_castsi128_ps(_mm_insert_epi32(_mm_insert_epi32(xy, lane[2], 2), lane[3], 3));
+}
+
 static inline float tl_f32x4_get_x(tl_f32x4 a)
 {
     return _mm_cvtss_f32(a);
@@ -197,6 +209,26 @@ static inline void tl_f32x4_two_from_bytes(const uint8_t *eight, tl_f32x4 *low, 
     memcpy(bytes, eight, sizeof bytes);
     *low = _mm_cvtepi32_ps(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(bytes[0])));
     *high = _mm_cvtepi32_ps(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(bytes[1])));
+}
+
+static inline tl_f32x4 tl_f32x4_zip_low(tl_f32x4 a, tl_f32x4 b)
+{
+    return _mm_unpacklo_ps(a, b);
+}
+
+static inline tl_f32x4 tl_f32x4_zip_high(tl_f32x4 a, tl_f32x4 b)
+{
+    return _mm_unpackhi_ps(a, b);
+}
+
+static inline tl_f32x4 tl_f32x4_twice_z_and_low(tl_f32x4 a, tl_f32x4 b)
+{
+    return _mm_shuffle_ps(a, b, _MM_SHUFFLE(1, 0, 2, 2));
+}
+
+static inline tl_f32x4 tl_f32x4_twice_z_and_high(tl_f32x4 a, tl_f32x4 b)
+{
+    return _mm_shuffle_ps(a, b, _MM_SHUFFLE(3, 2, 2, 2));
 }
 
 static inline void tl_f32x4_transpose(tl_f32x4 *a, tl_f32x4 *b, tl_f32x4 *c, tl_f32x4 *d)

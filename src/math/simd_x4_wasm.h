@@ -43,6 +43,11 @@ static inline tl_f32x4 tl_f32x4_load_three(const float *three)
     return tl_f32x4_gather_three(three, three + 1, three + 2);
 }
 
+static inline tl_f32x4 tl_f32x4_gather_four(const float *x, const float *y, const float *z, const float *w)
+{
+    return wasm_v128_load32_lane(w, tl_f32x4_gather_three(x, y, z), 3);
+}
+
 static inline float tl_f32x4_get_x(tl_f32x4 a)
 {
     return wasm_f32x4_extract_lane(a, 0);
@@ -190,6 +195,26 @@ static inline void tl_f32x4_two_from_bytes(const uint8_t *eight, tl_f32x4 *low, 
     v128_t words = wasm_u16x8_load8x8(eight);
     *low = wasm_f32x4_convert_i32x4(wasm_u32x4_extend_low_u16x8(words));
     *high = wasm_f32x4_convert_i32x4(wasm_u32x4_extend_high_u16x8(words));
+}
+
+static inline tl_f32x4 tl_f32x4_zip_low(tl_f32x4 a, tl_f32x4 b)
+{
+    return wasm_i32x4_shuffle(a, b, 0, 4, 1, 5);
+}
+
+static inline tl_f32x4 tl_f32x4_zip_high(tl_f32x4 a, tl_f32x4 b)
+{
+    return wasm_i32x4_shuffle(a, b, 2, 6, 3, 7);
+}
+
+static inline tl_f32x4 tl_f32x4_twice_z_and_low(tl_f32x4 a, tl_f32x4 b)
+{
+    return wasm_i32x4_shuffle(a, b, 2, 2, 4, 5);
+}
+
+static inline tl_f32x4 tl_f32x4_twice_z_and_high(tl_f32x4 a, tl_f32x4 b)
+{
+    return wasm_i32x4_shuffle(a, b, 2, 2, 6, 7);
 }
 
 static inline void tl_f32x4_transpose(tl_f32x4 *a, tl_f32x4 *b, tl_f32x4 *c, tl_f32x4 *d)

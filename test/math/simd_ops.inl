@@ -65,6 +65,11 @@ static void run_x4(const simd_input *in, simd_output **out)
     put_x4(out, "f32x4_all", SIMD_EXACT, tl_f32x4_all(in->a[1]));
     put_x4(out, "f32x4_make", SIMD_EXACT, tl_f32x4_make(in->a[3], in->a[1], in->b[0], in->b[2]));
     put_x4(out, "f32x4_load_three", SIMD_EXACT, tl_f32x4_load_three(in->a + 1));
+    put_x4(out, "f32x4_gather_four", SIMD_EXACT, tl_f32x4_gather_four(in->a + 2, in->b, in->a, in->b + 3));
+    put_x4(out, "f32x4_zip_low", SIMD_EXACT, tl_f32x4_zip_low(a, b));
+    put_x4(out, "f32x4_zip_high", SIMD_EXACT, tl_f32x4_zip_high(a, b));
+    put_x4(out, "f32x4_twice_z_and_low", SIMD_EXACT, tl_f32x4_twice_z_and_low(a, b));
+    put_x4(out, "f32x4_twice_z_and_high", SIMD_EXACT, tl_f32x4_twice_z_and_high(a, b));
     put_f32(out, "f32x4_get_x", SIMD_EXACT, tl_f32x4_get_x(a));
     put_f32(out, "f32x4_get_y", SIMD_EXACT, tl_f32x4_get_y(a));
     put_f32(out, "f32x4_get_z", SIMD_EXACT, tl_f32x4_get_z(a));
@@ -186,17 +191,17 @@ static void run_x16(const simd_input *in, simd_output **out)
 
 static void run_f64x4(const simd_input *in, simd_output **out)
 {
-    tl_f64x4 a = tl_f64x4_from_floats(in->a), b = tl_f64x4_from_floats(in->b), c = tl_f64x4_from_floats(in->c);
-    put_f64x4(out, "f64x4_from_floats", a);
+    tl_f64x4 a = tl_f64x4_of_floats(tl_f32x4_load(in->a)), b = tl_f64x4_of_floats(tl_f32x4_load(in->b));
+    put_f64x4(out, "f64x4_of_floats", a);
     put_f64x4(out, "f64x4_all", tl_f64x4_all(in->p[0]));
     put_f64x4(out, "f64x4_gather_three", tl_f64x4_gather_three(in->a + 1, 5));
     put_f64x4(out, "f64x4_add", tl_f64x4_add(a, b));
     put_f64x4(out, "f64x4_sub", tl_f64x4_sub(a, b));
     put_f64x4(out, "f64x4_mul", tl_f64x4_mul(a, b));
     put_f64x4(out, "f64x4_rotate_three", tl_f64x4_rotate_three(a));
-    put_f64x4(out, "f64x4_sums", tl_f64x4_sums(a, b, c, tl_f64x4_all(in->q[0])));
+    put_f64x4(out, "f64x4_swap_lanes", tl_f64x4_swap_lanes(a));
+    put_f64x4(out, "f64x4_swap_halves", tl_f64x4_swap_halves(a));
     put_f64x4(out, "f64x4_cross", tl_f64x4_cross(a, b));
-    put_f64(out, "f64x4_sum", tl_f64x4_sum(a));
     put_f64(out, "f64x4_get_x", tl_f64x4_get_x(a));
     put_f64(out, "f64x4_get_y", tl_f64x4_get_y(a));
     put_f64(out, "f64x4_get_z", tl_f64x4_get_z(a));

@@ -143,19 +143,23 @@ static double width_of(const triangle_test *test)
     return width;
 }
 
-// t, right to TL_RAY_T_ERROR of itself and so in its sign, and u and v.
-static double find_place(const tl_ray_job *job, const triangle_test *test, float *u_out, float *v_out)
+// t, right to TL_RAY_T_ERROR of itself and so in its sign; u, v and the normal.
+static double find_place(const tl_ray_job *job, const triangle_test *test, float *u_out, float *v_out,
+                         double normal_out[3])
 {
     const float *corners[3];
     tl_leaf_find_corners(&test->leaf, test->lane, corners);
     tl_ray_crossing crossing = tl_ray_cross_plane(job, corners, tl_leaf_stride(&test->leaf));
+    for (int k = 0; k < 3; k++) {
+        normal_out[k] = tl_f64x4_get_x(crossing.normal[k]);
+    }
     if (tl_ray_t_is_safe(tl_f64x4_get_y(crossing.sums), width_of(test), test->reach)) {
-        double place[4];
+        double place[4]; // 1, -t, u, v
         tl_f64x4_store(place, tl_f64x4_mul(crossing.sums, tl_f64x4_all(1.0 / tl_f64x4_get_x(crossing.sums))));
         *u_out = (float)place[2];
-        *v_out = -(float)place[3];
+        *v_out = (float)place[3];
         tl_ray_keep_inside(u_out, v_out);
-        return place[1];
+        return -place[1];
     }
     double sum = test->weight[0] + test->weight[1] + test->weight[2];
     // A needle seen edge-on may have weights that all vanish in double: then the hit is anywhere on it.
@@ -197,7 +201,8 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
         return false;
     }
     float t, u, v;
-    double exact = find_place(job, &test, &u, &v);
+    double normal[3];
+    double exact = find_place(job, &test, &u, &v, normal);
     if (!round_t(job, &test, exact, &t)) {
         return false;
     }
@@ -212,11 +217,9 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
     job->t = t;
     job->box_limit = tl_ray_box_limit(job, t);
     job->triangle = triangle;
-    job->leaf = leaf;
-    job->lane = lane;
     job->back = back;
     job->u = u;
     job->v = v;
-    job->has_normal = false;
+    memcpy(job->normal, normal, sizeof job->normal);
     return true;
 }

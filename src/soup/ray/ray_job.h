@@ -63,17 +63,12 @@ typedef struct tl_ray_job {
     double exact_shear[2];
     double inverse_z; ///< 1 / direction along the last axis
 
-    tl_leaf_buffer *buffers; ///< of the walk, for leaves of a compact soup; NULL: leaves are read in place
-
     // The best so far. t begins as tmax, so the first hit at tmax itself still wins by its index.
     float t;
     uint32_t triangle; ///< UINT32_MAX: none
-    const tl_soup_leaf *leaf;
-    uint32_t lane;
     float u, v;
     bool back;
-    bool has_normal;  ///< `normal` is filled
-    double normal[4]; ///< of no particular length
+    double normal[3]; ///< of no particular length
 } tl_ray_job;
 
 /// The box t beyond which no hit is reported at `t` or before. A saturated t says nothing about where the hit is.

@@ -7,8 +7,10 @@
 //
 //   t = n.c / n.d,  u = (c x d).q / n.d,  v = -(c x d).p / n.d
 //
-// in four lanes, with one division, and the normal comes with it. Nothing is fused, so every instruction set gives the
-// same bits. ray_decide.c does the same for the triangles that the filters leave in doubt.
+// with one division, and the normal comes with it. An axis is a vector of four lanes, p, q, c and d, so both cross
+// products are one, the four sums need no lane of another vector, and the chain that a ray waits for is short. Nothing
+// is fused, so every instruction set gives the same bits. ray_decide.c does the same for the triangles that the filters
+// leave in doubt.
 //
 // Error of t, with u = TL_DOUBLE_ROUNDING, L the largest coordinate of p and q, M that of c, D that of d. A component
 // of n sums two products of at most L^2, and four roundings go into each: it is off by 8 u L^2. So n.d is off by
@@ -23,6 +25,7 @@
 #include "math/tolerance.h"
 #include "soup/ray/ray_job.h"
 
+#include <stddef.h>
 #include <string.h>
 
 /// Share of t that errors may move it before it is rounded: an eighth of an ulp of float.
@@ -37,36 +40,44 @@ static const uint8_t tl_ray_corner_shifts[8][4] = { { 0, 8, 16 }, { 0, 8, 16 }, 
                                                     { 0, 16, 8 }, { 16, 8, 0 }, { 8, 0, 16 }, { 0, 8, 16 } };
 
 typedef struct tl_ray_crossing {
-    tl_f64x4 normal; ///< n
-    tl_f64x4 sums;   ///< n.d, n.c, and those of u and -v
+    tl_f64x4 normal[3]; ///< an axis each: n in lane 0
+    tl_f64x4 sums;      ///< n.d, -n.c, and those of u and v
 } tl_ray_crossing;
 
 /// Corners in the order of the view, axis k of each at [k * stride].
 static TL_ALWAYS_INLINE tl_ray_crossing tl_ray_cross_plane(const tl_ray_job *job, const float *const corner[3],
                                                            uint32_t stride)
 {
-    tl_f64x4 origin = tl_f64x4_from_floats(job->origin.lane);
-    tl_f64x4 direction = tl_f64x4_from_floats(job->target.lane);
-    direction = job->is_segment ? tl_f64x4_sub(direction, origin) : direction;
-    tl_f64x4 a = tl_f64x4_gather_three(corner[0], stride);
-    tl_f64x4 p = tl_f64x4_sub(tl_f64x4_gather_three(corner[1], stride), a);
-    tl_f64x4 q = tl_f64x4_sub(tl_f64x4_gather_three(corner[2], stride), a);
-    tl_f64x4 c = tl_f64x4_sub(a, origin);
+    tl_f32x4 origin = tl_f32x4_load(job->origin.lane);
+    tl_f32x4 start = job->is_segment ? origin : tl_f32x4_all(0.0f); // of d
+    tl_f32x4 xy = tl_f32x4_zip_low(origin, start), z = tl_f32x4_zip_high(origin, start);
+    tl_f64x4 side[3], turned[3]; // p, q, c, d and q, p, d, c
+    for (uint32_t k = 0; k < 3; k++) {
+        size_t at = k * (size_t)stride;
+        tl_f32x4 end = tl_f32x4_gather_four(corner[1] + at, corner[2] + at, corner[0] + at, &job->target.lane[k]);
+        tl_f32x4 from = k == 0   ? tl_f32x4_twice_z_and_low(end, xy)
+                        : k == 1 ? tl_f32x4_twice_z_and_high(end, xy)
+                                 : tl_f32x4_twice_z_and_low(end, z);
+        side[k] = tl_f64x4_sub(tl_f64x4_of_floats(end), tl_f64x4_of_floats(from));
+        turned[k] = tl_f64x4_swap_lanes(side[k]);
+    }
     tl_ray_crossing crossing;
-    crossing.normal = tl_f64x4_cross(p, q);
-    tl_f64x4 moment = tl_f64x4_cross(c, direction);
-    crossing.sums = tl_f64x4_sums(tl_f64x4_mul(crossing.normal, direction), tl_f64x4_mul(crossing.normal, c),
-                                  tl_f64x4_mul(moment, q), tl_f64x4_mul(moment, p));
+    tl_f64x4 part[3]; // of the sums
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t i = (k + 1) % 3, j = (k + 2) % 3;
+        crossing.normal[k] = tl_f64x4_sub(tl_f64x4_mul(side[i], turned[j]), tl_f64x4_mul(side[j], turned[i]));
+        part[k] = tl_f64x4_mul(crossing.normal[k], tl_f64x4_swap_halves(turned[k]));
+    }
+    crossing.sums = tl_f64x4_add(tl_f64x4_add(part[0], part[1]), part[2]);
     return crossing;
 }
 
 /// The normal of length 1; zero for a needle too thin for doubles to tell. By the operations of tl_triangle_normal.
-static TL_ALWAYS_INLINE tl_vec3 tl_ray_unit_normal(tl_f64x4 normal)
+static TL_ALWAYS_INLINE tl_vec3 tl_ray_unit_normal(const double n[3])
 {
-    double length_sq = tl_f64x4_sum(tl_f64x4_mul(normal, normal));
-    float unit[4];
-    tl_f64x4_store_floats(unit, tl_f64x4_mul(normal, tl_f64x4_all(length_sq > 0.0 ? 1.0 / sqrt(length_sq) : 0.0)));
-    return tl_vec3_make(unit[0], unit[1], unit[2]);
+    double length_sq = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    double scale = length_sq > 0.0 ? 1.0 / sqrt(length_sq) : 0.0;
+    return tl_vec3_make((float)(n[0] * scale), (float)(n[1] * scale), (float)(n[2] * scale));
 }
 
 /// The least |n.c| with which t is as exact as promised, for a triangle with sides up to `wide` along an axis, `reach`
@@ -93,14 +104,15 @@ static inline void tl_ray_keep_inside(float *u, float *v)
 
 /// A triangle that the filters have proven to be hit, and where.
 typedef struct tl_ray_place {
-    tl_f64x4 normal; ///< n
+    double normal[3]; ///< n
     float t, u, v;
     uint32_t triangle;
     bool back;
+    bool behind; ///< the origin
 } tl_ray_place;
 
-/// Where the ray meets the first or second triangle of pair (bit & 3) of a leaf of n, which it surely meets in front of
-/// its origin. False when t must be computed exactly. Bounds of the whole leaf bound this triangle's coordinates.
+/// Where the ray's line meets the first or second triangle of pair (bit & 3) of a leaf of n, which it surely meets.
+/// False when t must be computed exactly. Bounds of the whole leaf bound this triangle's coordinates.
 static TL_ALWAYS_INLINE bool tl_ray_find_place(const tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n,
                                                uint32_t bit, tl_ray_place *out)
 {
@@ -116,42 +128,39 @@ static TL_ALWAYS_INLINE bool tl_ray_find_place(const tl_ray_job *job, const tl_s
         corner[k] = floats + (slots >> shift[k] & 0xffu);
     }
     tl_ray_crossing crossing = tl_ray_cross_plane(job, corner, 4 * n);
-    double along = tl_f64x4_get_x(crossing.sums);
-    if (!tl_ray_t_is_safe(tl_f64x4_get_y(crossing.sums), (double)leaf->extent, (double)job->reach)) {
+    double along = tl_f64x4_get_x(crossing.sums), across = tl_f64x4_get_y(crossing.sums); // -n.c
+    if (!tl_ray_t_is_safe(across, (double)leaf->extent, (double)job->reach)) {
         return false;
     }
-    float place[4]; // 1, t, u, -v
+    float place[4]; // 1, -t, u, v
     tl_f64x4_store_floats(place, tl_f64x4_mul(crossing.sums, tl_f64x4_all(1.0 / along)));
-    if (!(place[1] < TL_RAY_T_MAX)) {
+    if (!(fabsf(place[1]) < TL_RAY_T_MAX)) {
         return false;
     }
-    out->normal = crossing.normal;
-    out->t = place[1];
+    out->behind = (along > 0.0) == (across > 0.0);
+    for (int k = 0; k < 3; k++) {
+        out->normal[k] = tl_f64x4_get_x(crossing.normal[k]);
+    }
+    out->t = -place[1];
     out->u = place[2];
-    out->v = -place[3];
+    out->v = place[3];
     tl_ray_keep_inside(&out->u, &out->v);
     out->triangle = id & TL_ID_INDEX;
     out->back = along > 0.0;
     return true;
 }
 
-/// Describes the pending triangle. False, and nothing done, when its t must be computed exactly.
-static TL_ALWAYS_INLINE bool tl_ray_measure(const tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit,
-                                            tl_ray_hit *hit)
+/// Describes the best hit of a job.
+static TL_ALWAYS_INLINE void tl_ray_describe_inline(const tl_ray_job *job, tl_ray_hit *hit)
 {
-    tl_ray_place place;
-    if (!tl_ray_find_place(job, leaf, n, bit, &place)) {
-        return false;
-    }
-    memset(hit, 0, sizeof *hit);
-    hit->t = place.t;
-    hit->triangle = place.triangle;
-    hit->u = place.u;
-    hit->v = place.v;
-    hit->normal = tl_ray_unit_normal(place.normal);
-    hit->material = tl_soup_material(job->soup, place.triangle);
-    hit->back = place.back;
-    return true;
+    memset((char *)hit + offsetof(tl_ray_hit, material), 0, sizeof *hit - offsetof(tl_ray_hit, material));
+    hit->t = job->t;
+    hit->triangle = job->triangle;
+    hit->u = job->u;
+    hit->v = job->v;
+    hit->normal = tl_ray_unit_normal(job->normal);
+    hit->material = tl_soup_material(job->soup, job->triangle);
+    hit->back = job->back;
 }
 
 #endif

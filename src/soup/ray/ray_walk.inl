@@ -23,16 +23,16 @@
 // these products must not be fused.
 //
 // Lanes that pass get an interval of t, which settles most of them without ray_decide.c: triangles behind the ray or
-// beyond the best are dropped, and one that is surely hit, surely in front of the best, is only remembered as pending:
-// it is decided when another comes too near to tell them apart, or measured at the end (ray_measure.h). With D = sum(E)
-// and depths z_i, t = sum(E_i z_i) / D times per_depth. Let the line meet the triangle. Depths differ by L at most, so
-// all are within Z = |z_a| + L, and no corner is farther away than M' = Z + L: it is off by d' = 8 u M'. With m the
-// largest of the triangle's own computed coordinates, at most 2 M', E is off by at most
-// 4 d' m + 2 d'^2 + 4 u m^2 <= 5 d' m + 2 d'^2; taken as e = 5.5 d' m + 3 d'^2 + FLT_MIN. (L is that of the leaf's
-// largest triangle: where small ones lie beside it, 13 d' L could not tell a fourth of some camera's hits from misses.)
-// True weights have one sign, so errors of the weights move the quotient by at most
-// sum(e |z_i - z|) / |D| <= 3 e L / |D|. With |D| >= 64 e, roundings of depths, products, sums and the quotient add
-// 18 u Z, per_depth (two of its own) and its product 3 u Z. Taken as 4 e L / |D| + 26 u Z.
+// beyond the best are dropped, and one that is surely hit, surely in front of the best and of its leaf's others, is
+// measured (ray_measure.h). The walk goes on meanwhile: its limit is the interval, not t. With D = sum(E) and depths
+// z_i, t = sum(E_i z_i) / D times per_depth. Let the line meet the triangle. Depths differ by L at most, so all are
+// within Z = |z_a| + L, and no corner is farther away than M' = Z + L: it is off by d' = 8 u M'. With m the largest of
+// the triangle's own computed coordinates, at most 2 M', E is off by at most 4 d' m + 2 d'^2 + 4 u m^2 <= 5 d' m + 2
+// d'^2; taken as e = 5.5 d' m + 3 d'^2 + FLT_MIN. (L is that of the leaf's largest triangle: where small ones lie
+// beside it, 13 d' L could not tell a fourth of some camera's hits from misses.) True weights have one sign, so errors
+// of the weights move the quotient by at most sum(e |z_i - z|) / |D| <= 3 e L / |D|. With |D| >= 64 e, roundings of
+// depths, products, sums and the quotient add 18 u Z, per_depth (two of its own) and its product 3 u Z. Taken as 4 e L
+// / |D| + 26 u Z.
 //
 // Underflow. Products of the depths' sum, and that sum times per_depth, err by 2^-150 each, which 1 / |D| makes large:
 // with e taken as 2^-77 at least, so that |D| >= 2^-71, and |per_depth| >= 2^-20, by less than 2^-58.9 |per_depth|,
@@ -67,6 +67,9 @@
 
 // Margin around a decided t: another's interval must end before or begin after it to be told apart.
 #define T_MARGIN (4.0f * TL_FLOAT_ROUNDING)
+
+// A segment's t that is not 1, with its rounding and the error of ray_measure.h.
+#define SURELY_BEYOND_END (1.0f + 0x1p-22f)
 
 // Each node on the path leaves at most fifteen siblings behind; tl_u32x16_compress_pairs may write sixteen.
 enum { WALK_STACK_SIZE = (TL_SOUP_WIDTH - 1) * TL_SOUP_MAX_DEPTH + TL_SOUP_WIDTH };
@@ -277,70 +280,47 @@ static TL_ALWAYS_INLINE void test_leaf(const tl_ray_job *job, const tl_soup_leaf
     lanes->ca = ca;
 }
 
-// The best hit so far.
+// How near the best hit so far is, in box t.
 typedef struct walk_best {
-    float limit;    // what surely lies beyond this t is no better
-    float ahead;    // what surely lies before this t is better
-    uint32_t child; // leaf of the pending triangle: surely hit, the best so far, not decided yet; 0: none
-    uint32_t bit;   // its bit in leaf_lanes
+    float limit; // what surely lies beyond it is no better
+    float ahead; // what surely lies before it is better
 } walk_best;
+
+static inline walk_best best_of_job(const tl_ray_job *job)
+{
+    walk_best best = { job->box_limit, job->t * job->box_t.scale * (1.0f - T_MARGIN) };
+    return best;
+}
 
 static inline uint32_t lane_of_bit(uint32_t bit, uint32_t n)
 {
     return bit < 4 ? bit : n + bit - 4;
 }
 
-// Buffers of a job for the leaves of a compact soup.
-enum { BUFFER_VISITED, BUFFER_PENDING, BUFFER_DECIDED, BUFFER_COUNT };
-
-static inline const tl_soup_leaf *leaf_of(const tl_ray_job *job, uint32_t child, uint32_t buffer)
-{
-    return job->buffers == NULL ? tl_soup_leaf_at(job->soup, tl_child_leaf_offset(child))
-                                : tl_open_leaf(job->soup, child, &job->buffers[buffer]);
-}
-
-// A triangle that is surely hit needs no test, only its t: the better of it and the best so far stays. False when it
-// must be decided exactly, as at a segment's end.
-static TL_ALWAYS_INLINE bool compare_met(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit,
-                                         bool *better_out)
+// A triangle that the line surely meets needs no test, only its t: the better of it and the best so far stays. False
+// when it must be decided exactly, as at a segment's end.
+static TL_ALWAYS_INLINE bool measure_met(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit)
 {
     tl_ray_place place;
-    if (!tl_ray_find_place(job, leaf, n, bit, &place) || (job->is_segment && !(place.t < 1.0f))) {
+    if (!tl_ray_find_place(job, leaf, n, bit, &place)) {
         return false;
     }
-    *better_out = place.t < job->t || (place.t == job->t && place.triangle < job->triangle);
-    if (*better_out) {
+    if (place.behind) {
+        return true;
+    }
+    if (job->is_segment && !(place.t < 1.0f)) {
+        return place.t > SURELY_BEYOND_END;
+    }
+    if (place.t < job->t || (place.t == job->t && place.triangle < job->triangle)) {
         job->t = place.t;
         job->box_limit = tl_ray_box_limit(job, place.t);
         job->triangle = place.triangle;
-        job->leaf = leaf;
-        job->lane = lane_of_bit(bit, n);
         job->back = place.back;
         job->u = place.u;
         job->v = place.v;
-        job->has_normal = true;
-        tl_f64x4_store(job->normal, place.normal);
+        memcpy(job->normal, place.normal, sizeof job->normal);
     }
     return true;
-}
-
-// Decides a lane; `met`: it is surely hit, and not ignored. An expanded leaf is kept as long as its triangle is the
-// best.
-static TL_ALWAYS_INLINE void decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit, bool met)
-{
-    bool better;
-    if (!met || !compare_met(job, leaf, n, bit, &better)) {
-        better = tl_ray_decide(job, leaf, lane_of_bit(bit, n));
-    }
-    if (better && job->buffers != NULL) {
-        memcpy(&job->buffers[BUFFER_DECIDED], leaf, sizeof *job->buffers);
-        job->leaf = &job->buffers[BUFFER_DECIDED].head;
-    }
-}
-
-static inline void decide_pending(tl_ray_job *job, const walk_best *best)
-{
-    decide(job, leaf_of(job, best->child, BUFFER_PENDING), tl_child_pair_count(best->child), best->bit, true);
 }
 
 // The lanes of a leaf that may be hit, as far as the float filters tell.
@@ -353,31 +333,20 @@ typedef struct walk_lanes {
 
 enum { NO_LANE = 8 };
 
-// Takes lanes as pending, or decides them, one by one.
-static TL_NOINLINE walk_best settle_each(tl_ray_job *job, const walk_lanes *lanes, uint32_t child, walk_best best)
+static TL_NOINLINE void settle_each(tl_ray_job *job, const walk_lanes *lanes, const tl_soup_leaf *leaf, uint32_t n)
 {
-    const tl_soup_leaf *leaf = leaf_of(job, child, BUFFER_VISITED);
     const uint32_t *ids = (const uint32_t *)(const void *)(leaf + 1);
-    uint32_t n = tl_child_pair_count(child);
     for (uint32_t maybe = lanes->maybe; maybe != 0; maybe &= maybe - 1) {
         uint32_t bit = tl_lowest_bit(maybe), lane = lane_of_bit(bit, n);
-        if ((lanes->sure >> bit & 1u) && lanes->high[bit] < best.ahead) {
-            walk_best pending = { lanes->high[bit], lanes->low[bit], child, bit };
-            best = pending;
+        bool beyond = (lanes->clear >> bit & 1u) != 0 && lanes->low[bit] > job->box_limit;
+        // With spatial splits several leaves may hold a triangle.
+        if (beyond || ids[lane] == TL_ID_NONE || (ids[lane] & TL_ID_INDEX) == job->triangle) {
             continue;
         }
-        if (ids[lane] == TL_ID_NONE || ((lanes->clear >> bit & 1u) && lanes->low[bit] > best.limit)) {
-            continue;
+        if ((lanes->sure >> bit & 1u) == 0 || !measure_met(job, leaf, n, bit)) {
+            (void)tl_ray_decide(job, leaf, lane);
         }
-        if (best.child != 0) {
-            decide_pending(job, &best);
-            best.child = 0;
-        }
-        decide(job, leaf, n, bit, (lanes->sure >> bit & 1u) != 0);
-        best.limit = job->box_limit;
-        best.ahead = job->t * job->box_t.scale * (1.0f - T_MARGIN);
     }
-    return best;
 }
 
 static TL_ALWAYS_INLINE tl_f32x8 farthest_across(const leaf_lanes *v)
@@ -406,10 +375,10 @@ static TL_ALWAYS_INLINE uint32_t nearest_lane(const walk_lanes *lanes, uint32_t 
 
 // Which of the lanes that are surely hit the filter ignores. All weights of such a lane have one sign, that of
 // `negative` for the order of its slots, and so it is known from which side the ray comes.
-static TL_NOINLINE uint32_t ignored_lanes(const tl_ray_job *job, uint32_t child, uint32_t sure, uint32_t negative)
+static TL_NOINLINE uint32_t ignored_lanes(const tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t sure,
+                                          uint32_t negative)
 {
-    uint32_t ignored = 0, n = tl_child_pair_count(child);
-    const tl_soup_leaf *leaf = leaf_of(job, child, BUFFER_VISITED);
+    uint32_t ignored = 0;
     const uint32_t *ids = (const uint32_t *)(const void *)(leaf + 1);
     for (; sure != 0; sure &= sure - 1) {
         uint32_t bit = tl_lowest_bit(sure), id = ids[lane_of_bit(bit, n)];
@@ -420,9 +389,9 @@ static TL_NOINLINE uint32_t ignored_lanes(const tl_ray_job *job, uint32_t child,
     return ignored;
 }
 
-// Settles the lanes of a leaf that may be hit. True: any hit will do, and there is one.
-static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const leaf_lanes *v, uint32_t child, bool any,
-                                          walk_best *best)
+// Settles the lanes of a leaf of n pairs that may be hit. True: any hit will do, and there is one.
+static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, const leaf_lanes *v,
+                                          bool any, walk_best *best)
 {
     float per_depth = job->per_depth, extent = v->extent;
     float size = fabsf(per_depth);
@@ -451,7 +420,7 @@ static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const leaf_lanes *v, 
     }
     uint32_t sure = tl_f32x8_signs(v->sure) & tl_f32x8_less(tl_f32x8_all(0.0f), low) & clear;
     if (job->filter != NULL) {
-        maybe &= ~ignored_lanes(job, child, maybe & sure, tl_f32x8_signs(v->ae));
+        maybe &= ~ignored_lanes(job, leaf, n, maybe & sure, tl_f32x8_signs(v->ae));
         if (maybe == 0) {
             return false;
         }
@@ -466,53 +435,40 @@ static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const leaf_lanes *v, 
     uint32_t nearest = nearest_lane(&lanes, v->maybe, better);
     if (nearest != NO_LANE) {
         uint32_t behind = clear & tl_f32x8_less(tl_f32x8_all(lanes.high[nearest]), low);
-        if ((maybe & ~behind & ~(1u << nearest)) == 0) {
-            walk_best pending = { lanes.high[nearest], lanes.low[nearest], child, nearest };
-            *best = pending;
+        if ((maybe & ~behind & ~(1u << nearest)) == 0 && measure_met(job, leaf, n, nearest)) {
+            // The bounds, not t itself: the walk goes on before that is known.
+            best->limit = lanes.high[nearest];
+            best->ahead = lanes.low[nearest];
             return false;
         }
     }
     lanes.maybe = maybe;
     lanes.sure = sure;
     lanes.clear = clear;
-    *best = settle_each(job, &lanes, child, *best);
+    settle_each(job, &lanes, leaf, n);
+    *best = best_of_job(job);
     return any && job->triangle != UINT32_MAX;
 }
 
 static TL_ALWAYS_INLINE bool visit_leaf(tl_ray_job *job, const walk_ray *ray, uint32_t child, bool any, walk_best *best)
 {
     const tl_soup_leaf *leaf = (const tl_soup_leaf *)(const void *)(ray->leaves + tl_child_leaf_offset(child));
+    uint32_t n = tl_child_pair_count(child);
     leaf_lanes lanes;
-    test_leaf(job, leaf, tl_child_pair_count(child), &lanes);
-    return lanes.maybe != 0 && settle_lanes(job, &lanes, child, any, best);
-}
-
-// Of a compact leaf only the one pair is expanded.
-static TL_ALWAYS_INLINE bool measure_pending(const tl_ray_job *job, const walk_best *best, tl_ray_hit *hit)
-{
-    uint64_t offset = tl_child_leaf_offset(best->child);
-    if (job->buffers == NULL) {
-        return tl_ray_measure(job, tl_soup_leaf_at(job->soup, offset), tl_child_pair_count(best->child), best->bit,
-                              hit);
-    }
-    uint32_t pair = (uint32_t)(offset / sizeof(tl_compact_pair)) + (best->bit & 3u);
-    return tl_ray_measure(job, tl_expand_pairs(job->soup, pair, 1, &job->buffers[BUFFER_PENDING]), 1, best->bit & 4u,
-                          hit);
+    test_leaf(job, leaf, n, &lanes);
+    return lanes.maybe != 0 && settle_lanes(job, leaf, n, &lanes, any, best);
 }
 
 // The end of a walk: false when nothing was hit. (A sure hit has ended an any-hit query before.)
-static TL_ALWAYS_INLINE bool report_hit(tl_ray_job *job, walk_best best, tl_ray_hit *hit)
+static TL_ALWAYS_INLINE bool report_hit(const tl_ray_job *job, tl_ray_hit *hit)
 {
-    if (best.child != 0) {
-        if (hit != NULL && measure_pending(job, &best, hit)) {
-            return true;
-        }
-        decide_pending(job, &best);
+    if (job->triangle == UINT32_MAX) {
+        return false;
     }
-    if (hit != NULL && job->triangle != UINT32_MAX) {
-        tl_ray_describe(job, hit);
+    if (hit != NULL) {
+        tl_ray_describe_inline(job, hit);
     }
-    return job->triangle != UINT32_MAX;
+    return true;
 }
 
 static TL_ALWAYS_INLINE void begin_walk(const tl_ray_job *job, uint32_t node_size, walk_ray *ray, walk_best *best)
@@ -522,8 +478,7 @@ static TL_ALWAYS_INLINE void begin_walk(const tl_ray_job *job, uint32_t node_siz
     ray->node_size = node_size;
     ray->nodes = (const char *)job->soup + job->soup->node_offset;
     ray->leaves = (const char *)job->soup + job->soup->leaf_offset;
-    walk_best none = { job->box_limit, job->t * job->box_t.scale * (1.0f - T_MARGIN), 0, 0 };
-    *best = none;
+    *best = best_of_job(job);
 }
 
 // The next child in front of the limit. False: none is left.
@@ -563,7 +518,7 @@ static TL_ALWAYS_INLINE bool walk_soup(tl_ray_job *job, tl_ray_hit *hit)
             return true;
         }
         if (!pop_child(stack, &stack_count, best.limit, &child)) {
-            return report_hit(job, best, hit);
+            return report_hit(job, hit);
         }
     }
 }
@@ -578,7 +533,6 @@ bool TL_RAY_WALK(const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *targ
     job.filter = tl_ray_filter_in_use(soup, filter);
     job.is_segment = is_segment;
     job.t = tmax;
-    job.buffers = NULL;
     if (!tl_ray_prepare_inline(&job, origin, target) || (job.outside != 0 && !tl_ray_meets_bounds(&job))) {
         return false;
     }

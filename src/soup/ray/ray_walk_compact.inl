@@ -4,7 +4,7 @@
 // expanded first. Part of ray_walk.inl.
 //
 // A leaf is expanded to four pairs for the test, a shorter one by repeating its first: so vectors of four are stored
-// where they are read, whole.
+// where they are read, whole. Its ids follow when a triangle of it may be hit.
 
 // A byte for each float of a plain node.
 static inline const uint8_t *byte_row(const tl_compact_node *node, uint32_t row)
@@ -74,14 +74,36 @@ static TL_ALWAYS_INLINE const tl_soup_leaf *expand_leaf(const tl_soup *soup, uin
     return &buffer->head;
 }
 
+static TL_ALWAYS_INLINE void expand_ids(const tl_soup *soup, uint32_t child, tl_leaf_buffer *buffer)
+{
+    const tl_compact_pair *pairs = &tl_compact_pairs(soup)[tl_child_leaf_offset(child) / sizeof(tl_compact_pair)];
+    for (uint32_t i = 0; i < tl_child_pair_count(child); i++) {
+        buffer->words[i] = pairs[i].ids[0];
+        buffer->words[TL_SOUP_LEAF_PAIRS + i] = pairs[i].ids[1];
+    }
+}
+
+// Tests and settles a leaf. True: any hit will do, and there is one.
+static TL_ALWAYS_INLINE bool visit_compact_leaf(tl_ray_job *job, uint32_t child, bool any, walk_best *best)
+{
+    tl_leaf_buffer buffer;
+    const tl_soup_leaf *leaf = expand_leaf(job->soup, child, &buffer);
+    leaf_lanes lanes;
+    test_leaf(job, leaf, TL_SOUP_LEAF_PAIRS, &lanes);
+    lanes.maybe &= ((1u << tl_child_pair_count(child)) - 1u) * 0x11u;
+    if (lanes.maybe == 0) {
+        return false;
+    }
+    expand_ids(job->soup, child, &buffer);
+    return settle_lanes(job, leaf, TL_SOUP_LEAF_PAIRS, &lanes, any, best);
+}
+
 static bool walk_compact(tl_ray_job *job, tl_ray_hit *hit)
 {
     const bool any = hit == NULL;
     walk_ray ray;
     walk_best best;
     begin_walk(job, sizeof(tl_compact_node), &ray, &best);
-    tl_leaf_buffer buffers[BUFFER_COUNT], tested;
-    job->buffers = buffers;
     walk_entry stack[WALK_STACK_SIZE];
     uint32_t stack_count = 0, child = 0;
     for (;;) {
@@ -94,16 +116,11 @@ static bool walk_compact(tl_ray_job *job, tl_ray_hit *hit)
                 child = push_children(&ray, t_bits, node->child, mask, any, stack, &stack_count);
                 continue;
             }
-        } else {
-            leaf_lanes lanes;
-            test_leaf(job, expand_leaf(job->soup, child, &tested), TL_SOUP_LEAF_PAIRS, &lanes);
-            lanes.maybe &= ((1u << tl_child_pair_count(child)) - 1u) * 0x11u;
-            if (lanes.maybe != 0 && settle_lanes(job, &lanes, child, any, &best)) {
-                return true;
-            }
+        } else if (visit_compact_leaf(job, child, any, &best)) {
+            return true;
         }
         if (!pop_child(stack, &stack_count, best.limit, &child)) {
-            return report_hit(job, best, hit);
+            return report_hit(job, hit);
         }
     }
 }

@@ -60,7 +60,6 @@ static TL_ALWAYS_INLINE bool begin_lane(lane_walk *w, walk_lane *lane)
         job->soup = batch->soup;
         job->filter = batch->filter;
         job->is_segment = batch->rays == NULL;
-        job->buffers = NULL;
         if (tl_ray_prepare_inline(job, origin, target) && (job->outside == 0 || tl_ray_meets_bounds(job))) {
             begin_walk(job, sizeof(tl_soup_node), &lane->ray, &lane->best);
             lane->child = 0;
@@ -86,7 +85,7 @@ static TL_NOINLINE bool change_ray(lane_walk *w, walk_lane *lane, lane_end end)
     tl_ray_hit *hit = batch->hits != NULL ? &batch->hits[lane->index] : NULL;
     bool met = end == LANE_MET;
     if (end == LANE_DONE) {
-        met = report_hit(&lane->job, lane->best, hit);
+        met = report_hit(&lane->job, hit);
     } else if (end == LANE_OVERFLOWS) {
         const tl_vec3 *origin, *target;
         float tmax;
@@ -156,6 +155,11 @@ static TL_ALWAYS_INLINE const tl_soup_node *lane_node(const walk_lane *lane)
     return (const tl_soup_node *)(const void *)(lane->ray.nodes + lane->child * sizeof(tl_soup_node));
 }
 
+static TL_ALWAYS_INLINE const tl_soup_leaf *lane_leaf(const walk_lane *lane)
+{
+    return (const tl_soup_leaf *)(const void *)(lane->ray.leaves + tl_child_leaf_offset(lane->child));
+}
+
 static TL_ALWAYS_INLINE void visit_nodes(lane_walk *w, uint32_t count, bool any)
 {
     _Alignas(64) uint32_t t_bits[LANE_GROUP][TL_SOUP_WIDTH];
@@ -178,12 +182,12 @@ static TL_ALWAYS_INLINE void visit_leaves(lane_walk *w, uint32_t count, bool any
     for (uint32_t i = 0; i < count; i++) {
         at[i] = w->leaves.lanes[w->leaves.first++ % LANE_RING];
         const walk_lane *lane = &w->lanes[at[i]];
-        const char *leaf = lane->ray.leaves + tl_child_leaf_offset(lane->child);
-        test_leaf(&lane->job, (const tl_soup_leaf *)(const void *)leaf, tl_child_pair_count(lane->child), &tested[i]);
+        test_leaf(&lane->job, lane_leaf(lane), tl_child_pair_count(lane->child), &tested[i]);
     }
     for (uint32_t i = 0; i < count; i++) {
         walk_lane *lane = &w->lanes[at[i]];
-        bool met = tested[i].maybe != 0 && settle_lanes(&lane->job, &tested[i], lane->child, any, &lane->best);
+        bool met = tested[i].maybe != 0 && settle_lanes(&lane->job, lane_leaf(lane), tl_child_pair_count(lane->child),
+                                                        &tested[i], any, &lane->best);
         advance_lane(w, at[i], met);
     }
 }

@@ -39,7 +39,9 @@ static TL_ALWAYS_INLINE tl_vec3 corners_normal(const float *const corner[3], uin
     tl_f64x4 a = tl_f64x4_gather_three(corner[0], stride);
     tl_f64x4 p = tl_f64x4_sub(tl_f64x4_gather_three(corner[1], stride), a);
     tl_f64x4 q = tl_f64x4_sub(tl_f64x4_gather_three(corner[2], stride), a);
-    return tl_ray_unit_normal(tl_f64x4_cross(p, q));
+    double normal[4];
+    tl_f64x4_store(normal, tl_f64x4_cross(p, q));
+    return tl_ray_unit_normal(normal);
 }
 
 // The triangles `bit` of leaves `child` of some lanes; coherent rays have few different ones. Other lanes hold zeros.
