@@ -28,6 +28,21 @@ static inline bool is_beyond_edge(tl_vec3 a, tl_vec3 b, tl_vec3 point, seen_corn
     return left - right > bound || (!(right - left > bound) && tl_nav_side_of(a, b, point) > 0);
 }
 
+// Whether a point lies inside all edges by more than rounding can tell, as most points do: then no edge need be looked
+// at by itself.
+static inline bool is_clearly_inside(const tl_vec3 *corners, uint32_t count, tl_vec3 point)
+{
+    bool inside = true;
+    seen_corner a = see_corner(corners[count - 1], point);
+    for (uint32_t i = 0; i < count; i++) {
+        const seen_corner b = see_corner(corners[i], point);
+        const double left = a.x * b.z, right = a.z * b.x;
+        inside &= right - left > TL_CROSS_ERROR * (fabs(left) + fabs(right));
+        a = b;
+    }
+    return inside;
+}
+
 bool tl_nav_is_over(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point)
 {
     uint32_t count = 0;
@@ -65,6 +80,10 @@ tl_vec3 tl_nav_clamp_to_polygon(const tl_nav_tile *tile, uint32_t polygon, tl_ve
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
+    if (is_clearly_inside(corners, count, point)) {
+        *inside_out = true;
+        return point;
+    }
     tl_vec3 closest = point;
     double closest_sq = (double)INFINITY;
     seen_corner seen_a = see_corner(corners[0], point);

@@ -342,9 +342,12 @@ static tl_result pull_pieces(funnel *f, const tl_nav_polygon_path *path, tl_vec3
     return TL_OK;
 }
 
+// All else is set where a piece begins.
 static tl_result pull_path(funnel *f, const tl_navmesh *navmesh, const tl_nav_polygon_path *path,
-                           tl_nav_corner *corners, uint32_t capacity)
+                           tl_nav_corner *corners, uint32_t capacity, bool only_first)
 {
+    memset(&f->list, 0, sizeof f->list);
+    f->only_first = only_first;
     if (path->polygons == NULL || path->polygon_count == 0) {
         return TL_ERR_ARGUMENT;
     }
@@ -370,9 +373,7 @@ tl_result tl_nav_first_corners(const tl_navmesh *navmesh, const tl_nav_polygon_p
 {
     *count_out = 0;
     funnel f;
-    memset(&f, 0, sizeof f);
-    f.only_first = true;
-    TL_TRY(pull_path(&f, navmesh, path, corners_out, capacity));
+    TL_TRY(pull_path(&f, navmesh, path, corners_out, capacity, true));
     *count_out = f.list.count <= capacity ? f.list.count : capacity;
     return f.list.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }
@@ -389,8 +390,7 @@ tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_polyg
         *length_out = 0.0f;
     }
     funnel f;
-    memset(&f, 0, sizeof f);
-    TL_TRY(pull_path(&f, navmesh, path, corners_out, capacity));
+    TL_TRY(pull_path(&f, navmesh, path, corners_out, capacity, false));
     *count_out = f.list.count;
     if (length_out != NULL) {
         *length_out = (float)f.list.length;
