@@ -620,6 +620,11 @@ namespace Talus.Interop
         public tl_vec3 points_2;
         public tl_vec3 points_3;
         public tl_vec3 points_4;
+        public tl_vec3 points_b_0;
+        public tl_vec3 points_b_1;
+        public tl_vec3 points_b_2;
+        public tl_vec3 points_b_3;
+        public tl_vec3 points_b_4;
         public tl_vec3 axis_a;
         public tl_vec3 axis_b;
         public fixed float b_to_a[12];

@@ -253,7 +253,8 @@ typedef struct tl_contact_cache {
     uint32_t count;                        ///< contacts of the last call
     uint32_t has_axis;                     ///< the fields from axis_a on are set
     uint32_t features[TL_MAX_CONTACTS][2]; ///< of the last call's contacts
-    tl_vec3 points[TL_MAX_CONTACTS];       ///< the same contacts, in A's frame
+    tl_vec3 points[TL_MAX_CONTACTS];       ///< the same contacts, in A's frame when they were found
+    tl_vec3 points_b[TL_MAX_CONTACTS];     ///< their points of B, in B's frame
     tl_vec3 axis_a, axis_b;                ///< the normal in each shape's frame when the depth was proven
     float b_to_a[12];                      ///< the pose of B seen from A then
     float proven_depth;                    ///< metres, of the cores; they were no less deep
@@ -273,9 +274,11 @@ typedef struct tl_contact_cache {
 ///
 /// With a cache, contacts stay what they were: the last ones are chosen again while they span half of what the patch
 /// does and the deepest of them is within TL_CONTACT_SLACK of the tolerance; and the last normal serves while the
-/// motion since its proof cannot have made another one shallower by more than that. Without, the deepest point is
-/// exact. Costs at most a distance, a penetration depth and a search for each shape's face; linear in the corners of
-/// both faces. `limits` may be NULL. Poses, threads as in tl_convex_distance; `cache` may be NULL.
+/// motion since its proof cannot have made another one shallower by more than that. Then no corner has moved by more
+/// than about that either: the last contacts go along with A, their separations are measured anew, and no face is
+/// looked for. Without a cache the deepest point is exact. Costs at most a distance, a penetration depth and a search
+/// for each shape's face; linear in the corners of both faces. `limits` may be NULL. Poses, threads as in
+/// tl_convex_distance; `cache` may be NULL.
 TL_API uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                                    const tl_contact_limits *limits, tl_contact_cache *cache,
                                    tl_contact_manifold *manifold_out);

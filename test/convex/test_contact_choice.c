@@ -146,11 +146,20 @@ static void test_area_under_jitter(void **state)
     TEST_CHECK(faces == pair_count && jumps == 0);
 }
 
+// Between A's top and B's bottom, both 1 from their middles.
+static bool lies_on_both(const tl_contact *contact, tl_vec3 normal, tl_transform pose_b)
+{
+    const tl_vec3 below = tl_inverse_rotate(pose_b.rotation, tl_sub(contact->point_b, pose_b.position));
+    const tl_vec3 ahead = tl_mul_add(contact->point_a, normal, contact->separation);
+    return fabsf(contact->point_a.y - 1.0f) < 1e-6f && fabsf(below.y + 1.0f) < 2e-6f &&
+           tl_distance(ahead, contact->point_b) < 1e-6f;
+}
+
 // Bodies at rest that tremble and slide slowly, with a cache.
 static void test_contacts_continue(void **state)
 {
     (void)state;
-    uint32_t contacts = 0, fresh = 0, off = 0, doubles = 0, calls = 0;
+    uint32_t contacts = 0, fresh = 0, off = 0, doubles = 0, calls = 0, astray = 0;
     for (uint32_t kind = 0; kind < 60; kind++) {
         test_random random = { kind + 1 };
         tl_vec3 points[48];
@@ -187,12 +196,15 @@ static void test_contacts_continue(void **state)
                 doubles += from != TL_NO_CONTACT && (seen >> from & 1u) != 0;
                 seen |= from != TL_NO_CONTACT ? 1u << from : 0u;
             }
+            for (uint32_t i = 0; i < m.count; i++) {
+                astray += !lies_on_both(&m.contacts[i], m.normal, moved);
+            }
             calls++;
         }
         tl_blob_free(hull);
     }
-    print_message("%u calls, %u contacts: new %u, deepest off %u\n", calls, contacts, fresh, off);
-    TEST_CHECK(off == 0 && doubles == 0);
+    print_message("%u calls, %u contacts: new %u, deepest off %u, astray %u\n", calls, contacts, fresh, off, astray);
+    TEST_CHECK(off == 0 && doubles == 0 && astray == 0);
     TEST_CHECK(contacts > 3 * calls && fresh < contacts / 200);
 }
 

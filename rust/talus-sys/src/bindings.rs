@@ -507,6 +507,7 @@ pub struct tl_contact_cache {
     pub has_axis: u32,
     pub features: [[u32; 2]; 5],
     pub points: [tl_vec3; 5],
+    pub points_b: [tl_vec3; 5],
     pub axis_a: tl_vec3,
     pub axis_b: tl_vec3,
     pub b_to_a: [f32; 12],
@@ -4236,16 +4237,17 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_contact_manifold, normal), 204);
         assert_eq!(core::mem::offset_of!(tl_contact_manifold, separation), 216);
         assert_eq!(core::mem::offset_of!(tl_contact_manifold, status), 220);
-        assert_eq!(core::mem::size_of::<tl_contact_cache>(), 220);
+        assert_eq!(core::mem::size_of::<tl_contact_cache>(), 280);
         assert_eq!(core::mem::offset_of!(tl_contact_cache, simplex), 0);
         assert_eq!(core::mem::offset_of!(tl_contact_cache, count), 36);
         assert_eq!(core::mem::offset_of!(tl_contact_cache, has_axis), 40);
         assert_eq!(core::mem::offset_of!(tl_contact_cache, features), 44);
         assert_eq!(core::mem::offset_of!(tl_contact_cache, points), 84);
-        assert_eq!(core::mem::offset_of!(tl_contact_cache, axis_a), 144);
-        assert_eq!(core::mem::offset_of!(tl_contact_cache, axis_b), 156);
-        assert_eq!(core::mem::offset_of!(tl_contact_cache, b_to_a), 168);
-        assert_eq!(core::mem::offset_of!(tl_contact_cache, proven_depth), 216);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, points_b), 144);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, axis_a), 204);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, axis_b), 216);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, b_to_a), 228);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, proven_depth), 276);
         assert_eq!(core::mem::size_of::<tl_mesh_view>(), 40);
         assert_eq!(core::mem::offset_of!(tl_mesh_view, vertices), 0);
         assert_eq!(core::mem::offset_of!(tl_mesh_view, vertex_count), 8);
