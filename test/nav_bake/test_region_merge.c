@@ -29,7 +29,7 @@ typedef struct merge_case {
 static void run_case(merge_case *m, const char *const *rows, uint32_t row_count, uint32_t min_area, uint32_t merge_area)
 {
     char plain[32][64];
-    const char *plain_rows[32];
+    const char *plain_rows[32] = { "" };
     uint32_t largest = 0;
     for (uint32_t z = 0; z < row_count; z++) {
         for (uint32_t x = 0; x <= strlen(rows[z]); x++) {

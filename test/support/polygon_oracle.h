@@ -125,10 +125,13 @@ static inline bool oracle_sees(const oracle_point *p, const uint32_t *left, uint
     return true;
 }
 
-/// False: no valid partition was left. triangles: [3 * (n - 2)]
+/// False: no valid partition was left. n >= 3; triangles: [3 * (n - 2)]
 static inline bool oracle_triangulate(const oracle_point *p, uint32_t n, uint32_t *triangles)
 {
-    uint32_t *left = malloc(n * sizeof *left);
+    uint32_t *left = n >= 3 ? malloc(n * sizeof *left) : NULL;
+    if (left == NULL) {
+        return false;
+    }
     for (uint32_t i = 0; i < n; i++) {
         left[i] = i;
     }
