@@ -142,6 +142,20 @@ void tl_crowd_search_path(const crowd_step *step, uint32_t i, tl_nav_query *quer
     tl_crowd_begin_path(crowd, i, &corridor, is_partial, path.status != TL_NAV_PATH_COMPLETE);
 }
 
+// What is left of a corridor from which an edit took polygons: the agent walks on along it until its search's turn
+// comes.
+static void cut_corridor(const crowd_step *step, uint32_t i, uint32_t left)
+{
+    const crowd_fields *a = &step->crowd->a;
+    const tl_nav_ref last = a->path[(size_t)i * step->crowd->def.max_path + left - 1];
+    tl_vec3 end;
+    if (tl_navmesh_closest_point(step->navmesh, last, tl_crowd_get3(a->target, i), &end, NULL) == TL_OK) {
+        a->path_count[i] = left;
+        a->flags[i] &= ~CROWD_REACHES;
+        tl_crowd_set3(a->target, i, end);
+    }
+}
+
 void tl_crowd_revalidate(const crowd_step *step, uint32_t i)
 {
     tl_nav_crowd *crowd = step->crowd;
@@ -183,8 +197,12 @@ void tl_crowd_revalidate(const crowd_step *step, uint32_t i)
     }
     // Whoever has arrived stays; whoever could not get to its goal, or not whole, tries again.
     tl_nav_corridor corridor = tl_crowd_corridor(crowd, i);
-    const bool is_broken = tl_nav_corridor_check(&corridor, step->navmesh, filter, UINT32_MAX) < corridor.count;
+    const uint32_t left = tl_nav_corridor_check(&corridor, step->navmesh, filter, UINT32_MAX);
+    const bool is_broken = left < corridor.count;
     if (status != TL_NAV_AGENT_ARRIVED && (is_broken || (a->flags[i] & (CROWD_PARTIAL | CROWD_GAVE_UP)) != 0)) {
         a->flags[i] |= CROWD_NEED_PATH;
+    }
+    if (status == TL_NAV_AGENT_WALKING && is_broken && left > 0) {
+        cut_corridor(step, i, left);
     }
 }
