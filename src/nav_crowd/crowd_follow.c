@@ -25,6 +25,9 @@
 // One of a loose group that is too far away comes back within this share of how far it may be.
 #define LOOSE_SHARE 0.8f
 
+// Seconds that one is held up within a diameter of its slot before it stands where it is.
+#define SETTLE_BESIDE 3.0f
+
 enum {
     TRAIL_EVERY = 4,  // steps between looks for the trail
     TRAIL_RAYS = 16,  // of one look
@@ -256,9 +259,11 @@ static void find_way_to_slot(const crowd_step *step, const crowd_group *group, u
         return;
     }
     // Whoever stands on the trail already and sees the slot from nowhere needs a path: a link, or the trail was cut.
-    if (take_way_to_trail(step, group, i) && slot_distance(crowd, i, tl_crowd_get3(a->target, i)) > a->radius[i]) {
+    const bool sees_trail = take_way_to_trail(step, group, i);
+    const bool is_at_end = slot_distance(crowd, i, tl_crowd_get3(a->target, i)) <= a->radius[i];
+    if (sees_trail && !is_at_end) {
         a->member_flags[m] |= CROWD_TO_TRAIL;
-    } else if (turn % SEARCH_EVERY == 0 && a->path_count[i] == 1) {
+    } else if (turn % SEARCH_EVERY == 0 && (is_at_end || a->path_count[i] == 1)) {
         a->flags[i] |= CROWD_NEED_PATH;
         a->member_flags[m] &= ~CROWD_TO_TRAIL;
     }
@@ -271,6 +276,9 @@ static bool is_done(const tl_nav_crowd *crowd, uint32_t i, const tl_nav_location
     const uint32_t m = a->member[i] - 1;
     const float stay = a->arrive_distance[i];
     if (distance <= stay) {
+        return true;
+    }
+    if (a->status[i] == TL_NAV_AGENT_WALKING && distance <= 2.0f * a->radius[i] && a->stalled[i] > SETTLE_BESIDE) {
         return true;
     }
     const float moved = tl_distance(tl_crowd_get3(a->slot, m), slot->point);
@@ -296,7 +304,9 @@ void tl_crowd_follow(const crowd_step *step, uint32_t i, tl_nav_query *query)
         a->slot_polygon[m] = slot.at.polygon;
     }
     if (is_there) {
-        a->stalled[i] = a->status[i] == TL_NAV_AGENT_ARRIVED ? a->stalled[i] : 0.0f;
+        a->stalled[i] = a->status[i] == TL_NAV_AGENT_ARRIVED ? a->stalled[i]
+                        : a->lag[m] > a->arrive_distance[i]  ? a->lag[m]
+                                                             : 0.0f;
         a->status[i] = TL_NAV_AGENT_ARRIVED;
         a->link[i] = TL_NAV_NO_REF;
         tl_crowd_want_to_stand(step, i);

@@ -29,13 +29,14 @@
 #define RIGHT_SINE   0.342f
 
 // Seconds that an agent is held up before it goes back, how long it does so at most, and before it settles.
-#define YIELD_AFTER  0.5f
-#define YIELD_FOR    28.0f
-#define SETTLE_AFTER 0.5f
-#define SETTLE_LATE  3.0f // beside those who stand there for another goal, or behind a corner
+#define YIELD_AFTER    0.5f
+#define YIELD_FOR      28.0f
+#define SETTLE_AFTER   0.5f
+#define SETTLE_LATE    3.0f // beside those who stand there for another goal, or behind a corner
 
-#define YIELD_SPEED  0.5f   // of the top speed
-#define TURN_MS      24000u // how long one direction has the right of way where neither flow moves
+#define STANDING_SPEED 0.2f   // metres a second: who wants less does not claim a door
+#define YIELD_SPEED    0.5f   // of the top speed
+#define TURN_MS        24000u // how long one direction has the right of way where neither flow moves
 
 // An agent that stands steps aside for those within so many of its radii, at a part of its speed: a little along their
 // way, and off it.
@@ -76,13 +77,20 @@ typedef struct crowd_traffic {
     bool follows; // one that yields
 } crowd_traffic;
 
-// Where one of the others goes, and whether it is the other way. Fixed ones go where they move.
-static bool comes_against(const crowd_snapshot *seen, uint32_t other, const float travel[2], float its[2])
+// Where one of the others goes, and whether it is the other way. Fixed ones go where they move; who wants to stand, as
+// a leader that waits for its group, needs no way, whatever lies before it.
+// `now`: by what it wants at present, not by where it travels.
+static bool comes_against(const crowd_snapshot *seen, uint32_t other, const float travel[2], bool now, float its[2])
 {
+    const float wanted[2] = { seen->wanted_x[other], seen->wanted_z[other] };
     tl_crowd_travel(seen->kind[other], its);
+    its[0] = now ? wanted[0] : its[0];
+    its[1] = now ? wanted[1] : its[1];
     if ((seen->kind[other] & CROWD_SEEN_FIXED) != 0) {
         its[0] = seen->vx[other];
         its[1] = seen->vz[other];
+    } else if (wanted[0] * wanted[0] + wanted[1] * wanted[1] < STANDING_SPEED * STANDING_SPEED) {
+        return false;
     }
     const float length = sqrtf(its[0] * its[0] + its[1] * its[1]);
     if (!(length > 0.0f)) {
@@ -93,22 +101,31 @@ static bool comes_against(const crowd_snapshot *seen, uint32_t other, const floa
     return its[0] * travel[0] + its[1] * travel[1] < AGAINST_COSINE;
 }
 
-// `ahead`: where the agent heads now, `travel`: past its corner; both unit.
+// The group that an agent leads, or NULL. Its followers make way for it, not it for them.
+static const crowd_group *led_by(const tl_nav_crowd *crowd, uint32_t i)
+{
+    const crowd_group *group = tl_crowd_group_of(crowd, i);
+    return group != NULL && !tl_crowd_follows(crowd, i) ? group : NULL;
+}
+
+// `ahead`: where the agent heads now, `travel`: past its corner; both unit. `now`: as in comes_against.
 static crowd_traffic look_at_traffic(const tl_nav_crowd *crowd, uint32_t k, const float ahead[2], const float travel[2],
-                                     const crowd_neighbor *neighbors, uint32_t count)
+                                     bool now, const crowd_neighbor *neighbors, uint32_t count)
 {
     const crowd_snapshot *seen = &crowd->seen;
     crowd_traffic traffic = { false, false, false };
+    const crowd_group *led = led_by(crowd, seen->agent[k]);
     float preferred[2];
     preferred_direction(crowd->head->milliseconds, preferred);
     for (uint32_t n = 0; n < count; n++) {
         const uint32_t other = neighbors[n].snapshot;
         float dx = seen->x[other] - seen->x[k], dz = seen->z[other] - seen->z[k];
-        if (dx * ahead[0] + dz * ahead[1] <= 0.0f || (seen->kind[other] & CROWD_SEEN_STILL) != 0) {
+        if (dx * ahead[0] + dz * ahead[1] <= 0.0f || (seen->kind[other] & CROWD_SEEN_STILL) != 0 ||
+            (led != NULL && tl_crowd_group_of(crowd, seen->agent[other]) == led)) {
             continue;
         }
         float its[2];
-        const bool is_against = comes_against(seen, other, travel, its);
+        const bool is_against = comes_against(seen, other, travel, now, its);
         if ((seen->kind[other] & CROWD_SEEN_YIELDS) != 0) {
             // It goes back the way that this one comes.
             bool is_before = dx * ahead[0] + dz * ahead[1] > BEFORE_COSINE * sqrtf(dx * dx + dz * dz);
@@ -230,16 +247,18 @@ void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor 
     }
     ahead[0] /= length;
     ahead[1] /= length;
+    // Two in a corner may hold each other up for ever though they travel the same way.
+    const bool is_late = a->stalled[i] > YIELD_AFTER + YIELD_FOR;
     float travel[2];
     tl_crowd_travel(a->flags[i], travel);
     const float far = sqrtf(travel[0] * travel[0] + travel[1] * travel[1]);
-    travel[0] = far > 0.0f ? travel[0] / far : ahead[0];
-    travel[1] = far > 0.0f ? travel[1] / far : ahead[1];
-    const crowd_traffic traffic = look_at_traffic(crowd, k, ahead, travel, neighbors, count);
+    travel[0] = far > 0.0f && !is_late ? travel[0] / far : ahead[0];
+    travel[1] = far > 0.0f && !is_late ? travel[1] / far : ahead[1];
+    const crowd_traffic traffic = look_at_traffic(crowd, k, ahead, travel, is_late, neighbors, count);
     // In the open they pass one another: only where walls leave little room somebody must go back.
     const bool is_narrow = a->wall_count[i] > 0;
     const bool loses = traffic.loses && is_narrow;
-    if (!loses && traffic.follows && a->stalled[i] > YIELD_AFTER + YIELD_FOR) {
+    if (!loses && traffic.follows && is_late) {
         a->stalled[i] = 0.0f; // some that follow one another in a ring would do so for ever
     }
     if (a->stalled[i] > YIELD_AFTER && (loses || traffic.follows)) {

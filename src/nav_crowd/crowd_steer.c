@@ -21,7 +21,7 @@
 #define RECOVERY       3.0f
 #define MAX_STALLED    30.0f // seconds: more than anybody goes back for (crowd_right_of_way.c)
 
-// One that follows is not held up while it wants to walk slower than this share of its top speed.
+// One that follows a leader on its way is not held up while it wants to walk slower than this share of its top speed.
 #define BESIDE_SHARE 0.5f
 
 // The corner that the path turns at, `x` and `z` from here, to its left (side 1) or right (-1): moved aside by the room
@@ -217,7 +217,8 @@ void tl_crowd_walk_beside(const crowd_step *step, uint32_t i, tl_vec3 place, con
     ahead.point = tl_vec3_make(a->x[i] + toward_x, a->y[i], a->z[i] + toward_z);
     keep_corner(a, i, &ahead, &ahead);
     a->flags[i] &= ~CROWD_CORNER;
-    if (speed < BESIDE_SHARE * a->max_speed[i]) {
+    const bool place_moves = velocity[0] != 0.0f || velocity[1] != 0.0f;
+    if (place_moves && speed < BESIDE_SHARE * a->max_speed[i]) {
         a->stalled[i] = 0.0f;
     } else {
         note_progress(step, i, toward_x, toward_z);
