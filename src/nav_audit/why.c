@@ -76,6 +76,13 @@ static tl_result try_def(why_search *s, const tl_nav_def *def, bool *walkable_ou
     return TL_OK;
 }
 
+// Whether the lattice of a def is within the limits of bakes.
+static bool is_within_limits(const why_search *s, const tl_nav_def *def)
+{
+    uint32_t tiles_x, tiles_z;
+    return tl_nav_tile_grid(def, s->question.mesh_bounds, &tiles_x, &tiles_z, NULL) == TL_OK;
+}
+
 // Bounds that reach `more` metres farther to each side, in whole columns, so that the lattice stays where it is.
 static tl_nav_def with_wider_bounds(const why_search *s, const tl_nav_def *def, float more)
 {
@@ -146,6 +153,9 @@ static tl_result blame_cells(why_search *s, const tl_why_finding *finding, tl_na
          share--) {
         tl_why_finding found;
         tried.cell_size = def->cell_size * (float)share / (float)CELL_SHARES;
+        if (!is_within_limits(s, &tried)) {
+            break;
+        }
         result = tl_why_find(&s->question, &tried, &found, s->report);
         if (result == TL_OK && found.cause != TL_NAV_CAUSE_WALL && found.cause != TL_NAV_CAUSE_NO_FLOOR) {
             reason->parameter = "cell_size";
@@ -251,15 +261,18 @@ static tl_result blame_outline(why_search *s, tl_nav_def *def, tl_nav_reason *re
     return TL_OK;
 }
 
+// So far outside that bounds which reach there are refused, nothing helps.
 static void blame_outside(const why_search *s, const tl_why_finding *finding, tl_nav_def *def, tl_nav_reason *reason)
 {
     const tl_nav_def wider = with_wider_bounds(s, def, finding->outside);
     const tl_aabb before = tl_aabb_is_empty(def->bounds) ? s->question.mesh_bounds : def->bounds;
     reason->stage = "config";
-    reason->parameter = "bounds";
     reason->measured = finding->outside;
-    reason->needed = before.min.x - wider.bounds.min.x;
-    *def = wider;
+    if (is_within_limits(s, &wider)) {
+        reason->parameter = "bounds";
+        reason->needed = before.min.x - wider.bounds.min.x;
+        *def = wider;
+    }
 }
 
 // Names the setting and puts the needed value into `def`.

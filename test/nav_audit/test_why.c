@@ -106,6 +106,19 @@ static void outside(void **state)
     assert_true(q.answer.proven);
 }
 
+// Bounds that reached so far would be refused: the answer is the distance, and that no setting helps.
+static void far_outside(void **state)
+{
+    (void)state;
+    for (float far = 1e4f; far < 1e13f; far *= 100.0f) {
+        question q;
+        begin(&q);
+        const tl_nav_reason *reason = ask(&q, tl_vec3_make(far, 0, -far), TL_NAV_CAUSE_OUTSIDE, "config");
+        assert_null(reason->parameter);
+        assert_true(reason->measured > 0.9f * far && q.answer.reason_count == 1 && !q.answer.proven);
+    }
+}
+
 static void no_floor(void **state)
 {
     (void)state;
@@ -335,6 +348,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_walkable_point_has_no_cause),
         cmocka_unit_test(outside),
+        cmocka_unit_test(far_outside),
         cmocka_unit_test(no_floor),
         cmocka_unit_test(slope),
         cmocka_unit_test(area_of_the_triangle),
