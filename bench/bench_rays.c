@@ -301,15 +301,17 @@ static tl_soup *build_soup(const tl_mesh_view *view, tl_soup_layout layout, floa
     return soup;
 }
 
-// A copy in memory that malloc's free takes back; large ones in huge pages, where the system has them to give.
+// A copy in memory of malloc's, which free takes back; large ones in huge pages, where the system has them to give.
 static tl_soup *lay_out(tl_soup *soup)
 {
     enum { HUGE_PAGE = 2 << 20 };
-    size_t size = (size_t)tl_soup_size(soup), room = (size + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
-    if (size < HUGE_PAGE) {
-        return soup;
+    size_t size = (size_t)tl_soup_size(soup), unit = size < HUGE_PAGE ? TL_BLOB_ALIGNMENT : HUGE_PAGE;
+    size_t room = (size + unit - 1) / unit * unit;
+    tl_soup *copy = aligned_alloc(unit, room);
+    if (copy == NULL) {
+        fprintf(stderr, "%s\n", tl_result_text(TL_ERR_MEMORY));
+        exit(1);
     }
-    tl_soup *copy = aligned_alloc(HUGE_PAGE, room);
     (void)madvise(copy, room, MADV_HUGEPAGE);
     memcpy(copy, soup, size);
     tl_blob_free(soup);
@@ -371,7 +373,7 @@ static double time_centimetres(const bench_level *l, const scenes *metres, query
         seconds[0] += slices[0][i];
         seconds[1] += slices[1][i];
     }
-    tl_blob_free(centimetres.soup);
+    free(centimetres.soup);
     free(scaled);
     free(long_queries);
     return seconds[0] / seconds[1];
@@ -424,8 +426,8 @@ static void run_level(RTCDevice device, const bench_level *l, uint32_t repetitio
     rtcReleaseScene(s.embree[FAST]);
     rtcReleaseScene(s.embree[QUADS]);
     rtcReleaseScene(s.embree[ROBUST]);
-    tl_blob_free(s.soup);
-    tl_blob_free(s.compact);
+    free(s.soup);
+    free(s.compact);
 }
 
 // ----------------------------------------------------------------------------------------------------- claims
