@@ -6,6 +6,7 @@
 #define TALUS_SRC_NAV_BAKE_DISTANCE_STEPS_H
 
 #include "nav_bake/floors/links.h"
+#include "nav_bake/floors/plain_runs.h"
 
 enum {
     TL_EDGE_STEP = 2,
@@ -75,10 +76,12 @@ static inline uint16_t tl_distance_blurred(const tl_nav_compact *compact, const 
     return (uint16_t)((sum + 5) / 9);
 }
 
-// Each step over all floors: distance_field.c. The backward sweep works in place, and returns the largest distance.
+// Each step over all floors, those of the plain runs by rows: distance_field.c. The backward sweep works in place, and
+// returns the largest distance.
 
-void tl_distance_sweep_forward(const tl_nav_compact *compact, uint16_t *distance);
-uint16_t tl_distance_sweep_backward(const tl_nav_compact *compact, uint16_t *distance);
-void tl_distance_blur(const tl_nav_compact *compact, const uint16_t *sharp, uint16_t *blurred);
+void tl_distance_sweep_forward(const tl_nav_compact *compact, const tl_plain_runs *runs, uint16_t *distance);
+uint16_t tl_distance_sweep_backward(const tl_nav_compact *compact, const tl_plain_runs *runs, uint16_t *distance);
+void tl_distance_blur(const tl_nav_compact *compact, const tl_plain_runs *runs, const uint16_t *sharp,
+                      uint16_t *blurred);
 
 #endif

@@ -206,17 +206,21 @@ tl_result tl_distance_stages_make(const tl_nav_compact *compact, const tl_alloca
                                   tl_distance_stages *stages_out)
 {
     const uint32_t count = compact->span_count;
-    uint16_t *forward = tl_allocate_array(allocator, 3 * (uint64_t)count, sizeof *forward);
     memset(stages_out, 0, sizeof *stages_out);
+    tl_plain_runs runs;
+    TL_TRY(tl_plain_runs_find(compact, allocator, &runs));
+    uint16_t *forward = tl_allocate_array(allocator, 3 * (uint64_t)count, sizeof *forward);
     if (forward == NULL) {
+        tl_plain_runs_free(&runs);
         return TL_ERR_MEMORY;
     }
     uint16_t *sharp = forward + count, *blurred = sharp + count;
     tl_distance_stages stages = { forward, sizeof *forward };
-    tl_distance_sweep_forward(compact, forward);
+    tl_distance_sweep_forward(compact, &runs, forward);
     memcpy(sharp, forward, count * sizeof *sharp);
-    tl_distance_sweep_backward(compact, sharp);
-    tl_distance_blur(compact, sharp, blurred);
+    tl_distance_sweep_backward(compact, &runs, sharp);
+    tl_distance_blur(compact, &runs, sharp, blurred);
+    tl_plain_runs_free(&runs);
     if (largest_distance(forward, 3 * (size_t)count) <= UINT8_MAX &&
         narrow_stages(&stages, count, allocator) != TL_OK) {
         tl_distance_stages_free(&stages, count, allocator);
