@@ -66,11 +66,12 @@ bool tl_nav_leads_astray_over_seam(const tl_navmesh *navmesh, tl_nav_ring_seam f
 static inline bool tl_nav_leads_astray(const tl_navmesh *navmesh, tl_nav_ring_seam from, tl_nav_ring_seam to,
                                        tl_nav_ring_seam goal)
 {
-    if (from.slot != to.slot) {
-        return tl_nav_leads_astray_over_seam(navmesh, from, to, goal);
-    }
     const tl_nav_slot *slot = &navmesh->slots[from.slot];
-    const uint32_t branch = slot->rings.cells[from.polygon].branch, into = slot->rings.cells[to.polygon].branch;
+    const uint32_t branch = slot->rings.cells[from.polygon].branch;
+    const uint32_t into = navmesh->slots[to.slot].rings.cells[to.polygon].branch;
+    if (from.slot != to.slot) {
+        return (branch | into) != 0 && tl_nav_leads_astray_over_seam(navmesh, from, to, goal);
+    }
     if (branch == into || slot->anchor_count > 0) {
         return false;
     }
