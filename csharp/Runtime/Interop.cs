@@ -1836,6 +1836,18 @@ namespace Talus.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_triangles
+    {
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_near_triangles
+    {
+        public tl_nav_input input;
+        public uint* sources;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_nav_prune_def
     {
         public tl_vec3* seeds;
@@ -3104,6 +3116,16 @@ namespace Talus.Interop
         public static extern tl_result tl_nav_rebake(tl_nav_def* def, tl_nav_input* input, tl_aabb changed, tl_nav_tile_block* block_out, tl_nav_bake_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern void tl_nav_tile_block_free(tl_nav_tile_block* block);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_triangles_create(tl_nav_def* def, tl_mesh_view* mesh, tl_nav_triangles** triangles_out, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_nav_triangles_destroy(tl_nav_triangles* triangles);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_triangles_change(tl_nav_triangles* triangles, tl_mesh_view* mesh, uint* changed, uint changed_count, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_triangles_near(tl_nav_triangles* triangles, tl_nav_input* input, tl_aabb changed, tl_nav_near_triangles* near_out, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern ulong tl_nav_triangles_bytes(tl_nav_triangles* triangles);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_nav_prune_def tl_default_nav_prune_def();
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -969,6 +969,9 @@ static unsafe class Layout
         Test.Equal(0, (byte*)&((tl_nav_tile_block*)at)->range - at, "tl_nav_tile_block.range");
         Test.Equal(16, (byte*)&((tl_nav_tile_block*)at)->stacks - at, "tl_nav_tile_block.stacks");
         Test.Equal(24, (byte*)&((tl_nav_tile_block*)at)->allocator - at, "tl_nav_tile_block.allocator");
+        Test.Equal(72, sizeof(tl_nav_near_triangles), "tl_nav_near_triangles");
+        Test.Equal(0, (byte*)&((tl_nav_near_triangles*)at)->input - at, "tl_nav_near_triangles.input");
+        Test.Equal(64, (byte*)&((tl_nav_near_triangles*)at)->sources - at, "tl_nav_near_triangles.sources");
         Test.Equal(72, sizeof(tl_nav_prune_def), "tl_nav_prune_def");
         Test.Equal(0, (byte*)&((tl_nav_prune_def*)at)->seeds - at, "tl_nav_prune_def.seeds");
         Test.Equal(8, (byte*)&((tl_nav_prune_def*)at)->seed_count - at, "tl_nav_prune_def.seed_count");

@@ -471,6 +471,45 @@ TL_API tl_result tl_nav_rebake(const tl_nav_def *def, const tl_nav_input *input,
                                tl_nav_tile_block *block_out, tl_nav_bake_report *report_out);
 TL_API void tl_nav_tile_block_free(tl_nav_tile_block *block);
 
+/// The triangles of a level by place, for levels of so many triangles that a pass over all of them at each rebake takes
+/// long: 4 ms a million. It is made once, told of changes, and asked for what a rebake can read:
+///
+///   tl_nav_triangles_create(&def, &input.mesh, &triangles, NULL);
+///   tl_nav_triangles_change(triangles, &input.mesh, moved, moved_count, NULL);
+///   tl_nav_triangles_near(triangles, &input, changed, &near, NULL);
+///   tl_nav_rebake(&def, &near.input, changed, &block, NULL);   or tl_nav_obstacles_rebake
+///
+/// Used by one thread at a time.
+typedef struct tl_nav_triangles tl_nav_triangles;
+
+/// The same rebake's input with fewer triangles, in the triangles' memory until they are asked or told again.
+typedef struct tl_nav_near_triangles {
+    tl_nav_input input;      ///< the vertices and volumes that were given
+    const uint32_t *sources; ///< [input.mesh.triangle_count] triangles of the whole mesh, ascending
+} tl_nav_near_triangles;
+
+/// Sorts the triangles of a mesh into the tiles of a def, whose bounds must be given (TL_ERR_ARGUMENT). One that
+/// reaches over more than 64 tiles is near everywhere. Keeps the mesh's indices no longer than the call, and some 5
+/// bytes a triangle. TL_ERR_MEMORY, errors of tl_nav_tile_grid; then `*triangles_out` is NULL. `def` NULL: defaults.
+TL_API tl_result tl_nav_triangles_create(const tl_nav_def *def, const tl_mesh_view *mesh,
+                                         tl_nav_triangles **triangles_out, tl_report *report_out);
+TL_API void tl_nav_triangles_destroy(tl_nav_triangles *triangles);
+
+/// To be told of all triangles that have other corners, or other places of their corners, than before, and of new ones,
+/// at the end. `mesh`: as it is now; triangles beyond its end are there no more. Those that were told of are looked at
+/// one by one from then on, until they are a quarter of all and all are sorted again. TL_ERR_INDEX names a place in
+/// `changed` that is no triangle; TL_ERR_MEMORY: nothing is changed.
+TL_API tl_result tl_nav_triangles_change(tl_nav_triangles *triangles, const tl_mesh_view *mesh, const uint32_t *changed,
+                                         uint32_t changed_count, tl_report *report_out);
+
+/// The part of an input that tl_nav_rebake with the same def can read for a change inside `changed`; a rebake of it has
+/// the same bytes, and names triangles by their places in `sources`. The input's mesh is the one of the last change
+/// (TL_ERR_ARGUMENT: it has another number of triangles). Time: of the triangles in the tiles around. TL_ERR_MEMORY,
+/// errors of tl_nav_tiles_in_box; then `*near_out` is zeroed.
+TL_API tl_result tl_nav_triangles_near(tl_nav_triangles *triangles, const tl_nav_input *input, tl_aabb changed,
+                                       tl_nav_near_triangles *near_out, tl_report *report_out);
+TL_API uint64_t tl_nav_triangles_bytes(const tl_nav_triangles *triangles);
+
 #ifdef __cplusplus
 }
 #endif

@@ -462,6 +462,57 @@ static tl_result nav_rebake(contract_run *run)
     return end_block(run, result, &report, &block);
 }
 
+static tl_result nav_triangles_create(contract_run *run)
+{
+    const tl_nav_def def = make_def(run, 32);
+    tl_nav_triangles *triangles = (tl_nav_triangles *)(uintptr_t)1;
+    const tl_result result =
+        tl_nav_triangles_create(&def, is_null(run, 0) ? NULL : &contract_level_get()->nav_input.mesh,
+                                run->what == CONTRACT_NULL_OUTPUT ? NULL : &triangles, run->report);
+    run->is_clear = run->what == CONTRACT_NULL_OUTPUT || triangles == NULL;
+    if (result == TL_OK) {
+        run->answer = tl_nav_triangles_bytes(triangles);
+        tl_nav_triangles_destroy(triangles);
+    }
+    return result;
+}
+
+static tl_nav_triangles *make_triangles(void)
+{
+    tl_nav_def def = tl_default_nav_def();
+    def.bounds = LEVEL_BOUNDS;
+    tl_nav_triangles *triangles;
+    TEST_RESULT(tl_nav_triangles_create(&def, &contract_level_get()->nav_input.mesh, &triangles, NULL), TL_OK);
+    return triangles;
+}
+
+static tl_result nav_triangles_change(contract_run *run)
+{
+    tl_nav_triangles *triangles = make_triangles();
+    const uint32_t changed = 0;
+    const tl_result result = tl_nav_triangles_change(is_null(run, 0) ? NULL : triangles,
+                                                     is_null(run, 1) ? NULL : &contract_level_get()->nav_input.mesh,
+                                                     is_null(run, 2) ? NULL : &changed, 1, run->report);
+    run->is_clear = true;
+    tl_nav_triangles_destroy(triangles);
+    return result;
+}
+
+static tl_result nav_triangles_near(contract_run *run)
+{
+    tl_nav_triangles *triangles = make_triangles();
+    const tl_aabb box = { { 1, 0, 1 }, { 2, 1, 2 } };
+    tl_nav_near_triangles near;
+    memset(&near, 0x55, sizeof near);
+    const tl_result result = tl_nav_triangles_near(is_null(run, 0) ? NULL : triangles,
+                                                   is_null(run, 1) ? NULL : &contract_level_get()->nav_input, box,
+                                                   run->what == CONTRACT_NULL_OUTPUT ? NULL : &near, run->report);
+    run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&near, sizeof near);
+    run->answer = result == TL_OK ? near.input.mesh.triangle_count : 0;
+    tl_nav_triangles_destroy(triangles);
+    return result;
+}
+
 static tl_result nav_bake_frees(contract_run *run)
 {
     tl_nav_heightfield field;
@@ -490,6 +541,7 @@ static tl_result nav_bake_frees(contract_run *run)
     tl_nav_tile_block_free(NULL);
     tl_nav_tile_block_free(&block);
     tl_nav_tile_memo_free(NULL);
+    tl_nav_triangles_destroy(NULL);
     return TL_OK;
 }
 
@@ -536,6 +588,12 @@ const contract_entry CONTRACT_TABLE_nav_bake[] = {
     { "tl_nav_tiles_free", FREES },
     { "tl_nav_tiles_in_box", CALLS | CONTRACT_BIT(NULL_DEF) | DEFS | OUTPUT, 0, 1, DEF_FIELDS, nav_tiles_in_box, NULL },
     { "tl_nav_bake_range", STAGE | DEFS, 1, 1, DEF_FIELDS, nav_bake_range, NULL },
+    { "tl_nav_triangles_create", CALLS | INPUT | OUTPUT | DEFS | CONTRACT_BIT(NO_MEMORY), 1, 1, DEF_FIELDS,
+      nav_triangles_create, NULL },
+    { "tl_nav_triangles_destroy", FREES },
+    { "tl_nav_triangles_change", CALLS | INPUT, 3, 0, NULL, nav_triangles_change, NULL },
+    { "tl_nav_triangles_near", CALLS | INPUT | OUTPUT, 2, 1, NULL, nav_triangles_near, NULL },
+    { "tl_nav_triangles_bytes", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_triangles_create, NULL },
     { "tl_nav_rebake", STAGE | DEFS, 1, 1, DEF_FIELDS, nav_rebake, NULL },
     { "tl_nav_tile_block_free", FREES },
     { 0 },

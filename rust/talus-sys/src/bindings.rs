@@ -1597,6 +1597,16 @@ pub struct tl_nav_tile_block {
     pub allocator: tl_allocator,
 }
 #[repr(C)]
+pub struct tl_nav_triangles {
+    _private: [u8; 0],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_near_triangles {
+    pub input: tl_nav_input,
+    pub sources: *const u32,
+}
+#[repr(C)]
 #[derive(Clone, Copy)]
 pub struct tl_nav_prune_def {
     pub seeds: *const tl_vec3,
@@ -3283,6 +3293,28 @@ extern "C" {
         report_out: *mut tl_nav_bake_report,
     ) -> tl_result;
     pub fn tl_nav_tile_block_free(block: *mut tl_nav_tile_block);
+    pub fn tl_nav_triangles_create(
+        def: *const tl_nav_def,
+        mesh: *const tl_mesh_view,
+        triangles_out: *mut *mut tl_nav_triangles,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_triangles_destroy(triangles: *mut tl_nav_triangles);
+    pub fn tl_nav_triangles_change(
+        triangles: *mut tl_nav_triangles,
+        mesh: *const tl_mesh_view,
+        changed: *const u32,
+        changed_count: u32,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_triangles_near(
+        triangles: *mut tl_nav_triangles,
+        input: *const tl_nav_input,
+        changed: tl_aabb,
+        near_out: *mut tl_nav_near_triangles,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_nav_triangles_bytes(triangles: *const tl_nav_triangles) -> u64;
     pub fn tl_default_nav_prune_def() -> tl_nav_prune_def;
     pub fn tl_nav_prune(
         def: *const tl_nav_prune_def,
@@ -5154,6 +5186,9 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_tile_block, range), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_tile_block, stacks), 16);
         assert_eq!(core::mem::offset_of!(tl_nav_tile_block, allocator), 24);
+        assert_eq!(core::mem::size_of::<tl_nav_near_triangles>(), 72);
+        assert_eq!(core::mem::offset_of!(tl_nav_near_triangles, input), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_near_triangles, sources), 64);
         assert_eq!(core::mem::size_of::<tl_nav_prune_def>(), 72);
         assert_eq!(core::mem::offset_of!(tl_nav_prune_def, seeds), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_prune_def, seed_count), 8);

@@ -33,15 +33,16 @@ static tl_result grow_range_input(tl_range_input *range, const tl_allocator *all
     return TL_OK;
 }
 
-tl_result tl_range_input_make(const tl_nav_input *input, tl_aabb window, const tl_allocator *allocator,
-                              tl_range_input *range_out)
+tl_result tl_range_input_make(const tl_nav_input *input, tl_triangle_list list, tl_aabb window,
+                              const tl_allocator *allocator, tl_range_input *range_out)
 {
     tl_range_input *range = range_out;
     memset(range, 0, sizeof *range);
     range->input = *input;
     tl_mesh_view *mesh = &range->input.mesh;
     mesh->triangle_count = 0;
-    for (uint32_t t = 0; t < input->mesh.triangle_count; t++) {
+    for (uint32_t i = 0; i < list.count; i++) {
+        const uint32_t t = tl_triangle_list_get(&list, i);
         if (may_lie_in(&input->mesh, input->mesh.indices + 3 * (size_t)t, &window)) {
             if (mesh->triangle_count == range->capacity) {
                 TL_TRY(grow_range_input(range, allocator));

@@ -281,7 +281,7 @@ tl_result tl_nav_bake(const tl_nav_def *def, const tl_nav_input *input, tl_nav_t
 }
 
 // Where the columns of a range lie, border included, and one column more on each side.
-static tl_result range_window(const tl_nav_def *def, const tl_nav_tile_range *range, tl_aabb *window, tl_report *report)
+tl_result tl_nav_range_window(const tl_nav_def *def, const tl_nav_tile_range *range, tl_aabb *window, tl_report *report)
 {
     tl_nav_config first, last;
     TL_TRY(tl_nav_config_from_def(def, def->bounds, range->x, range->z, &first, report));
@@ -301,8 +301,9 @@ static tl_result bake_part(level_job *job, const tl_nav_tile_range *range, tl_na
     tl_aabb window;
     tl_range_input part;
     TL_TRY(take_range(job, range, &report->base));
-    TL_TRY(range_window(job->def, range, &window, &report->base));
-    tl_result result = tl_range_input_make(whole, window, job->host.allocator, &part);
+    TL_TRY(tl_nav_range_window(job->def, range, &window, &report->base));
+    const tl_triangle_list all = { NULL, whole->mesh.triangle_count };
+    tl_result result = tl_range_input_make(whole, all, window, job->host.allocator, &part);
     if (result == TL_OK && part.input.mesh.triangle_count == 0) {
         result = allocate_stacks(job, tile_count_of(job)); // tiles without triangles are no tiles
     } else if (result == TL_OK) {

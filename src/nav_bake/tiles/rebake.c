@@ -84,5 +84,8 @@ tl_result tl_nav_rebake(const tl_nav_def *def, const tl_nav_input *input, tl_aab
                                "give def->bounds, or the lattice moves when the mesh does");
     }
     TL_TRY(tl_nav_tiles_in_box(def, def->bounds, changed, &range, base));
+    if (range.count_x == 0) {
+        return TL_OK; // beside the level: nothing is read
+    }
     return tl_nav_bake_range(def, input, range, NULL, block_out, report_out);
 }

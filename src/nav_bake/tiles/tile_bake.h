@@ -22,6 +22,10 @@ tl_result tl_nav_tile_bake_from_distance(const tl_nav_config *config, tl_nav_com
                                          const tl_host *host, tl_nav_tile_stack *stack_out,
                                          tl_nav_bake_report *report_out);
 
+/// The box, in the plane, of all that a bake of some tiles reads: borders, and a column more. def->bounds are given.
+tl_result tl_nav_range_window(const tl_nav_def *def, const tl_nav_tile_range *range, tl_aabb *window,
+                              tl_report *report);
+
 /// The stages were built through a meter, which ends with the build; what holds an allocator gets the host's.
 void tl_nav_stages_hand_over(tl_nav_stages *stages, const tl_allocator *allocator);
 
