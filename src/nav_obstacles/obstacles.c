@@ -29,7 +29,8 @@ typedef struct tile_floors {
 typedef struct obstacle_slot {
     tl_nav_obstacle obstacle;
     tl_nav_tile_range range; // the tiles that it touches
-    uint32_t generation;     // odd: in use
+    tl_aabb box;
+    uint32_t generation; // odd: in use
     uint32_t next_free;
 } obstacle_slot;
 
@@ -59,12 +60,13 @@ static tile_floors *tile_at(const tl_nav_obstacles *o, uint32_t x, uint32_t z)
 // ---------------------------------------------------------------------------------------------------------
 // Waiting tiles: a queue through the tiles themselves, so that nothing has to be allocated.
 
-static void let_wait(tl_nav_obstacles *o, const tl_nav_tile_range *range)
+// Those whose floors can be in the box; NULL: all.
+static void let_wait(tl_nav_obstacles *o, const tl_nav_tile_range *range, const tl_aabb *box)
 {
     for (uint32_t z = range->z; z < range->z + range->count_z; z++) {
         for (uint32_t x = range->x; x < range->x + range->count_x; x++) {
             tile_floors *tile = tile_at(o, x, z);
-            if (tile->waits || !tile->is_there) {
+            if (tile->waits || !tile->is_there || (box != NULL && !tl_packed_floors_reach(&tile->floors, *box))) {
                 continue;
             }
             uint32_t index = z * o->tiles_x + x;
@@ -275,9 +277,8 @@ tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input
     if (block_out != NULL) {
         *block_out = block;
     } else {
+        let_wait(o, &block.range, NULL);
         tl_nav_tile_block_free(&block);
-        const tl_nav_tile_range all = { 0, 0, o->tiles_x, o->tiles_z };
-        let_wait(o, &all);
     }
     *obstacles_out = o;
     return TL_OK;
@@ -301,7 +302,7 @@ tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_inpu
         result = bake_range(o, &alone, input, range, &block, &report);
         if (result == TL_OK) {
             tl_nav_tile_block_free(&block); // made again with the obstacles
-            let_wait(o, &range);
+            let_wait(o, &range, NULL);
         }
     }
     if (report_out != NULL) {
@@ -342,11 +343,20 @@ static obstacle_slot *find_obstacle_slot(const tl_nav_obstacles *o, tl_nav_obsta
 }
 
 static tl_result range_of(const tl_nav_obstacles *o, const tl_nav_obstacle *obstacle, tl_nav_tile_range *range,
-                          tl_report *report)
+                          tl_aabb *box, tl_report *report)
 {
     TL_TRY(tl_obstacle_check(obstacle, report));
-    tl_aabb box = tl_obstacle_box(obstacle, o->def.agent_radius, o->def.agent_height);
-    return tl_nav_tiles_in_box(&o->def, o->def.bounds, box, range, report);
+    *box = tl_obstacle_box(obstacle, o->def.agent_radius, o->def.agent_height);
+    return tl_nav_tiles_in_box(&o->def, o->def.bounds, *box, range, report);
+}
+
+static void place_obstacle(tl_nav_obstacles *o, obstacle_slot *slot, const tl_nav_obstacle *obstacle,
+                           const tl_nav_tile_range *range, const tl_aabb *box)
+{
+    slot->obstacle = *obstacle;
+    slot->range = *range;
+    slot->box = *box;
+    let_wait(o, range, box);
 }
 
 static tl_result take_slot(tl_nav_obstacles *o, uint32_t *slot_out)
@@ -381,20 +391,19 @@ tl_result tl_nav_obstacles_add(tl_nav_obstacles *obstacles, const tl_nav_obstacl
                                tl_report *report_out)
 {
     tl_nav_tile_range range;
+    tl_aabb box;
     uint32_t index = 0;
     tl_report_begin(report_out, "add obstacle");
     TL_REFUSE_NULL(id_out, report_out);
     *id_out = 0;
     TL_REFUSE_NULL(obstacles, report_out);
     TL_REFUSE_NULL(obstacle, report_out);
-    TL_TRY(range_of(obstacles, obstacle, &range, report_out));
+    TL_TRY(range_of(obstacles, obstacle, &range, &box, report_out));
     TL_TRY(take_slot(obstacles, &index));
     obstacle_slot *slot = &obstacles->slots[index];
-    slot->obstacle = *obstacle;
-    slot->range = range;
     slot->generation++;
     obstacles->used_count++;
-    let_wait(obstacles, &range);
+    place_obstacle(obstacles, slot, obstacle, &range, &box);
     *id_out = id_of(obstacles, index);
     return TL_OK;
 }
@@ -407,14 +416,13 @@ tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id 
     TL_REFUSE_NULL(obstacle, report_out);
     obstacle_slot *slot = find_obstacle_slot(obstacles, id);
     tl_nav_tile_range range;
+    tl_aabb box;
     if (slot == NULL) {
         return tl_report_fail(report_out, TL_ERR_STALE, "obstacle", id, "it was removed, or never was");
     }
-    TL_TRY(range_of(obstacles, obstacle, &range, report_out));
-    let_wait(obstacles, &slot->range);
-    slot->obstacle = *obstacle;
-    slot->range = range;
-    let_wait(obstacles, &range);
+    TL_TRY(range_of(obstacles, obstacle, &range, &box, report_out));
+    let_wait(obstacles, &slot->range, &slot->box);
+    place_obstacle(obstacles, slot, obstacle, &range, &box);
     return TL_OK;
 }
 
@@ -425,7 +433,7 @@ tl_result tl_nav_obstacles_remove(tl_nav_obstacles *obstacles, tl_nav_obstacle_i
     if (slot == NULL) {
         return TL_ERR_STALE;
     }
-    let_wait(obstacles, &slot->range);
+    let_wait(obstacles, &slot->range, &slot->box);
     slot->generation++;
     // A name is not used again: a slot whose generations are used up is given up.
     if (slot->generation != 0) {
@@ -569,7 +577,7 @@ tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navme
         if (result != TL_OK) {
             const tl_nav_tile_range again = { (uint32_t)rebaked.tile_x, (uint32_t)rebaked.tile_z, 1, 1 };
             tile_at(o, again.x, again.z)->is_known = false;
-            let_wait(o, &again);
+            let_wait(o, &again, NULL);
         }
     }
     if (waiting_out != NULL) {
@@ -584,6 +592,7 @@ uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles)
     uint64_t bytes = sizeof *o + tl_unpacked_tiles_bytes(&o->unpacked) + tile_count(o) * sizeof *o->tiles +
                      (uint64_t)o->slot_capacity * sizeof *o->slots;
     for (uint64_t i = 0; i < tile_count(o); i++) {
+        bytes += (uint64_t)o->tiles[i].floors.block_count * sizeof(tl_floor_block);
         bytes += o->tiles[i].floors.size + tl_nav_tile_memo_bytes(o->tiles[i].memo);
         bytes += (uint64_t)o->tiles[i].marks.run_count * sizeof *o->tiles[i].marks.runs;
     }

@@ -14,6 +14,7 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/stage.h"
+#include "nav_obstacles/obstacle_window.h"
 
 #include <string.h>
 
@@ -163,6 +164,66 @@ static tl_result pack(const tl_nav_compact *compact, const tl_allocator *allocat
     return TL_OK;
 }
 
+// ---- Blocks: what lies where no obstacle has to be looked for ----------------------------------------------
+
+enum { BLOCK_SIDE = 8 }; // columns
+
+static uint32_t blocks_along(uint32_t columns)
+{
+    return (columns + BLOCK_SIDE - 1) / BLOCK_SIDE;
+}
+
+static tl_result fill_blocks(const tl_nav_compact *compact, const tl_allocator *allocator, tl_packed_floors *packed)
+{
+    const uint32_t blocks_x = blocks_along(compact->width);
+    packed->block_count = blocks_x * blocks_along(compact->height);
+    packed->blocks = tl_allocate_array(allocator, packed->block_count, sizeof *packed->blocks);
+    if (packed->blocks == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t b = 0; b < packed->block_count; b++) {
+        packed->blocks[b] = (tl_floor_block){ UINT16_MAX, 0 };
+    }
+    for (uint32_t z = 0; z < compact->height; z++) {
+        for (uint32_t x = 0; x < compact->width; x++) {
+            tl_floor_block *block = &packed->blocks[z / BLOCK_SIDE * blocks_x + x / BLOCK_SIDE];
+            const uint32_t *first = compact->first_span + (size_t)z * compact->width + x;
+            for (uint32_t i = first[0]; i < first[1]; i++) {
+                if (compact->area[i] != TL_NAV_NULL_AREA) {
+                    block->low = compact->floor[i] < block->low ? compact->floor[i] : block->low;
+                    block->high = compact->floor[i] > block->high ? compact->floor[i] : block->high;
+                }
+            }
+        }
+    }
+    return TL_OK;
+}
+
+static bool block_is_in(const tl_packed_floors *packed, uint32_t block, const tl_aabb *box)
+{
+    const tl_floor_block *heights = &packed->blocks[block];
+    const double origin = (double)packed->frame.lattice.origin.y, step = (double)packed->frame.cell_height;
+    return heights->low <= heights->high && origin + (double)heights->high * step >= (double)box->min.y &&
+           origin + (double)heights->low * step <= (double)box->max.y;
+}
+
+bool tl_packed_floors_reach(const tl_packed_floors *packed, tl_aabb box)
+{
+    if (packed->block_count == 0) {
+        return false;
+    }
+    const tl_obstacle_window window = tl_obstacle_window_make(&packed->frame, box);
+    const uint32_t blocks_x = blocks_along(packed->frame.width);
+    for (uint32_t z = window.first_z / BLOCK_SIDE; z < blocks_along(window.end_z); z++) {
+        for (uint32_t x = window.first_x / BLOCK_SIDE; x < blocks_along(window.end_x); x++) {
+            if (block_is_in(packed, z * blocks_x + x, &box)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 // The fields without the arrays.
 static tl_nav_compact frame_of(const tl_nav_compact *compact, const tl_allocator *allocator)
 {
@@ -190,16 +251,19 @@ tl_result tl_floors_pack(const tl_nav_compact *compact, const tl_allocator *allo
     tl_release_array(allocator, s.counts, s.columns, sizeof *s.counts);
     tl_release_array(allocator, s.links, s.spans, sizeof *s.links);
     tl_release_array(allocator, s.bytes, s.capacity, 1);
-    if (result == TL_OK) {
-        packed_out->frame = frame_of(compact, allocator);
-        packed_out->has_steps = compact->step != NULL;
+    packed_out->frame = frame_of(compact, allocator);
+    packed_out->has_steps = compact->step != NULL;
+    if (result != TL_OK || fill_blocks(compact, allocator, packed_out) != TL_OK) {
+        tl_packed_floors_free(packed_out);
+        return TL_ERR_MEMORY;
     }
-    return result;
+    return TL_OK;
 }
 
 void tl_packed_floors_free(tl_packed_floors *packed)
 {
     tl_release_array(&packed->frame.allocator, packed->bytes, packed->size, 1);
+    tl_release_array(&packed->frame.allocator, packed->blocks, packed->block_count, sizeof *packed->blocks);
     memset(packed, 0, sizeof *packed);
 }
 

@@ -7,17 +7,27 @@
 
 #include <talus/nav_bake.h>
 
+/// The heights of the walkable floors of 8 by 8 columns; low > high: there are none.
+typedef struct tl_floor_block {
+    uint16_t low, high;
+} tl_floor_block;
+
 /// Zero: no floors.
 typedef struct tl_packed_floors {
     tl_nav_compact frame; ///< all but the arrays, which are NULL
     uint8_t *bytes;
     uint64_t size;
-    bool has_steps; ///< else neighbours: its links need 32 bits
+    bool has_steps;         ///< else neighbours: its links need 32 bits
+    tl_floor_block *blocks; ///< [block_count] row-major
+    uint32_t block_count;
 } tl_packed_floors;
 
 /// Packs floors, areas and links; their clearances, distances and regions are left out. TL_ERR_MEMORY: `packed_out` is
 /// zeroed.
 tl_result tl_floors_pack(const tl_nav_compact *compact, const tl_allocator *allocator, tl_packed_floors *packed_out);
+/// Whether an obstacle's box (tl_obstacle_box) can hold walkable floors; false: it marks none.
+bool tl_packed_floors_reach(const tl_packed_floors *packed, tl_aabb box);
+
 /// The arrays of unpacked floors, one after the other in one block that is used again. Zero is an empty one.
 typedef struct tl_floors_scratch {
     void *block;

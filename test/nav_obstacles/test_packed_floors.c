@@ -3,12 +3,14 @@
 // Floors packed and unpacked are the same floors: of built-in levels, of a tower of many storeys, with links of 16 and
 // of 32 bits; in a fraction of the memory; and every allocation may fail.
 
+#include "nav_obstacles/footprint.h"
 #include "nav_obstacles/packed_floors.h"
 
 #include "base/arena.h"
 #include "cli/sample/sample_level.h"
 #include "talus_test.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static void bake_floors(const char *level, uint32_t triangles, float cell_size, tl_nav_stages *stages)
@@ -98,6 +100,41 @@ static void floors_come_back(void **state)
     }
 }
 
+// An obstacle that marks a floor reaches the floors; many that mark none do not.
+static void test_reach(void **state)
+{
+    (void)state;
+    const tl_allocator allocator = tl_allocator_or_default(NULL);
+    tl_nav_stages stages;
+    bake_floors("courtyard", 3000, 0.3f, &stages);
+    tl_nav_compact *compact = &stages.compact;
+    tl_packed_floors packed;
+    TEST_RESULT(tl_floors_pack(compact, &allocator, &packed), TL_OK);
+    uint8_t *base = malloc(compact->span_count);
+    memcpy(base, compact->area, compact->span_count);
+    test_random random = { 4 };
+    uint32_t marking = 0, beside = 0;
+    for (uint32_t round = 0; round < 2000; round++) {
+        tl_nav_obstacle o;
+        memset(&o, 0, sizeof o);
+        o.base = test_random_point(&random, tl_vec3_make(-8, -6, -8), tl_vec3_make(48, 14, 48));
+        o.height = test_random_range(&random, 0.0f, 2.0f);
+        o.radius = test_random_range(&random, 0.05f, 2.0f);
+        o.area = (uint8_t)(round % 2);
+        tl_obstacle_mark(&o, 0.6f, 2.0f, compact);
+        const bool marks = memcmp(base, compact->area, compact->span_count) != 0;
+        const bool reaches = tl_packed_floors_reach(&packed, tl_obstacle_box(&o, 0.6f, 2.0f));
+        TEST_CHECK(reaches || !marks);
+        marking += marks;
+        beside += !reaches;
+        memcpy(compact->area, base, compact->span_count);
+    }
+    TEST_CHECK(marking > 50 && beside > 200);
+    free(base);
+    tl_packed_floors_free(&packed);
+    tl_nav_stages_free(&stages);
+}
+
 // Two columns of 300 floors, each linked with one of the three that it could be.
 static void towers_come_back(void **state)
 {
@@ -162,7 +199,8 @@ static void failing_memory_is_reported(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(floors_come_back), cmocka_unit_test(towers_come_back),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_reach), cmocka_unit_test(floors_come_back),
+                                        cmocka_unit_test(towers_come_back),
                                         cmocka_unit_test(failing_memory_is_reported) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
