@@ -28,6 +28,7 @@ typedef struct merge_state {
     uint32_t *mark;   // [4 * face_count] BORDER, WALKED or FLAT; then final numbers
     uint32_t group_count;
     uint32_t edge_count;  // final half-edges
+    bool has_flat_edges;  // else each triangle is a face
     tl_sort_item *groups; // [group_count] key: lowest vertex and the one after it; value: the half-edge between them
 } merge_state;
 
@@ -53,10 +54,13 @@ static uint32_t next_border(const merge_state *m, uint32_t half_edge)
 
 // The same, but to where the next straight edge starts: over the vertices that only two groups meet at. `last_out` gets
 // the last border half-edge of this one.
-static uint32_t next_straight_edge(const merge_state *m, uint32_t half_edge, uint32_t *last_out)
+static inline uint32_t next_straight_edge(const merge_state *m, uint32_t half_edge, uint32_t *last_out)
 {
-    uint32_t next = next_border(m, half_edge);
     *last_out = half_edge;
+    if (!m->has_flat_edges) {
+        return tl_half_edge_next(half_edge);
+    }
+    uint32_t next = next_border(m, half_edge);
     while (m->degree[origin(m, next)] < 3) {
         *last_out = next;
         next = next_border(m, next);
@@ -67,6 +71,7 @@ static uint32_t next_straight_edge(const merge_state *m, uint32_t half_edge, uin
 static tl_result find_borders(merge_state *m)
 {
     const tl_quickhull *hull = m->hull;
+    uint32_t borders = 0;
     for (uint32_t f = 0; f < hull->face_count; f++) {
         TL_TRY(tl_quickhull_count_work(m->hull, 1));
         for (uint32_t k = 0; k < 3; k++) {
@@ -85,11 +90,13 @@ static tl_result find_borders(merge_state *m)
             double height;
             if (tl_quickhull_side(hull, face, hull->local[apex].position, &height) != 0) {
                 m->mark[4 * f + k] = m->mark[across] = BORDER;
+                borders += 2;
                 m->degree[face->vertex[k]]++;
                 m->degree[face->vertex[k == 2 ? 0 : k + 1]]++;
             }
         }
     }
+    m->has_flat_edges = borders != 3 * hull->live_faces;
     return TL_OK;
 }
 
@@ -101,17 +108,19 @@ static tl_result find_groups(merge_state *m, uint32_t key_shift)
         if (tl_half_edge_corner(h) == 3 || m->mark[h] != BORDER || m->degree[origin(m, h)] < 3) {
             continue;
         }
-        uint32_t edge = h, last, lowest = h;
+        uint32_t edge = h, last, lowest = h, least = origin(m, h);
         do {
             m->mark[edge] = WALKED;
             edge = next_straight_edge(m, edge, &last);
-            lowest = origin(m, edge) < origin(m, lowest) ? edge : lowest;
+            const uint32_t begin = origin(m, edge);
+            lowest = begin < least ? edge : lowest;
+            least = begin < least ? begin : least;
             m->edge_count++;
             TL_TRY(tl_quickhull_count_work(m->hull, 1));
         } while (edge != h);
         tl_sort_item *group = &m->groups[m->group_count++];
         group->value = lowest;
-        group->key = (uint64_t)origin(m, lowest) << key_shift | origin(m, next_straight_edge(m, lowest, &last));
+        group->key = (uint64_t)least << key_shift | origin(m, next_straight_edge(m, lowest, &last));
     }
     return TL_OK;
 }

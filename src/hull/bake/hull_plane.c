@@ -83,7 +83,8 @@ static bool has_flat_neighbour(const tl_hull *hull, uint32_t face, double gap)
     const tl_hull_face f = tl_hull_face_at(hull, face);
     for (uint32_t k = 0; k < f.count; k++) {
         const uint32_t twin = tl_hull_edge_twin(hull, f.first + k);
-        const uint32_t off = tl_hull_edge_next(hull, tl_hull_edge_next(hull, twin));
+        const tl_hull_face beside = tl_hull_face_at(hull, tl_hull_edge_face(hull, twin));
+        const uint32_t off = twin + 2 < beside.first + beside.count ? twin + 2 : twin + 2 - beside.count;
         const tl_vec3 p = tl_hull_vertices(hull)[tl_hull_edge_origin(hull, off)];
         const double *n = plane.normal;
         if (n[0] * (double)p.x + n[1] * (double)p.y + n[2] * (double)p.z - plane.offset >= -gap) {
