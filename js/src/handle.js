@@ -11,6 +11,8 @@ const registry = new FinalizationRegistry(({ address, free }) => wasm[free](addr
 export class Handle {
   #address;
   #token = {};
+  #users = 0;
+  #freed = false;
 
   constructor(address, free) {
     this.#address = address;
@@ -20,21 +22,36 @@ export class Handle {
 
   /** The address, or an error where it was freed. */
   get _address() {
-    if (this.#address === 0) {
+    if (this.#freed) {
       throw new TalusError('TL_ERR_STALE', `this ${this.constructor.name} was freed (TL_ERR_STALE)`);
     }
     return this.#address;
   }
 
   get freed() {
-    return this.#address === 0;
+    return this.#freed;
   }
 
   free() {
-    if (this.#address === 0) return;
+    if (this.#freed) return;
+    this.#freed = true;
+    if (this.#users === 0) this.#release();
+  }
+
+  #release() {
     registry.unregister(this.#token);
     wasm[this._free](this.#address);
-    this.#address = 0;
+  }
+
+  /** Something in the module points here now: the memory stays until the last one is gone, also when this is freed. */
+  _use() {
+    this.#users++;
+    return this._address;
+  }
+
+  _leave() {
+    this.#users--;
+    if (this.#users === 0 && this.#freed) this.#release();
   }
 
   [Symbol.dispose ?? Symbol.for('Symbol.dispose')]() {

@@ -6,6 +6,8 @@ export * from './types/base.js';
 export * from './types/mesh.js';
 export * from './types/soup.js';
 export * from './types/convex.js';
+export * from './types/scene.js';
+export * from './types/character.js';
 export * from './types/nav_bake.js';
 export * from './types/stages.js';
 export * from './types/navmesh.js';

@@ -7,6 +7,8 @@ export { TalusError } from './error.js';
 export { Mesh, sampleLevel, sampleLevels } from './mesh.js';
 export { Soup } from './soup.js';
 export { Hull } from './hull.js';
+export { Scene } from './scene.js';
+export { CharacterMover } from './character.js';
 export { distance, overlap, penetration, cast, contacts, castRayAtShape, shapeBounds } from './convex.js';
 export { defaultNavOptions, tileGrid } from './nav_options.js';
 export { bakeStages, polygonSteps } from './stages.js';

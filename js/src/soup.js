@@ -48,7 +48,7 @@ function putFilter(filter) {
 }
 
 /** Runs a query with a filter; what its function throws is thrown. */
-function filtered(filter, run) {
+export function filtered(filter, run) {
   if (!filter) return run(0);
   const address = putFilter(filter);
   if (!filter.accept) return run(address);
