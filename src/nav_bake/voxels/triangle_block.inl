@@ -12,8 +12,8 @@
 #define EACH_TRIANGLE(i) for (uint32_t i = 0; i < TL_TRIANGLE_BLOCK; i++)
 
 // As tl_lattice_map_x.
-static inline void map_across(const float *restrict metres, double origin, double per_cell, double first_column,
-                              double *restrict lattice)
+static inline void block_map_across(const float *restrict metres, double origin, double per_cell, double first_column,
+                                    double *restrict lattice)
 {
     EACH_TRIANGLE(i)
     {
@@ -21,7 +21,8 @@ static inline void map_across(const float *restrict metres, double origin, doubl
     }
 }
 
-static inline void map_up(const float *restrict metres, double origin, double per_height, double *restrict lattice)
+static inline void block_map_up(const float *restrict metres, double origin, double per_height,
+                                double *restrict lattice)
 {
     EACH_TRIANGLE(i)
     {
@@ -30,8 +31,9 @@ static inline void map_up(const float *restrict metres, double origin, double pe
 }
 
 // As tl_triangle_is_walkable, where the floats are long enough and the slope is not at the limit.
-static inline void judge_slopes(float slope_cos, tl_triangle_block *block)
+static inline void block_judge_slopes(float slope_cos, tl_triangle_block *block)
 {
+    const float steep = TL_SLOPE_STEEP, walkable = TL_SLOPE_WALKABLE, undecided = TL_SLOPE_UNDECIDED;
     const float cos_square = slope_cos * slope_cos;
     const float *restrict ax = block->metres[0][0], *restrict bx = block->metres[0][1],
                           *restrict cx = block->metres[0][2], *restrict ay = block->metres[1][0],
@@ -46,24 +48,26 @@ static inline void judge_slopes(float slope_cos, tl_triangle_block *block)
         const float nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
         const float square = nx * nx + ny * ny + nz * nz;
         const float have = ny * ny, needed = cos_square * square, noise = 1e-5f * needed;
-        float answer = have > needed ? TL_SLOPE_WALKABLE : TL_SLOPE_STEEP;
-        answer = ny > 0.0f ? answer : TL_SLOPE_STEEP;
-        const float near_limit = have < needed + noise ? TL_SLOPE_UNDECIDED : answer;
+        float answer = have > needed ? walkable : steep;
+        answer = ny > 0.0f ? answer : steep;
+        const float near_limit = have < needed + noise ? undecided : answer;
         answer = have > needed - noise ? near_limit : answer;
-        answer = square >= 1e-20f ? answer : TL_SLOPE_UNDECIDED;
-        answer = square <= 1e30f ? answer : TL_SLOPE_UNDECIDED;
+        answer = square >= 1e-20f ? answer : undecided;
+        answer = square <= 1e30f ? answer : undecided;
         slope[i] = (int32_t)answer;
     }
 }
 
-static void map_corners(const tl_lattice_map *map, float slope_cos, tl_triangle_block *block)
+static void block_map_corners(const tl_lattice_map *map, float slope_cos, tl_triangle_block *block)
 {
     for (uint32_t corner = 0; corner < 3; corner++) {
-        map_across(block->metres[0][corner], map->origin_x, map->per_cell, map->first_x, block->lattice[0][corner]);
-        map_up(block->metres[1][corner], map->origin_y, map->per_height, block->lattice[1][corner]);
-        map_across(block->metres[2][corner], map->origin_z, map->per_cell, map->first_z, block->lattice[2][corner]);
+        block_map_across(block->metres[0][corner], map->origin_x, map->per_cell, map->first_x,
+                         block->lattice[0][corner]);
+        block_map_up(block->metres[1][corner], map->origin_y, map->per_height, block->lattice[1][corner]);
+        block_map_across(block->metres[2][corner], map->origin_z, map->per_cell, map->first_z,
+                         block->lattice[2][corner]);
     }
-    judge_slopes(slope_cos, block);
+    block_judge_slopes(slope_cos, block);
 }
 
 // How far the triangles reach on an axis.
@@ -71,7 +75,7 @@ typedef struct block_reach {
     double min[TL_TRIANGLE_BLOCK], max[TL_TRIANGLE_BLOCK];
 } block_reach;
 
-static inline void find_reach(double corner[3][TL_TRIANGLE_BLOCK], block_reach *reach)
+static inline void find_block_reach(double corner[3][TL_TRIANGLE_BLOCK], block_reach *reach)
 {
     const double *restrict a = corner[0], *restrict b = corner[1], *restrict c = corner[2];
     double *restrict min = reach->min, *restrict max = reach->max;
@@ -83,7 +87,7 @@ static inline void find_reach(double corner[3][TL_TRIANGLE_BLOCK], block_reach *
 }
 
 // A wall exactly on the field's far side moves half a cell inwards.
-static inline void close_far_side(double side, double corner[3][TL_TRIANGLE_BLOCK], block_reach *reach)
+static inline void close_block_side(double side, double corner[3][TL_TRIANGLE_BLOCK], block_reach *reach)
 {
     double inwards[TL_TRIANGLE_BLOCK];
     EACH_TRIANGLE(i)
@@ -101,8 +105,8 @@ static inline void close_far_side(double side, double corner[3][TL_TRIANGLE_BLOC
 }
 
 // The cells of a band, `count` from `begin` on, that the triangles overlap on an axis, as tl_voxel_cell_range has them.
-static inline void find_cells(const block_reach *reach, double begin, double count, int32_t *restrict first,
-                              int32_t *restrict last)
+static inline void find_block_cells(const block_reach *reach, double begin, double count, int32_t *restrict first,
+                                    int32_t *restrict last)
 {
     const double in_last = count - 0.5;
     EACH_TRIANGLE(i)
@@ -119,8 +123,8 @@ static inline void find_cells(const block_reach *reach, double begin, double cou
 
 // Adds to the place: `one` of those within one cell of the lattice, `before` and `behind` of those that reach out of
 // the band. What begins before the band and overlaps it overlaps two cells.
-static inline void find_sides(const block_reach *reach, double begin, double count, double one, double before,
-                              double behind, const int32_t *restrict first, double *restrict place)
+static inline void find_block_sides(const block_reach *reach, double begin, double count, double one, double before,
+                                    double behind, const int32_t *restrict first, double *restrict place)
 {
     EACH_TRIANGLE(i)
     {
@@ -131,7 +135,7 @@ static inline void find_sides(const block_reach *reach, double begin, double cou
 }
 
 // The voxels of the triangles' heights, as tl_voxel_span_of_heights has them.
-static inline void find_voxels(double height_voxels, tl_triangle_block *block, double *restrict place)
+static inline void find_block_voxels(double height_voxels, tl_triangle_block *block, double *restrict place)
 {
     const double *restrict ay = block->lattice[1][0], *restrict by = block->lattice[1][1],
                            *restrict cy = block->lattice[1][2];
@@ -158,28 +162,28 @@ static inline void find_voxels(double height_voxels, tl_triangle_block *block, d
     }
 }
 
-static void place_triangles(const tl_voxel_band *band, tl_triangle_block *block)
+static void block_place_triangles(const tl_voxel_band *band, tl_triangle_block *block)
 {
     const double width = (double)band->width, first_row = (double)band->first_row, rows = (double)band->row_count;
     block_reach x, z;
     double place[TL_TRIANGLE_BLOCK];
-    find_reach(block->lattice[0], &x);
-    find_reach(block->lattice[2], &z);
+    find_block_reach(block->lattice[0], &x);
+    find_block_reach(block->lattice[2], &z);
     if (band->closed_far_side) {
-        close_far_side(width, block->lattice[0], &x);
-        close_far_side((double)band->field_height, block->lattice[2], &z);
+        close_block_side(width, block->lattice[0], &x);
+        close_block_side((double)band->field_height, block->lattice[2], &z);
     }
-    find_voxels((double)band->height_voxels, block, place);
-    find_cells(&x, 0.0, width, block->first_x, block->last_x);
-    find_cells(&z, first_row, rows, block->first_z, block->last_z);
-    find_sides(&x, 0.0, width, TL_PLACE_ONE_COLUMN, TL_PLACE_BEFORE, TL_PLACE_BEHIND, block->first_x, place);
-    find_sides(&z, first_row, rows, TL_PLACE_ONE_ROW, 0.0, 0.0, block->first_z, place);
+    find_block_voxels((double)band->height_voxels, block, place);
+    find_block_cells(&x, 0.0, width, block->first_x, block->last_x);
+    find_block_cells(&z, first_row, rows, block->first_z, block->last_z);
+    find_block_sides(&x, 0.0, width, TL_PLACE_ONE_COLUMN, TL_PLACE_BEFORE, TL_PLACE_BEHIND, block->first_x, place);
+    find_block_sides(&z, first_row, rows, TL_PLACE_ONE_ROW, 0.0, 0.0, block->first_z, place);
     EACH_TRIANGLE(i)
     {
         block->place[i] = (int32_t)place[i];
     }
 }
 
-const tl_block_questions TL_BLOCK_QUESTIONS = { map_corners, place_triangles };
+const tl_block_questions TL_BLOCK_QUESTIONS = { block_map_corners, block_place_triangles };
 
 #undef EACH_TRIANGLE
