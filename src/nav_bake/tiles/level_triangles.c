@@ -55,12 +55,12 @@ static uint64_t cell_count_of(const tl_nav_triangles *t)
     return (uint64_t)t->cells_x * t->cells_z;
 }
 
-static bool bit_is_set(const uint64_t *bits, uint32_t at)
+static bool triangle_bit_is_set(const uint64_t *bits, uint32_t at)
 {
     return (bits[at / TRIANGLES_OF_A_WORD] >> (at % TRIANGLES_OF_A_WORD) & 1) != 0;
 }
 
-static void set_bit(uint64_t *bits, uint32_t at)
+static void set_triangle_bit(uint64_t *bits, uint32_t at)
 {
     bits[at / TRIANGLES_OF_A_WORD] |= UINT64_C(1) << (at % TRIANGLES_OF_A_WORD);
 }
@@ -111,7 +111,7 @@ static uint64_t count_members(tl_nav_triangles *t, const tl_mesh_view *mesh)
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         cell_range range;
         if (!cells_of_triangle(t, mesh, i, &range)) {
-            set_bit(t->is_loose, i);
+            set_triangle_bit(t->is_loose, i);
             continue;
         }
         for (uint32_t z = range.first_z; z < range.end_z; z++) {
@@ -146,7 +146,7 @@ static void list_members(tl_nav_triangles *t, const tl_mesh_view *mesh)
     }
 }
 
-static tl_result sort_triangles(tl_nav_triangles *t, const tl_mesh_view *mesh)
+static tl_result list_all_triangles(tl_nav_triangles *t, const tl_mesh_view *mesh)
 {
     const uint64_t count = count_members(t, mesh);
     if (count >= UINT32_MAX) {
@@ -221,7 +221,7 @@ static tl_result fill_triangles(tl_nav_triangles *t, const tl_mesh_view *mesh, t
     }
     TL_TRY(reserve_bits(t, mesh->triangle_count));
     t->triangle_count = mesh->triangle_count;
-    return sort_triangles(t, mesh);
+    return list_all_triangles(t, mesh);
 }
 
 tl_result tl_nav_triangles_create(const tl_nav_def *def, const tl_mesh_view *mesh, tl_nav_triangles **triangles_out,
@@ -291,12 +291,12 @@ tl_result tl_nav_triangles_change(tl_nav_triangles *triangles, const tl_mesh_vie
     }
     TL_TRY(reserve_bits(t, mesh->triangle_count));
     for (uint32_t i = 0; i < changed_count; i++) {
-        t->changed_count += !bit_is_set(t->is_loose, changed[i]);
-        set_bit(t->is_loose, changed[i]);
+        t->changed_count += !triangle_bit_is_set(t->is_loose, changed[i]);
+        set_triangle_bit(t->is_loose, changed[i]);
     }
     t->triangle_count = mesh->triangle_count;
     if (t->changed_count > FEW_CHANGED && t->changed_count > mesh->triangle_count / MOST_CHANGED_SHARE) {
-        const tl_result result = sort_triangles(t, mesh);
+        const tl_result result = list_all_triangles(t, mesh);
         return result == TL_ERR_MEMORY ? TL_OK : result; // all are loose then: slower, and as right
     }
     return TL_OK;
@@ -310,7 +310,7 @@ static void mark_near(tl_nav_triangles *t, const tl_aabb *window)
     for (uint32_t z = range.first_z; z < range.end_z; z++) {
         const uint32_t *first = t->first + (uint64_t)z * t->cells_x;
         for (uint32_t m = first[range.first_x]; m < first[range.end_x]; m++) {
-            set_bit(t->is_near, t->members[m]);
+            set_triangle_bit(t->is_near, t->members[m]);
         }
     }
 }
