@@ -26,6 +26,7 @@
     COMMAND(hull) \
     COMMAND(support) \
     COMMAND(distance) \
+    COMMAND(decompose) \
     COMMAND(polygonize) \
     COMMAND(export) \
     COMMAND(import)

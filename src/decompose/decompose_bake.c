@@ -2,12 +2,11 @@
 //
 // The decomposition: distances on a grid, cuts until the tolerance holds, merging, and what the caller is told.
 //
-// Of the published ways this one takes from each what the others prove in need of. V-HACD cuts voxels, so its hulls are
-// off by a voxel and a volume decides, which says nothing about the farthest point. CoACD measures what collisions
-// notice, the largest distance, but from samples, by a random tree search that takes minutes, of closed manifold
-// meshes. Here the mesh itself is cut, a grid of true distances compares hundreds of planes at once, and branch and
-// bound proves what a hull reaches. A hull is measured against the whole body, not against its own piece: it may reach
-// into its neighbour for nothing, so fewer parts keep the same tolerance.
+// V-HACD cuts voxels, so its hulls are off by a voxel, and a volume decides, which says nothing about the farthest
+// point. CoACD measures what collisions notice, the largest distance, but from samples, by a tree search with random
+// rollouts, of closed manifold meshes. Here the mesh itself is cut, a grid of true distances compares hundreds of
+// planes at once, and branch and bound proves what a hull reaches. A hull is measured against the whole body, not
+// against its own piece: it may reach into its neighbour for nothing, so fewer parts keep the same tolerance.
 
 #include "base/assert.h"
 #include "base/memory_meter.h"

@@ -96,7 +96,7 @@ static void test_examples_run(void **state)
     for (uint32_t i = 0; i < commands; ++i) {
         examples += run_examples_of(names[i]);
     }
-    TEST_CHECK(commands == 23 && examples >= 3 * commands);
+    TEST_CHECK(commands == 24 && examples >= 3 * commands);
 }
 
 int main(void)

@@ -107,7 +107,7 @@ static void test_every_option_is_there(void **state)
         cli_free(&help);
         cli_free(&page);
     }
-    TEST_CHECK(commands.count == 23 && options > 300);
+    TEST_CHECK(commands.count == 24 && options > 300);
     cli_free(&bash);
     cli_free(&zsh);
     cli_free(&fish);
