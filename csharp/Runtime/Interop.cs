@@ -120,6 +120,12 @@ namespace Talus.Interop
         TL_CHARACTER_CEILING = 3,
     }
 
+    public enum tl_solid_rule
+    {
+        TL_SOLID_ENCLOSED = 0,
+        TL_SOLID_SURFACE = 1,
+    }
+
     public enum tl_partition_method
     {
         TL_PARTITION_CLASSIC = 0,
@@ -1009,6 +1015,51 @@ namespace Talus.Interop
         public tl_character_hit hits_5;
         public tl_character_hit hits_6;
         public tl_character_hit hits_7;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_decompose_def
+    {
+        public float tolerance;
+        public float relative_tolerance;
+        public uint max_parts;
+        public uint max_vertices;
+        public float thickness;
+        public tl_solid_rule solid;
+        public uint max_cells;
+        public tl_host host;
+        public uint cookie;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_convex_part
+    {
+        public tl_hull* hull;
+        public double concavity;
+        public double max_outside;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_decomposition
+    {
+        public tl_convex_part* parts;
+        public uint part_count;
+        public double concavity;
+        public double max_outside;
+        public double hull_volume;
+        public tl_allocator allocator;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_decompose_report
+    {
+        public tl_report @base;
+        public float tolerance;
+        public float cell;
+        public uint degenerate_triangles;
+        public uint cut_count;
+        public uint parts_before_merging;
+        public uint parts_over_tolerance;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -2892,6 +2943,12 @@ namespace Talus.Interop
         public static extern void tl_character_mover_destroy(tl_character_mover* mover);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_character_move(tl_character_mover* mover, tl_character_level* level, tl_character_step* step, tl_character* character, tl_character_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_decompose_def tl_default_decompose_def();
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_decomposition_bake(tl_mesh_view* view, tl_decompose_def* def, tl_decomposition* decomposition_out, tl_decompose_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_decomposition_free(tl_decomposition* decomposition);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_polygon_def tl_default_polygon_def();
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

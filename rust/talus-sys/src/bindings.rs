@@ -82,6 +82,9 @@ pub const TL_CHARACTER_GROUND: tl_character_surface = 0;
 pub const TL_CHARACTER_SLOPE: tl_character_surface = 1;
 pub const TL_CHARACTER_WALL: tl_character_surface = 2;
 pub const TL_CHARACTER_CEILING: tl_character_surface = 3;
+pub type tl_solid_rule = c_int;
+pub const TL_SOLID_ENCLOSED: tl_solid_rule = 0;
+pub const TL_SOLID_SURFACE: tl_solid_rule = 1;
 pub type tl_partition_method = c_int;
 pub const TL_PARTITION_CLASSIC: tl_partition_method = 0;
 pub const TL_PARTITION_OPTIMAL: tl_partition_method = 1;
@@ -843,6 +846,47 @@ pub struct tl_character_report {
     pub sweeps: u32,
     pub hit_count: u32,
     pub hits: [tl_character_hit; 8],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_decompose_def {
+    pub tolerance: f32,
+    pub relative_tolerance: f32,
+    pub max_parts: u32,
+    pub max_vertices: u32,
+    pub thickness: f32,
+    pub solid: tl_solid_rule,
+    pub max_cells: u32,
+    pub host: tl_host,
+    pub cookie: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_convex_part {
+    pub hull: *mut tl_hull,
+    pub concavity: f64,
+    pub max_outside: f64,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_decomposition {
+    pub parts: *mut tl_convex_part,
+    pub part_count: u32,
+    pub concavity: f64,
+    pub max_outside: f64,
+    pub hull_volume: f64,
+    pub allocator: tl_allocator,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_decompose_report {
+    pub base: tl_report,
+    pub tolerance: f32,
+    pub cell: f32,
+    pub degenerate_triangles: u32,
+    pub cut_count: u32,
+    pub parts_before_merging: u32,
+    pub parts_over_tolerance: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -2774,6 +2818,14 @@ extern "C" {
         character: *mut tl_character,
         report_out: *mut tl_character_report,
     ) -> tl_result;
+    pub fn tl_default_decompose_def() -> tl_decompose_def;
+    pub fn tl_decomposition_bake(
+        view: *const tl_mesh_view,
+        def: *const tl_decompose_def,
+        decomposition_out: *mut tl_decomposition,
+        report_out: *mut tl_decompose_report,
+    ) -> tl_result;
+    pub fn tl_decomposition_free(decomposition: *mut tl_decomposition);
     pub fn tl_default_polygon_def() -> tl_polygon_def;
     pub fn tl_polygon_mesh_bake(
         contours: *const tl_contour_set,
@@ -4512,6 +4564,47 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_character_report, sweeps), 104);
         assert_eq!(core::mem::offset_of!(tl_character_report, hit_count), 108);
         assert_eq!(core::mem::offset_of!(tl_character_report, hits), 112);
+        assert_eq!(core::mem::size_of::<tl_decompose_def>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_decompose_def, tolerance), 0);
+        assert_eq!(
+            core::mem::offset_of!(tl_decompose_def, relative_tolerance),
+            4
+        );
+        assert_eq!(core::mem::offset_of!(tl_decompose_def, max_parts), 8);
+        assert_eq!(core::mem::offset_of!(tl_decompose_def, max_vertices), 12);
+        assert_eq!(core::mem::offset_of!(tl_decompose_def, thickness), 16);
+        assert_eq!(core::mem::offset_of!(tl_decompose_def, solid), 20);
+        assert_eq!(core::mem::offset_of!(tl_decompose_def, max_cells), 24);
+        assert_eq!(core::mem::offset_of!(tl_decompose_def, host), 32);
+        assert_eq!(core::mem::offset_of!(tl_decompose_def, cookie), 56);
+        assert_eq!(core::mem::size_of::<tl_convex_part>(), 24);
+        assert_eq!(core::mem::offset_of!(tl_convex_part, hull), 0);
+        assert_eq!(core::mem::offset_of!(tl_convex_part, concavity), 8);
+        assert_eq!(core::mem::offset_of!(tl_convex_part, max_outside), 16);
+        assert_eq!(core::mem::size_of::<tl_decomposition>(), 64);
+        assert_eq!(core::mem::offset_of!(tl_decomposition, parts), 0);
+        assert_eq!(core::mem::offset_of!(tl_decomposition, part_count), 8);
+        assert_eq!(core::mem::offset_of!(tl_decomposition, concavity), 16);
+        assert_eq!(core::mem::offset_of!(tl_decomposition, max_outside), 24);
+        assert_eq!(core::mem::offset_of!(tl_decomposition, hull_volume), 32);
+        assert_eq!(core::mem::offset_of!(tl_decomposition, allocator), 40);
+        assert_eq!(core::mem::size_of::<tl_decompose_report>(), 72);
+        assert_eq!(core::mem::offset_of!(tl_decompose_report, base), 0);
+        assert_eq!(core::mem::offset_of!(tl_decompose_report, tolerance), 48);
+        assert_eq!(core::mem::offset_of!(tl_decompose_report, cell), 52);
+        assert_eq!(
+            core::mem::offset_of!(tl_decompose_report, degenerate_triangles),
+            56
+        );
+        assert_eq!(core::mem::offset_of!(tl_decompose_report, cut_count), 60);
+        assert_eq!(
+            core::mem::offset_of!(tl_decompose_report, parts_before_merging),
+            64
+        );
+        assert_eq!(
+            core::mem::offset_of!(tl_decompose_report, parts_over_tolerance),
+            68
+        );
         assert_eq!(core::mem::size_of::<tl_contour_vertex>(), 16);
         assert_eq!(core::mem::offset_of!(tl_contour_vertex, x), 0);
         assert_eq!(core::mem::offset_of!(tl_contour_vertex, y), 4);
