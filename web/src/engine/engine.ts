@@ -16,6 +16,7 @@ import type {
   LinksAnswer, Obstacle, ObstacleUpdate, OffmeshLink, PathAnswer, Progress, RayHit, RayWalk, SampleInfo, SightAnswer,
   StepsAnswer, Vec3, WhyAnswer,
 } from './protocol';
+import { MOST_OPEN } from './protocol';
 
 /** Layers that are drawn from the data between the stages, which is baked on demand. */
 const STAGE_LAYERS: readonly LayerName[] =
@@ -284,10 +285,11 @@ export class Engine {
   // -------------------------------------------------------------------------------------------------------
   // Questions.
 
-  /** What is seen first: a front, since backs are a haze, or a back where nothing else is. */
+  /** What is seen first: where backs are a haze a front, or a back where nothing else is. */
   pick(origin: Vec3, direction: Vec3): RayHit | null {
     const soup = this.needSoup();
-    const hit = soup.castRay(...origin, ...direction, Infinity, { cull: 'back' }) ?? soup.castRay(...origin, ...direction);
+    const open = soup.stats().sourceTriangleCount <= MOST_OPEN;
+    const hit = (open ? soup.castRay(...origin, ...direction, Infinity, { cull: 'back' }) : null) ?? soup.castRay(...origin, ...direction);
     if (!hit) return null;
     const point = origin.map((v, i) => v + hit.t * direction[i]!) as Vec3;
     return { point, normal: [hit.nx, hit.ny, hit.nz], t: hit.t, triangle: hit.triangle, back: hit.back };

@@ -15,6 +15,9 @@ export interface LevelMesh {
 export type Partition = 'watershed' | 'monotone' | 'layers';
 export type PolygonMethod = 'classic' | 'optimal' | 'delaunay';
 
+/** Triangles of a level whose backs are see-through: for that each is drawn twice, which larger levels are spared. */
+export const MOST_OPEN = 500_000;
+
 /** tl_nav_def: names, units and defaults are those of include/talus/nav_bake.h. */
 export interface BakeSettings {
   cellSize: number;

@@ -1,7 +1,7 @@
 // From a layer's arrays to objects of three.js. Every layer is one group with a few objects in it.
 
 import * as THREE from 'three';
-import type { CellData, LayerData, LineData, TriangleData, Vec3 } from '../engine/protocol';
+import { MOST_OPEN, type CellData, type LayerData, type LineData, type TriangleData, type Vec3 } from '../engine/protocol';
 
 export interface LayerStyle {
   /** 1 opaque. */
@@ -15,8 +15,6 @@ export interface LayerStyle {
 }
 
 const HAZE = 0.16;
-/** Vertices of a layer that is drawn twice, for its haze; larger ones have none, so that they turn as fast as they can. */
-const MOST_HAZE = 1_500_000;
 
 function triangleMeshes(data: TriangleData, style: LayerStyle): THREE.Mesh[] {
   const geometry = new THREE.BufferGeometry();
@@ -29,9 +27,8 @@ function triangleMeshes(data: TriangleData, style: LayerStyle): THREE.Mesh[] {
     };
     return style.lit ? new THREE.MeshLambertMaterial({ ...common, flatShading: true }) : new THREE.MeshBasicMaterial(common);
   };
-  if (!style.openBacks) return [new THREE.Mesh(geometry, material(THREE.DoubleSide, style.opacity))];
-  const front = new THREE.Mesh(geometry, material(THREE.FrontSide, style.opacity));
-  return data.positions.length / 3 > MOST_HAZE ? [front] : [front, new THREE.Mesh(geometry, material(THREE.BackSide, HAZE))];
+  if (!style.openBacks || data.positions.length > 9 * MOST_OPEN) return [new THREE.Mesh(geometry, material(THREE.DoubleSide, style.opacity))];
+  return [new THREE.Mesh(geometry, material(THREE.FrontSide, style.opacity)), new THREE.Mesh(geometry, material(THREE.BackSide, HAZE))];
 }
 
 function lineSegments(data: LineData): THREE.LineSegments {

@@ -3,7 +3,7 @@
 import type { App } from '../app';
 import type { SampleInfo } from '../engine/protocol';
 import { ENDINGS } from '../load/level_file';
-import { bytes, count, facts, fill, h, metres, milliseconds } from './dom';
+import { bytes, count, facts, fill, h, milliseconds } from './dom';
 
 /** The chooser in the top line. */
 export function levelChooser(app: App, openFiles: (files: readonly File[]) => void): { element: HTMLElement; setSamples(samples: readonly SampleInfo[]): void } {
@@ -59,7 +59,7 @@ export function levelPanel(app: App, reopen: () => void): HTMLElement {
   });
   app.session.watch(({ level }, before) => {
     if (level === null || level === before.level && about.childElementCount > 0) return;
-    const size = level.max.map((v, i) => metres(v - level.min[i]!).replace(' m', '')).join(' × ');
+    const size = level.max.map((v, i) => String(Number((v - level.min[i]!).toPrecision(3)))).join(' × ');
     fill(about, facts([
       ['Triangles', count(level.triangles) + (level.degenerate > 0 ? `, ${count(level.degenerate)} without area` : '')],
       ['Size', `${size} m`],

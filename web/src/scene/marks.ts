@@ -31,6 +31,7 @@ export class Marks {
 
   constructor(private stage: Stage, name: string) {
     this.group.name = name;
+    this.group.renderOrder = 100; // after every layer, of which some are transparent too
     stage.scene.add(this.group);
   }
 

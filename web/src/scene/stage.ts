@@ -96,10 +96,12 @@ export class Stage {
     this.render();
   }
 
+  /** From outside, the near plane goes most of the way to the level: then depths behind walls differ from those before. */
   private fitClip(): void {
-    const distance = this.camera.position.length();
-    this.camera.far = distance + 4 * this.radius;
-    this.camera.near = Math.max(this.radius * 1e-4, Math.min(0.1, this.camera.far / 2e4), this.camera.far / 4e5);
+    const eye = this.camera.position;
+    const outside = Math.hypot(...eye.toArray().map((v, i) => Math.max(0, Math.abs(v) - this.size[i]! / 2)));
+    this.camera.far = eye.length() + 4 * this.radius;
+    this.camera.near = Math.max(this.radius * 1e-4, Math.min(0.1, this.camera.far / 2e4), this.camera.far / 4e5, outside / 4);
     this.camera.updateProjectionMatrix();
   }
 
@@ -116,27 +118,32 @@ export class Stage {
 
   /**
    * The nearest camera, looking one way, that has the whole box in the picture, in its middle. A corner at x to the right
-   * and z ahead of the box' centre is in it if |x - shift| <= slope (z + distance): two lines in the plane of shift and
-   * distance. Of all corners' lines the highest of either kind meet at the least distance.
+   * and z ahead of the box' centre is in it if |x - shift| <= slope (z + distance): two lines over the shift. The highest
+   * falling line meets the highest rising one at the least distance.
    */
   showAll(): void {
     const back = new THREE.Vector3(0.55, 0.75, 0.85).normalize();
     const right = new THREE.Vector3(0, 1, 0).cross(back).normalize();
     const up = new THREE.Vector3().crossVectors(back, right);
     const slope = 0.92 * Math.tan((this.camera.fov * Math.PI) / 360);
-    const fit = (axis: THREE.Vector3, tangent: number): { shift: number; distance: number } => {
-      const most = [-Infinity, -Infinity];
-      for (let i = 0; i < 8; i++) {
-        const corner = new THREE.Vector3(...this.size.map((size, k) => (i >> k & 1 ? 0.5 : -0.5) * size));
-        const ahead = -corner.dot(back);
-        [1, -1].forEach((sign, k) => { most[k] = Math.max(most[k]!, (sign * corner.dot(axis)) / tangent - ahead); });
-      }
-      return { shift: (tangent * (most[0]! - most[1]!)) / 2, distance: (most[0]! + most[1]!) / 2 };
+    const corners = Array.from({ length: 8 }, (_, i) =>
+      new THREE.Vector3(...this.size.map((size, k) => (i >> k & 1 ? 0.5 : -0.5) * size)));
+    const least = (axis: THREE.Vector3, tangent: number): number => {
+      const most = (sign: number): number => Math.max(...corners.map((c) => (sign * c.dot(axis)) / tangent + c.dot(back)));
+      return (most(1) + most(-1)) / 2;
     };
-    const x = fit(right, slope * this.camera.aspect);
-    const y = fit(up, slope);
-    this.controls.target.set(0, 0, 0).addScaledVector(right, x.shift).addScaledVector(up, y.shift);
-    this.camera.position.copy(this.controls.target).addScaledVector(back, Math.max(x.distance, y.distance));
+    const distance = Math.max(least(right, slope * this.camera.aspect), least(up, slope));
+    // The shift that leaves as much room on one side as on the other; each round brings the two closer.
+    const middle = (axis: THREE.Vector3): number => {
+      let shift = 0;
+      for (let round = 0; round < 8; round++) {
+        const places = corners.map((c) => (c.dot(axis) - shift) / (distance - c.dot(back)));
+        shift += (distance / 2) * (Math.max(...places) + Math.min(...places));
+      }
+      return shift;
+    };
+    this.controls.target.set(0, 0, 0).addScaledVector(right, middle(right)).addScaledVector(up, middle(up));
+    this.camera.position.copy(this.controls.target).addScaledVector(back, distance);
     this.controls.update();
     this.render();
   }
