@@ -45,8 +45,9 @@ export class Handle {
 
   /** Something in the module points here now: the memory stays until the last one is gone, also when this is freed. */
   _use() {
+    const address = this._address;
     this.#users++;
-    return this._address;
+    return address;
   }
 
   _leave() {

@@ -85,13 +85,11 @@ export class Scene extends Handle {
     if (soup && shape) throw argumentError('soup', 'an instance is a soup or a shape, not both');
     if (soup && !(soup instanceof Soup)) throw argumentError('soup', 'give a Soup');
     if (shape?.type === 'points') throw argumentError('shape', 'give a Hull of the points: a scene keeps its shapes');
-    if (soup || shape) this.#use(index, soup ?? isHull(shape));
     if (soup) wasm.js_scene_set(scene, index, soup._address, 0);
     else if (shape) withShapes([[0, shape]], () => wasm.js_scene_set(scene, index, 0, 1));
-    else if (soup === null || shape === null) {
-      wasm.js_scene_set(scene, index, 0, 0);
-      this.#use(index, null);
-    }
+    else if (soup === null || shape === null) wasm.js_scene_set(scene, index, 0, 0);
+    // Only now: what the instance pointed to may be let go.
+    if (soup !== undefined || shape !== undefined) this.#use(index, soup ?? (shape ? isHull(shape) : null));
     if (change.pose !== undefined) {
       putPose(0, change.pose);
       wasm.js_scene_place(scene, index);

@@ -53,6 +53,9 @@ test('instances move, change and are ignored', () => {
   scene.rebake();
   assert.deepEqual([down(-3).t, scene.castRay(0, 30, 0, 0, -1, 0).instance], [9, 2]);
   assert.equal(errorOf(() => scene.set(3, {})).field, 'index');
+  assert.equal(errorOf(() => scene.set(0, { shape: { type: 'capsule', radius: 1 } })).field, 'shape');
+  scene.refit();
+  assert.equal(down(-3).t, 9, 'what was there stays');
   assert.equal(errorOf(() => Scene.bake([{ shape: { type: 'points', points: [0, 0, 0] } }])).field, 'shape');
   const wrong = errorOf(() => Scene.bake([{}, { shape: BALL, pose: { position: [NaN, 0, 0] } }]));
   assert.deepEqual([wrong.result, wrong.elementIndex], ['TL_ERR_NOT_FINITE', 1]);
