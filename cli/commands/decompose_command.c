@@ -2,66 +2,16 @@
 //
 // talus decompose: a mesh into convex parts, measured and written.
 
+#include "cli/commands/decompose_files.h"
 #include "cli/level/load_level.h"
 #include "cli/options/output_check.h"
 #include "cli/shared/json_out.h"
-#include "io/mesh/obj_write.h"
 
 #include <talus/decompose.h>
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-// One object a part, of polygons, moved aside.
-static tl_result write_convex_part(tl_obj_writer *writer, const tl_hull *hull, uint32_t index, tl_vec3 shift)
-{
-    const uint32_t room = hull->half_edge_count;
-    uint32_t *corners = malloc(room * sizeof(*corners));
-    tl_vec3 *vertices = malloc(hull->vertex_count * sizeof(*vertices));
-    if (corners == NULL || vertices == NULL) {
-        free(corners);
-        free(vertices);
-        return TL_ERR_MEMORY;
-    }
-    for (uint32_t i = 0; i < hull->vertex_count; ++i) {
-        vertices[i] = tl_add(tl_hull_vertices(hull)[i], shift);
-    }
-    char name[24];
-    snprintf(name, sizeof(name), "part_%u", index);
-    tl_obj_writer_object(writer, name);
-    const uint32_t first = tl_obj_writer_vertices(writer, vertices, hull->vertex_count);
-    for (uint32_t i = 0; i < hull->face_count; ++i) {
-        const tl_hull_face face = tl_hull_face_at(hull, i);
-        for (uint32_t k = 0; k < face.count; ++k) {
-            corners[k] = first + tl_hull_edge_origin(hull, face.first + k);
-        }
-        tl_obj_writer_face(writer, corners, face.count);
-    }
-    free(corners);
-    free(vertices);
-    return TL_OK;
-}
-
-static tl_result write_decomposition(const tl_decomposition *d, float apart, const char *output, tl_io_error *error)
-{
-    tl_obj_writer *writer;
-    tl_result result = tl_obj_writer_open(output, &writer, error);
-    tl_aabb box = tl_aabb_empty();
-    for (uint32_t i = 0; i < d->part_count; ++i) {
-        box = tl_aabb_union(box, d->parts[i].hull->bounds);
-    }
-    const tl_vec3 middle = tl_aabb_center(box);
-    for (uint32_t i = 0; i < d->part_count && result == TL_OK; ++i) {
-        const tl_vec3 way = tl_sub(tl_aabb_center(d->parts[i].hull->bounds), middle);
-        result = write_convex_part(writer, d->parts[i].hull, i, tl_scale(way, apart));
-        if (result != TL_OK) {
-            tl_obj_writer_abort(writer);
-            return tl_io_fail(error, result, output, 0, NULL, "out of memory");
-        }
-    }
-    return result == TL_OK ? tl_obj_writer_commit(writer, error) : result;
-}
 
 static json_t *decomposition_json(const tl_decomposition *d, const tl_decompose_report *report)
 {
@@ -110,7 +60,8 @@ static tl_exit decompose_level(tl_cli *cli, const tl_level *level, tl_decompose_
         return tl_cli_fail_result(cli, cli->arguments.words[0], result, &report.base);
     }
     tl_exit code = TL_EXIT_OK;
-    if (output != NULL && write_decomposition(&decomposition, apart, output, &error) != TL_OK) {
+    if (output != NULL &&
+        tl_decomposition_write(&decomposition, apart, output, cli->arguments.words[0], &cli->host, &error) != TL_OK) {
         code = tl_cli_fail_io(cli, &error);
     } else if (output != NULL && strcmp(output, "-") == 0) {
         code = TL_EXIT_OK; // the parts themselves went to standard output
@@ -134,10 +85,10 @@ static tl_exit run_decompose(tl_cli *cli)
     bool surface = false;
     tl_decompose_def def = tl_default_decompose_def();
     tl_level_settings settings = tl_default_level_settings();
-    static const char *const endings[] = { ".obj", NULL };
+    static const char *const endings[] = { ".obj", ".png", ".svg", NULL };
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_OUTPUT, &output, "FILE", "where to write the parts, an object each", endings, 0, 0,
-          0, 0 },
+        { "output", 'o', TL_OPTION_OUTPUT, &output, "FILE", "where to write the parts: objects, or a picture of them",
+          endings, 0, 0, 0, 0 },
         { "tolerance", 't', TL_OPTION_FLOAT, &def.tolerance, "M",
           "metres: the concavity a part may have; 0: as --relative-tolerance says", NULL, 0, 1e6f, 0, 0 },
         { "relative-tolerance", 0, TL_OPTION_FLOAT, &def.relative_tolerance, "R",
@@ -175,12 +126,13 @@ const tl_command tl_decompose_command = {
     "decompose",
     "Convex hulls",
     "divide a mesh into convex parts",
-    "MESH [-o PARTS.obj] [options]",
+    "MESH [-o PARTS.obj|PICTURE.png] [options]",
     "Divides a mesh into few convex parts, none of which reaches farther from the mesh, or from what it\n"
     "encloses, than a tolerance. Prints how many there are, and two bounds: how far the parts reach beyond\n"
     "the mesh (concavity), and how far the mesh reaches beyond the parts (outside).",
     "talus sample dungeon -o dungeon.obj\n"
     "talus decompose dungeon.obj --surface --tolerance 2 -o parts.obj\n"
+    "talus decompose dungeon.obj --surface --tolerance 2 --apart 0.5 -o parts.png\n"
     "talus decompose dungeon.obj --surface --max-parts 8 --tolerance 2 --json",
     run_decompose,
 };
