@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
+use std::collections::HashMap;
 use std::ptr::null_mut;
+use std::sync::Arc;
 
 use talus_sys as sys;
 
-use crate::shapes::vec3;
+use crate::shapes::{vec3, Hull, Pose, Shape};
 use crate::soup::view;
 use crate::{Draft, Error, Navmesh, NavmeshSettings, Point};
 
@@ -30,6 +32,20 @@ pub enum Obstacle {
         /// Radians: its own x points to (cos, -sin) in the plane of x and z.
         turned: f32,
     },
+    /// A box at any pose, about its middle.
+    Cuboid {
+        /// Half its extents along its own axes, metres, >= 0.
+        half_extents: Point,
+        /// Where its middle is, and how it is turned.
+        pose: Pose,
+    },
+    /// All that is as near to a segment as the radius.
+    Capsule {
+        /// Ends of the segment, metres.
+        ends: [Point; 2],
+        /// Metres, >= 0.
+        radius: f32,
+    },
 }
 
 impl Obstacle {
@@ -46,9 +62,28 @@ impl Obstacle {
                 (raw.base, raw.half_x, raw.half_z, raw.height) = (vec3(base), x, z, height);
                 (raw.sine, raw.cosine) = turned.sin_cos();
             }
+            Obstacle::Cuboid { half_extents, pose } => {
+                return raw_convex(&Shape::cuboid([0.0; 3], half_extents, 0.0), &pose);
+            }
+            Obstacle::Capsule { ends: [a, b], radius } => {
+                // Its place is the middle: far away the ends would lose their digits.
+                let middle = [0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis]));
+                let from_middle = |end: Point| [0, 1, 2].map(|axis| end[axis] - middle[axis]);
+                let shape = Shape::capsule(from_middle(a), from_middle(b), radius);
+                return raw_convex(&shape, &Pose::at(middle));
+            }
         }
         raw
     }
+}
+
+fn raw_convex(shape: &Shape<'_>, pose: &Pose) -> sys::tl_nav_obstacle {
+    // SAFETY: a plain struct, of which all bits may be 0; the shape's pointer is valid.
+    let mut raw: sys::tl_nav_obstacle = unsafe { std::mem::zeroed() };
+    raw.shape = sys::TL_NAV_OBSTACLE_CONVEX;
+    raw.convex = unsafe { *shape.raw() };
+    raw.pose = pose.raw();
+    raw
 }
 
 /// The name of an obstacle, until it is removed. It is not used again.
@@ -79,6 +114,8 @@ pub struct ObstacleId(sys::tl_nav_obstacle_id);
 /// ```
 pub struct Obstacles {
     at: *mut sys::tl_nav_obstacles,
+    /// What obstacles borrow.
+    hulls: HashMap<ObstacleId, Arc<Hull>>,
 }
 
 // SAFETY: its memory is its own; it may move to another thread, and is not shared, since the pointer is not Sync.
@@ -115,7 +152,7 @@ impl Obstacles {
             let mut report: sys::tl_nav_bake_report = std::mem::zeroed();
             let result = sys::tl_nav_obstacles_bake(&def, &input, &mut at, null_mut(), &mut report);
             Error::check(result, Some(&report.base))?;
-            let obstacles = Obstacles { at };
+            let obstacles = Obstacles { at, hulls: HashMap::new() };
             let [x, z] = &mut grid;
             let result = sys::tl_nav_tile_grid(&def, def.bounds, x, z, &mut report.base);
             Error::check(result, Some(&report.base))?;
@@ -130,11 +167,25 @@ impl Obstacles {
     /// # Errors
     /// [`ErrorKind::Argument`](crate::ErrorKind) and `NotFinite` name a field; `Memory`.
     pub fn add(&mut self, obstacle: &Obstacle) -> Result<ObstacleId, Error> {
+        self.add_raw(&obstacle.raw())
+    }
+
+    /// Adds a hull at a pose.
+    ///
+    /// # Errors
+    /// As of [`Obstacles::add`].
+    pub fn add_hull(&mut self, hull: &Arc<Hull>, pose: &Pose) -> Result<ObstacleId, Error> {
+        let id = self.add_raw(&raw_convex(&Shape::hull(hull, 0.0), pose))?;
+        self.hulls.insert(id, Arc::clone(hull));
+        Ok(id)
+    }
+
+    fn add_raw(&mut self, raw: &sys::tl_nav_obstacle) -> Result<ObstacleId, Error> {
         let mut id = 0;
         // SAFETY: the obstacles are whole, outputs are valid.
         unsafe {
             let mut report = std::mem::zeroed();
-            Error::check(sys::tl_nav_obstacles_add(self.at, &obstacle.raw(), &mut id, &mut report), Some(&report))?;
+            Error::check(sys::tl_nav_obstacles_add(self.at, raw, &mut id, &mut report), Some(&report))?;
         }
         Ok(ObstacleId(id))
     }
@@ -144,10 +195,26 @@ impl Obstacles {
     /// # Errors
     /// As of [`Obstacles::add`]; [`ErrorKind::Stale`](crate::ErrorKind): there is no such obstacle.
     pub fn change(&mut self, id: ObstacleId, obstacle: &Obstacle) -> Result<(), Error> {
+        self.change_raw(id, &obstacle.raw())?;
+        self.hulls.remove(&id);
+        Ok(())
+    }
+
+    /// Moves a hull, or makes an obstacle a hull.
+    ///
+    /// # Errors
+    /// As of [`Obstacles::change`].
+    pub fn change_hull(&mut self, id: ObstacleId, hull: &Arc<Hull>, pose: &Pose) -> Result<(), Error> {
+        self.change_raw(id, &raw_convex(&Shape::hull(hull, 0.0), pose))?;
+        self.hulls.insert(id, Arc::clone(hull));
+        Ok(())
+    }
+
+    fn change_raw(&mut self, id: ObstacleId, raw: &sys::tl_nav_obstacle) -> Result<(), Error> {
         // SAFETY: the obstacles are whole, the output is valid.
         unsafe {
             let mut report = std::mem::zeroed();
-            Error::check(sys::tl_nav_obstacles_move(self.at, id.0, &obstacle.raw(), &mut report), Some(&report))
+            Error::check(sys::tl_nav_obstacles_move(self.at, id.0, raw, &mut report), Some(&report))
         }
     }
 
@@ -157,7 +224,9 @@ impl Obstacles {
     /// [`ErrorKind::Stale`](crate::ErrorKind): there is no such obstacle.
     pub fn remove(&mut self, id: ObstacleId) -> Result<(), Error> {
         // SAFETY: the obstacles are whole.
-        Error::check(unsafe { sys::tl_nav_obstacles_remove(self.at, id.0) }, None)
+        Error::check(unsafe { sys::tl_nav_obstacles_remove(self.at, id.0) }, None)?;
+        self.hulls.remove(&id);
+        Ok(())
     }
 
     /// Tiles that wait to be baked again.

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::Arc;
 
 use talus::{
-    AgentSettings, AgentStatus, Crowd, CrowdSettings, ErrorKind, Interest, Level, Link, NavVersions, Navmesh,
-    NavmeshSettings, Obstacle, Obstacles, Point, World, WorldPoint, WorldSettings, WorldState, WorldStatus,
+    AgentSettings, AgentStatus, Crowd, CrowdSettings, ErrorKind, Hull, Interest, Level, Link, NavVersions, Navmesh,
+    NavmeshSettings, Obstacle, Obstacles, Point, Pose, World, WorldPoint, WorldSettings, WorldState, WorldStatus,
 };
 
 const START: Point = [2.0, 0.0, 15.0];
@@ -73,6 +73,37 @@ fn edits_are_seen_when_they_are_published() {
     assert_eq!(obstacles.remove(wall).unwrap_err().kind(), ErrorKind::Stale);
     let wrong = Obstacle::Cylinder { base: [0.0; 3], radius: -1.0, height: 2.0 };
     assert_eq!(obstacles.add(&wrong).unwrap_err().field(), Some("radius"));
+}
+
+#[test]
+fn obstacles_of_any_shape() {
+    let (mut obstacles, navmesh) = with_obstacles();
+    let versions = NavVersions::new(&navmesh).unwrap();
+    let straight = length(&navmesh);
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let on_its_side = Pose { rotation: [half, 0.0, 0.0, half], position: [15.0, 1.0, 15.0] };
+    let corners: Vec<Point> =
+        (0..8).map(|k| [[-1.0, 1.0][k & 1], [-10.0, 10.0][k >> 1 & 1], [-1.0, 1.0][k >> 2]]).collect();
+    let hull = Arc::new(Hull::bake(&corners).unwrap());
+    let id = obstacles.add_hull(&hull, &on_its_side).unwrap();
+    let around = |obstacles: &mut Obstacles| {
+        let mut draft = versions.edit().unwrap();
+        while obstacles.update(&mut draft, 100).unwrap() > 0 {}
+        length(&draft.publish())
+    };
+    let by_hull = around(&mut obstacles);
+    assert!(by_hull > straight + 1.0);
+    obstacles.change(id, &Obstacle::Cuboid { half_extents: [1.0, 10.0, 1.0], pose: on_its_side }).unwrap();
+    assert_eq!(Arc::strong_count(&hull), 1);
+    assert_eq!(around(&mut obstacles), by_hull);
+    let ends = [[15.0, 1.0, 5.0], [15.0, 1.0, 25.0]];
+    obstacles.change(id, &Obstacle::Capsule { ends, radius: 1.0 }).unwrap();
+    assert!(around(&mut obstacles) > straight + 1.0);
+    let far_above = Pose::at([15.0, 40.0, 15.0]);
+    obstacles.change_hull(id, &hull, &far_above).unwrap();
+    assert_eq!(around(&mut obstacles), straight);
+    obstacles.remove(id).unwrap();
+    assert_eq!(Arc::strong_count(&hull), 1);
 }
 
 #[test]
