@@ -30,12 +30,24 @@ static void write_far_courtyard(const char *path, double east, double up, double
 static void test_far_level_is_told(void **state)
 {
     (void)state;
-    write_far_courtyard("far.obj", 500000.0, 200.0, 4649000.0);
+    write_far_courtyard("far.obj", 500000.0, 200.0, 3000000.0);
     cli_result bake = cli_run_with(NULL, "bake far.obj -o far.talus");
-    cli_check_part(bake.err, "floats step by 0.5 m there");
+    cli_check_part(bake.err, "floats step by 0.25 m there");
     cli_check_part(bake.err, "give --origin auto");
     cli_check_part(bake.out, "dropped  ");
     cli_check_part(bake.out, " without area in floats, ");
+    cli_free(&bake);
+}
+
+// Farther out floats are no finer than the cells.
+static void test_farther_level_is_refused(void **state)
+{
+    (void)state;
+    write_far_courtyard("farther.obj", 500000.0, 200.0, 4649000.0);
+    cli_result bake = cli_expect(3, "bake farther.obj -o farther.talus");
+    cli_check_part(bake.err, "floats step by 0.5 m there");
+    cli_check_part(bake.err, "give --origin auto");
+    cli_check_part(bake.err, "--cell-size");
     cli_free(&bake);
 }
 
@@ -106,9 +118,8 @@ static void test_dropped_triangles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_far_level_is_told),
-        cmocka_unit_test(test_origin_keeps_the_level),
-        cmocka_unit_test(test_near_levels_are_read_as_ever),
+        cmocka_unit_test(test_far_level_is_told),      cmocka_unit_test(test_farther_level_is_refused),
+        cmocka_unit_test(test_origin_keeps_the_level), cmocka_unit_test(test_near_levels_are_read_as_ever),
         cmocka_unit_test(test_dropped_triangles),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);

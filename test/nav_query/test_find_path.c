@@ -8,6 +8,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <talus/nav_state.h>
 
 // The search graph, written out: node 0 is the start, then one node a link.
 typedef struct way_graph {
@@ -168,14 +169,14 @@ static void check_chain(const tl_navmesh *navmesh, const tl_nav_filter *filter, 
     }
 }
 
-// Costs and flags by polygon: the tile's own arrays, which may hold any flags.
 static void randomize_flags(tl_navmesh *navmesh, test_random *random)
 {
     for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
         const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
-        uint64_t *flags = (uint64_t *)((uintptr_t)tile + tile->flags);
-        for (uint32_t p = 0; p < tile->polygon_count; p++) {
-            flags[p] = test_random_below(random, 12) == 0 ? 2 : 1;
+        const uint32_t polygon_count = tile != NULL ? tile->polygon_count : 0;
+        for (uint32_t p = 0; p < polygon_count; p++) {
+            const uint64_t flags = test_random_below(random, 12) == 0 ? 2 : 1;
+            TEST_RESULT(tl_navmesh_set_polygon_flags(navmesh, tl_navmesh_polygon_ref(navmesh, slot, p), flags), TL_OK);
         }
     }
 }
