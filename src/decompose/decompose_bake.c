@@ -84,12 +84,12 @@ static tl_result choose_tolerance(tl_decomposer *d, const tl_soup *soup)
     const float longest = tl_maxf(extent.x, tl_maxf(extent.y, extent.z));
     const float largest = tl_maxf(size.x, tl_maxf(size.y, size.z));
     const float tolerance = d->def->tolerance > 0.0f ? d->def->tolerance : d->def->relative_tolerance * longest;
-    if (!(tolerance >= TOLERANCE_ROUNDINGS * TL_FLOAT_ROUNDING * largest)) {
+    if (!(tolerance >= (float)TOLERANCE_ROUNDINGS * TL_FLOAT_ROUNDING * largest)) {
         return tl_report_field(&d->report->base, TL_ERR_RANGE, "tolerance",
                                "make it larger, or move the mesh to the origin");
     }
     d->tolerance = (double)tolerance;
-    d->thickness = d->def->thickness > 0.0f ? d->def->thickness : tolerance / THICKNESS_SHARE;
+    d->thickness = d->def->thickness > 0.0f ? d->def->thickness : tolerance / (float)THICKNESS_SHARE;
     d->report->tolerance = tolerance;
     return TL_OK;
 }
@@ -120,7 +120,8 @@ typedef struct part_finish {
 // The hull that the caller gets, and both of its bounds.
 static tl_result finish_part(const tl_decomposer *d, const tl_part *part, tl_convex_part *out)
 {
-    const tl_concavity_goal goal = { 0.0, (double)INFINITY, d->tolerance / FINAL_PRECISION_SHARE, FINAL_PROOF_BUDGET };
+    const tl_concavity_goal goal = { 0.0, (double)INFINITY, d->tolerance / (double)FINAL_PRECISION_SHARE,
+                                     FINAL_PROOF_BUDGET };
     tl_hull_def def = tl_default_hull_def();
     tl_hull_report report;
     tl_concavity concavity;

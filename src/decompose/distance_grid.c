@@ -39,14 +39,14 @@ typedef struct grid_job {
 
 static double cells_along(double extent, double cell)
 {
-    return ceil(extent / cell) + 2.0 * RIM_CELLS;
+    return ceil(extent / cell) + 2.0 * (double)RIM_CELLS;
 }
 
 // The side of the cells: as the tolerance asks, or as many as there may be.
 static double choose_cell(tl_vec3d extent, double tolerance, uint32_t max_cells)
 {
     const double longest = tl_max_f64(extent.x, tl_max_f64(extent.y, extent.z));
-    double cell = tl_min_f64(tolerance / CELLS_PER_TOLERANCE, longest / FEWEST_CELLS);
+    double cell = tl_min_f64(tolerance / (double)CELLS_PER_TOLERANCE, longest / (double)FEWEST_CELLS);
     while (cells_along(extent.x, cell) * cells_along(extent.y, cell) * cells_along(extent.z, cell) >
            (double)max_cells) {
         cell *= 1.03125;
