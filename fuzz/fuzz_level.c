@@ -153,7 +153,8 @@ static void ask_path(level *l, tl_nav_query *query)
     const tl_result result = tl_nav_query_find_route(query, l->navmesh, &request, &buffers, &route);
     require(!tl_is_error(result) || result == TL_ERR_NOT_FINITE || result == TL_ERR_NODES);
     if (result == TL_OK) {
-        const float straight = tl_length(tl_sub(route.goal.point, route.start.point));
+        const tl_vec3 way = tl_sub(route.goal.point, route.start.point);
+        const float straight = hypotf(way.x, way.z); // lengths are in the plane
         require(route.corner_count >= 2 && isfinite(route.length));
         require(route.path.status != TL_NAV_PATH_COMPLETE || route.length >= 0.999f * straight - 1e-4f);
     }
