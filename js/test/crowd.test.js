@@ -85,7 +85,10 @@ test('a group follows its leader in its formation', () => {
   assert.ok(agents.slice(1).every((a) => crowd.agent(a).position[0] < crowd.agent(agents[0]).position[0] - 0.4)); // behind it
   crowd.setFormation(group, { formation: 'slots', slots: [0, 1, 0, -1, 0, 2, 0, -2], keepOrder: true });
   for (let step = 0; step < 200; step++) crowd.step(1 / 20);
-  assert.ok(agents.every((a) => Math.abs(crowd.agent(a).position[0] - crowd.agent(agents[0]).position[0]) < 0.5)); // abreast
+  const { heading } = crowd.group(group), at = crowd.agent(agents[0]).position;
+  const ahead = ([x, , z]) => (x - at[0]) * heading[0] + (z - at[2]) * heading.at(-1);
+  assert.ok(agents.every((a) => Math.abs(ahead(crowd.agent(a).position)) < 0.2)); // abreast
+  assert.ok(heading[0] > 0.9);
   assert.equal(errorOf(() => crowd.setFormation(group, { formation: 'slots', slots: [0, 1] })).field, 'slots');
   assert.equal(errorOf(() => crowd.setFormation(group, { formation: 'square' })).field, 'formation');
   assert.equal(errorOf(() => crowd.setGoal(agents[1], [0, 0, 0])).result, 'TL_ERR_ARGUMENT'); // it follows
