@@ -10,7 +10,8 @@
 
 #include <math.h>
 
-// A plane whose normal leans less along x than this bounds no x: it decides on whole rows.
+// Of unit normals, no unit. A plane that leans less along x bounds no x: it decides on whole rows. What is lost along
+// a row, this times its length, is counted as noise below.
 static const double LEAST_LEAN = 1e-9;
 
 static void put_row_plane(tl_row_plane *out, const tl_hull_plane *plane, double half, double noise)
