@@ -23,7 +23,11 @@
 #include <string.h>
 
 // Blocks from the middle to a side, at most: beyond, blocks are several columns wide.
-enum { MAX_FLOOR_SIDE = 26, MAX_FLOOR_WIDTH = 2 * MAX_FLOOR_SIDE + 1 };
+enum { MAX_FLOOR_SIDE = 26 };
+
+// A block's parent lies in the ring before its own, so the floors of the last two rings are all that is kept: at most
+// 8 (26 + 25) of them.
+enum { KEPT_FLOORS = 512 };
 
 // A floor that varies less than this share of a voxel is flat: it may still round to two neighbouring voxels.
 #define FLAT_SHARE 0.02f
@@ -189,24 +193,25 @@ bool tl_audit_is_certain(const tl_audit_job *job, const tl_audit_window *window,
 {
     const tl_nav_config *config = &job->scene.config;
     const float edge = config->cell_size * (float)window->block_columns, climb = level_climb(config);
-    level_floor floors[MAX_FLOOR_WIDTH * MAX_FLOOR_WIDTH];
-    TL_ASSERT(window->count <= TL_COUNT_OF(floors));
+    level_floor floors[KEPT_FLOORS];
     if (config->walkable_climb == 0) {
         return false; // two floors of one height may round to two voxels, which no climb of 0 crosses
     }
     for (uint32_t i = 0; i < window->count; i++) {
         const tl_audit_block *block = &window->blocks[i];
-        const float before = i > 0 ? floors[block->parent].y : point.y;
+        level_floor *floor = &floors[i % KEPT_FLOORS];
+        const level_floor *parent = &floors[block->parent % KEPT_FLOORS];
+        TL_ASSERT(i - block->parent < KEPT_FLOORS);
+        const float before = i > 0 ? parent->y : point.y;
         tl_vec3 at = { point.x + edge * (float)block->x, before, point.z + edge * (float)block->z };
-        if (!find_level_floor(job, climb, at, &floors[i])) {
+        if (!find_level_floor(job, climb, at, floor)) {
             return false;
         }
         // A column's voxel is as high as its highest corner.
-        const float bend = SQRT_2 * 0.5f * edge * fabsf(floors[i].rise - floors[block->parent].rise);
-        at.y = floors[i].y;
+        const float bend = SQRT_2 * 0.5f * edge * fabsf(floor->rise - parent->rise);
+        at.y = floor->y;
         if (fabsf(at.y - before) + bend > climb ||
-            (block->is_walked &&
-             !is_free_above(job, 0.5f * edge + TOUCH_SHARE * config->cell_size, at, floors[i].rise))) {
+            (block->is_walked && !is_free_above(job, 0.5f * edge + TOUCH_SHARE * config->cell_size, at, floor->rise))) {
             return false;
         }
     }

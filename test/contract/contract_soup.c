@@ -264,7 +264,7 @@ static tl_result find_contacts(contract_run *run)
     const tl_soup_contact_query query = {
         &shape, pose_of(run, tl_vec3_make(8, 1, 10)), { 0.01f, 0.01f, 0 }, filter_of(run, &filter)
     };
-    tl_soup_contact found[32];
+    static tl_soup_contact found[32]; // 16 KB
     memset(found, 0, sizeof found);
     uint32_t all, count = 99;
     TEST_RESULT(tl_soup_find_contacts(soup, &query, NULL, 0, &all), TL_INCOMPLETE);
