@@ -48,7 +48,7 @@ typedef struct tl_scene tl_scene;
 
 /// "tlsc" in memory.
 #define TL_SCENE_MAGIC   0x63736c74u
-#define TL_SCENE_VERSION 1u
+#define TL_SCENE_VERSION 2u
 
 /// The largest number of instances of a scene.
 #define TL_MAX_SCENE_INSTANCES 0x0fffffffu

@@ -75,12 +75,37 @@ tl_result tl_scene_read_instance(const tl_scene_instance *instance, tl_aabb *loc
     return tl_aabb_is_empty(*local_out) ? TL_ERR_ARGUMENT : TL_OK;
 }
 
+// In double, rounded once; nothing is here: a point.
+static tl_scene_own_box own_box(const tl_frame *frame, tl_vec3 position, tl_aabb local)
+{
+    tl_vec3d low = tl_vec3d_make(0.0, 0.0, 0.0), high = low;
+    if (!tl_aabb_is_empty(local)) {
+        low = tl_vec3d_from(local.min);
+        high = tl_vec3d_from(local.max);
+    }
+    tl_vec3d middle = tl_vec3d_scale(tl_vec3d_add(low, high), 0.5), at = tl_vec3d_from(position);
+    tl_vec3d half = tl_vec3d_scale(tl_vec3d_sub(high, low), 0.5);
+    const tl_vec3d *r = frame->rows;
+    tl_vec3d local_at =
+        tl_vec3d_make(r[0].x * at.x + r[1].x * at.y + r[2].x * at.z, r[0].y * at.x + r[1].y * at.y + r[2].y * at.z,
+                      r[0].z * at.x + r[1].z * at.y + r[2].z * at.z);
+    tl_scene_own_box own;
+    for (int i = 0; i < 3; i++) {
+        own.axes[i] = tl_vec3d_to_float(r[i]);
+    }
+    own.offset = tl_vec3d_to_float(tl_vec3d_neg(tl_vec3d_add(local_at, middle)));
+    own.half = tl_vec3d_to_float(half);
+    own.size = (float)(tl_vec3d_size(at) + tl_vec3d_size(middle) + tl_vec3d_size(half));
+    return own;
+}
+
 void tl_scene_place_instance(tl_scene_record *record, tl_transform pose, tl_aabb local)
 {
     tl_frame frame = tl_frame_from(pose);
     for (int i = 0; i < 3; i++) {
         record->rows[i] = frame.rows[i];
     }
+    record->own = own_box(&frame, pose.position, local);
     record->pose = pose;
     record->local = local;
 }

@@ -22,12 +22,13 @@ static void begin_ray_search(tl_scene_ray_search *s, const tl_scene *scene, cons
     s->instance = TL_NO_INSTANCE;
 }
 
-bool tl_scene_ray_meets_shape(const tl_scene_ray_search *s, uint32_t instance, tl_scene_hit *hit)
+bool tl_scene_ray_meets_shape(const tl_scene_line *line, uint32_t instance, tl_scene_hit *hit)
 {
+    const tl_scene_ray_search *s = line->user;
     tl_convex_hit found;
     const tl_convex *shape = s->instances[instance].shape;
     if (shape == NULL ||
-        !tl_convex_cast_ray(shape, s->records[instance].pose, s->ray.origin, s->ray.direction, s->ray.tmax, &found)) {
+        !tl_convex_cast_ray(shape, s->records[instance].pose, line->from, line->direction, s->whole, &found)) {
         return false;
     }
     if (hit != NULL) {
@@ -41,13 +42,29 @@ bool tl_scene_ray_meets_shape(const tl_scene_ray_search *s, uint32_t instance, t
     return true;
 }
 
+// Without a branch a coordinate: 0 times what is not finite is no number.
 static bool is_castable(const tl_ray *ray)
 {
-    tl_vec3 d = ray->direction;
+    tl_vec3 o = ray->origin, d = ray->direction;
     bool moves = (d.x != 0.0f) | (d.y != 0.0f) | (d.z != 0.0f);
-    return moves && tl_is_finite(ray->origin) && tl_is_finite(d) && ray->tmax >= 0.0f;
+    float zero = 0.0f * o.x + 0.0f * o.y + 0.0f * o.z + 0.0f * d.x + 0.0f * d.y + 0.0f * d.z;
+    return moves & (zero == 0.0f) & (ray->tmax >= 0.0f);
 }
 
+// The best hit as it is reported.
+static void report_best(const tl_scene_ray_search *s, tl_scene_hit *hit_out)
+{
+    if (s->hit != hit_out) {
+        *hit_out = *s->hit;
+    }
+    hit_out->instance = s->instance;
+    if (hit_out->hit.triangle != TL_NO_TRIANGLE) {
+        hit_out->hit.normal = tl_scene_direction_to_world(&s->records[s->instance], hit_out->hit.normal);
+    }
+}
+
+// Of the two places for hits one is the caller's: mostly the first hit is the best, and a copy would wait for what was
+// just written piece by piece.
 bool tl_scene_cast_ray_with(tl_scene_walk_fn *walk, const tl_scene *scene, const tl_scene_instance *instances,
                             const tl_ray *ray, const tl_scene_filter *filter, tl_scene_hit *hit_out)
 {
@@ -57,11 +74,10 @@ bool tl_scene_cast_ray_with(tl_scene_walk_fn *walk, const tl_scene *scene, const
     }
     tl_scene_ray_search s;
     begin_ray_search(&s, scene, instances, filter);
-    s.ray = *ray;
-    s.tmax = ray->tmax;
-    tl_scene_hit rooms[2];
-    s.hit = hit_out != NULL ? &rooms[0] : NULL;
-    s.candidate = &rooms[1];
+    s.whole = s.tmax = ray->tmax;
+    tl_scene_hit other;
+    s.hit = hit_out != NULL ? &other : NULL;
+    s.candidate = hit_out;
     tl_scene_line line;
     tl_scene_line_make(&line, scene, tl_scene_mask(filter), ray->origin, ray->direction, ray->tmax);
     line.kind = TL_SCENE_LINE_RAY;
@@ -73,11 +89,7 @@ bool tl_scene_cast_ray_with(tl_scene_walk_fn *walk, const tl_scene *scene, const
         return false;
     }
     if (hit_out != NULL) {
-        *hit_out = *s.hit;
-        hit_out->instance = s.instance;
-        if (hit_out->hit.triangle != TL_NO_TRIANGLE) {
-            hit_out->hit.normal = tl_scene_direction_to_world(&s.records[s.instance], s.hit->hit.normal);
-        }
+        report_best(&s, hit_out);
     }
     return true;
 }
@@ -102,13 +114,14 @@ static bool precedes_point(tl_vec3 a, tl_vec3 b)
 }
 
 // A shape blocks the view where the segment touches it.
-bool tl_scene_shape_hides(const tl_scene_ray_search *s, uint32_t instance)
+bool tl_scene_shape_hides(const tl_scene_line *line, uint32_t instance)
 {
+    const tl_scene_ray_search *s = line->user;
     const tl_convex *shape = s->instances[instance].shape;
     if (shape == NULL) {
         return false;
     }
-    tl_vec3 from = s->ray.origin, to = s->ray.direction;
+    tl_vec3 from = line->from, to = s->end;
     bool reversed = precedes_point(to, from);
     tl_convex segment = tl_convex_capsule(reversed ? to : from, reversed ? from : to, 0.0f);
     return tl_convex_overlap(shape, s->records[instance].pose, &segment, tl_transform_identity(), NULL);
@@ -123,8 +136,7 @@ bool tl_scene_line_of_sight(const tl_scene *scene, const tl_scene_instance *inst
     }
     tl_scene_ray_search s;
     begin_ray_search(&s, scene, instances, filter);
-    s.ray.origin = a;
-    s.ray.direction = b;
+    s.end = b;
     tl_scene_line line;
     tl_scene_line_make(&line, scene, tl_scene_mask(filter), a, tl_sub(b, a), 1.0f);
     // Both ends move by roundings of their own, and the difference rounds.

@@ -7,6 +7,7 @@
 #ifndef TALUS_SRC_SCENE_SCENE_LAYOUT_H
 #define TALUS_SRC_SCENE_SCENE_LAYOUT_H
 
+#include "base/assert.h"
 #include "math/vec3d.h"
 
 #include <talus/scene.h>
@@ -29,13 +30,24 @@ typedef struct tl_scene_node {
     uint32_t mask[TL_SCENE_WIDTH]; ///< of all instances below
 } tl_scene_node;
 
+/// An instance's box in its own space and the way there, for rays: a cache line, which most rays that enter the box in
+/// the world do not look beyond.
+typedef struct tl_scene_own_box {
+    tl_vec3 axes[3]; ///< the world's axes in the instance's space
+    tl_vec3 offset;  ///< the world's origin there, from the middle of the box
+    tl_vec3 half;    ///< extents around the middle
+    float size;      ///< of the position, the middle and the extents, summed over all axes
+} tl_scene_own_box;
+
 /// An instance as it was when the scene was last baked or refitted.
 typedef struct tl_scene_record {
+    tl_scene_own_box own;
     tl_vec3d rows[3]; ///< the rotation's matrix
     tl_transform pose;
     tl_aabb local; ///< the instance's box in its own space; empty: nothing is here
     uint32_t lane; ///< where its box is: TL_SCENE_WIDTH * node + lane
 } tl_scene_record;
+static_assert(sizeof(tl_scene_own_box) == 64 && sizeof(tl_scene_record) % 64 == 0, "own boxes are cache lines");
 
 struct tl_scene {
     tl_blob blob;

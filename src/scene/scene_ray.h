@@ -13,7 +13,8 @@ typedef struct tl_scene_ray_search {
     const tl_scene_record *records;
     const tl_scene_filter *filter;
     const tl_ray_filter *triangles;
-    tl_ray ray;              ///< of a line of sight the direction is its far end
+    tl_vec3 end;             ///< of a line of sight; where and how a ray runs, the line knows
+    float whole;             ///< tmax of the ray as it was given
     float tmax;              ///< of the best
     uint32_t instance;       ///< of the best; TL_NO_INSTANCE: none yet
     tl_scene_hit *hit;       ///< the best; NULL: any will do
@@ -21,7 +22,7 @@ typedef struct tl_scene_ray_search {
 } tl_scene_ray_search;
 
 /// Asks a convex shape; they have no triangles, and are where they are in the world.
-bool tl_scene_ray_meets_shape(const tl_scene_ray_search *s, uint32_t instance, tl_scene_hit *hit);
-bool tl_scene_shape_hides(const tl_scene_ray_search *s, uint32_t instance);
+bool tl_scene_ray_meets_shape(const tl_scene_line *line, uint32_t instance, tl_scene_hit *hit);
+bool tl_scene_shape_hides(const tl_scene_line *line, uint32_t instance);
 
 #endif

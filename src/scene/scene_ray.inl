@@ -3,8 +3,9 @@
 // What a ray or a line of sight does at an instance: a part of the walk, compiled once for each instruction set.
 //
 // Of the instances whose boxes in the world a ray enters it meets a third in their own boxes, so these are tested
-// before anything else is read: two cache lines and some sixty instructions decide. With S the sizes of all that rounds
-// on the way, points and planes here are off by 12 u S, and the boxes in the world are widened by 44 u S
+// before anything else is read: one cache line and fifty instructions decide, in float. The exact way into the
+// instance's space, in double, is left to those that pass. With S the sizes of all that rounds on the way, the line of
+// the test is off by 11 u S, the query's by 3 u S, and the slabs by 6 u S; the boxes in the world are widened by 44 u S
 // (instance_box.c, scene_walk.h), which is right for what shapes answer too; the pad is 128 u S. A component of the
 // direction below 2^-30 of the largest is taken as that: over the length of S it moves the ray by 2^-29 S.
 //
@@ -48,26 +49,24 @@ static TL_ALWAYS_INLINE tl_f32x4 direction_to_local(const tl_scene_record *recor
     return tl_scene_is_rotated(record) ? rotate_lanes_back(record, lanes_of_point(d)) : tl_f32x4_load_three(&d->x);
 }
 
-static TL_ALWAYS_INLINE tl_f32x4 size_lanes(const tl_vec3 *p)
+// False: the line surely does not meet the instance's box in its own space before tmax.
+static TL_ALWAYS_INLINE bool may_meet_own_box(const tl_scene_line *line, const tl_scene_own_box *own, float tmax)
 {
-    return tl_f32x4_abs(tl_f32x4_load_three(&p->x));
-}
-
-// False: the ray surely does not meet the instance's box in its own space. `size` is that of the query in the world.
-static TL_ALWAYS_INLINE bool may_meet_own_box(const tl_scene_record *record, tl_f32x4 origin, tl_f32x4 direction,
-                                              tl_f32x4 size, float tmax)
-{
-    tl_f32x4 low = tl_f32x4_load(&record->local.min.x), high = tl_f32x4_load_three(&record->local.max.x);
-    size = tl_f32x4_add(tl_f32x4_add(size, size_lanes(&record->pose.position)), tl_f32x4_abs(origin));
-    size = tl_f32x4_add(size, tl_f32x4_max(tl_f32x4_abs(low), tl_f32x4_abs(high)));
-    tl_f32x4 pad = tl_f32x4_mul_add(tl_f32x4_max_of_three(size), tl_f32x4_all(OWN_BOX_PAD), tl_f32x4_all(FLT_MIN));
+    const tl_vec3 *from = &line->from, *along = &line->direction;
+    tl_f32x4 x = tl_f32x4_load(&own->axes[0].x), y = tl_f32x4_load(&own->axes[1].x);
+    tl_f32x4 z = tl_f32x4_load(&own->axes[2].x), offset = tl_f32x4_load(&own->offset.x);
+    tl_f32x4 direction = tl_f32x4_mul_add(y, tl_f32x4_all(along->y), tl_f32x4_mul(x, tl_f32x4_all(along->x)));
+    direction = tl_f32x4_mul_add(z, tl_f32x4_all(along->z), direction);
     tl_f32x4 steep = tl_f32x4_abs(direction);
     tl_f32x4 least = tl_f32x4_mul(tl_f32x4_max_of_three(steep), tl_f32x4_all(OWN_BOX_SLOPE));
     tl_f32x4 inverse = tl_f32x4_div(tl_f32x4_all(1.0f), tl_f32x4_if_less(steep, least, least, direction));
-    tl_f32x4 a = tl_f32x4_mul(tl_f32x4_sub(tl_f32x4_sub(low, pad), origin), inverse);
-    tl_f32x4 b = tl_f32x4_mul(tl_f32x4_sub(tl_f32x4_add(high, pad), origin), inverse);
-    float first = tl_f32x4_get_x(tl_f32x4_max_of_three(tl_f32x4_min(a, b)));
-    float last = tl_f32x4_least_of_three(tl_f32x4_max(a, b));
+    tl_f32x4 origin = tl_f32x4_mul_add(y, tl_f32x4_all(from->y), tl_f32x4_mul_add(x, tl_f32x4_all(from->x), offset));
+    origin = tl_f32x4_mul_add(z, tl_f32x4_all(from->z), origin);
+    float pad = (line->size + own->size) * OWN_BOX_PAD + FLT_MIN;
+    tl_f32x4 reach = tl_f32x4_mul(tl_f32x4_add(tl_f32x4_load(&own->half.x), tl_f32x4_all(pad)), tl_f32x4_abs(inverse));
+    tl_f32x4 middle = tl_f32x4_mul(origin, inverse); // the box's middle is passed at -middle
+    float first = -tl_f32x4_least_of_three(tl_f32x4_add(middle, reach));
+    float last = tl_f32x4_least_of_three(tl_f32x4_sub(reach, middle));
     return (first <= last) & (last >= 0.0f) & (first <= tmax * OWN_BOX_LENGTH);
 }
 
@@ -94,25 +93,22 @@ static TL_ALWAYS_INLINE bool visit_by_ray(tl_scene_line *line, uint32_t instance
 {
     tl_scene_ray_search *s = line->user;
     const tl_scene_record *record = &s->records[instance];
-    tl_f32x4 origin = point_to_local(record, &s->ray.origin), size = size_lanes(&s->ray.origin);
-    tl_f32x4 direction = direction_to_local(record, &s->ray.direction);
-    if ((line->is_usual && !may_meet_own_box(record, origin, direction, size, s->tmax)) ||
-        !tl_scene_accepts(s->filter, instance)) {
+    if ((line->is_usual && !may_meet_own_box(line, &record->own, s->tmax)) || !tl_scene_accepts(s->filter, instance)) {
         return true;
     }
     const tl_soup *soup = s->instances[instance].soup;
     local_ray local;
-    tl_f32x4_store(&local.lane[0], origin);
-    tl_f32x4_store(&local.lane[3], direction);
+    tl_f32x4_store(&local.lane[0], point_to_local(record, &line->from));
+    tl_f32x4_store(&local.lane[3], direction_to_local(record, &line->direction));
     local.ray.tmax = s->tmax;
     if (s->hit == NULL) {
         bool met = soup != NULL ? tl_soup_occluded(soup, &local.ray, s->triangles)
-                                : tl_scene_ray_meets_shape(s, instance, NULL);
+                                : tl_scene_ray_meets_shape(line, instance, NULL);
         s->instance = met ? instance : s->instance;
         return !met;
     }
     if (soup == NULL) {
-        if (tl_scene_ray_meets_shape(s, instance, s->candidate)) {
+        if (tl_scene_ray_meets_shape(line, instance, s->candidate)) {
             keep_candidate(line, s, instance);
         }
     } else if (tl_soup_cast_ray(soup, &local.ray, s->triangles, &s->candidate->hit)) {
@@ -127,18 +123,15 @@ static TL_ALWAYS_INLINE bool visit_by_sight(tl_scene_line *line, uint32_t instan
 {
     tl_scene_ray_search *s = line->user;
     const tl_scene_record *record = &s->records[instance];
-    tl_f32x4 a = point_to_local(record, &s->ray.origin), b = point_to_local(record, &s->ray.direction);
-    tl_f32x4 size = tl_f32x4_add(size_lanes(&s->ray.origin), size_lanes(&s->ray.direction));
-    if ((line->is_usual && !may_meet_own_box(record, a, tl_f32x4_sub(b, a), size, 1.0f)) ||
-        !tl_scene_accepts(s->filter, instance)) {
+    if ((line->is_usual && !may_meet_own_box(line, &record->own, 1.0f)) || !tl_scene_accepts(s->filter, instance)) {
         return true;
     }
     const tl_soup *soup = s->instances[instance].soup;
     local_ray local;
-    tl_f32x4_store(&local.lane[0], a);
-    tl_f32x4_store(&local.lane[3], b);
+    tl_f32x4_store(&local.lane[0], point_to_local(record, &line->from));
+    tl_f32x4_store(&local.lane[3], point_to_local(record, &s->end));
     bool hidden = soup != NULL ? !tl_soup_line_of_sight(soup, local.ray.origin, local.ray.direction, s->triangles)
-                               : tl_scene_shape_hides(s, instance);
+                               : tl_scene_shape_hides(line, instance);
     s->instance = hidden ? instance : s->instance;
     return !hidden;
 }

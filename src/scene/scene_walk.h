@@ -54,6 +54,7 @@ struct tl_scene_line {
     float near_base[4];
     float far_base[4];
     uint32_t backward; ///< bit i: it runs down along axis i, so it enters a box by its max plane
+    float size;        ///< of the coordinates where it begins, and where a line of sight ends, summed over all axes
     float per_t;       ///< times of the unit line per t
     float longest;     ///< no part of the line within the scene's box is longer
     bool is_usual;     ///< neither tiny nor huge: instances' own boxes may be tested

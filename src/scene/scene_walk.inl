@@ -189,6 +189,8 @@ static TL_ALWAYS_INLINE bool prepare_line(tl_scene_line *line)
     tl_f32x4_store(line->far_base, tl_f32x4_sub(pad, base));
     line->backward = tl_f32x4_signs(inverse) & 7u;
     line->per_t = tl_f32x4_get_x(per_t);
+    float along_size = tl_f32x4_get_x(sum_of_three(tl_f32x4_abs(along)));
+    line->size = tl_f32x4_get_x(size) + (line->kind == TL_SCENE_LINE_SIGHT ? along_size : 0.0f);
     line->limit = tl_scene_line_time(line, line->limit);
     tl_f32x4 whole = tl_f32x4_add(reach, tl_f32x4_max_of_three(half));
     line->longest = 4.0f * tl_f32x4_get_x(whole);
