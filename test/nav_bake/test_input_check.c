@@ -13,7 +13,7 @@ static test_level LEVEL;
 static void expect(const tl_nav_input *input, tl_result expected, const char *element, uint64_t index)
 {
     tl_report report;
-    TEST_RESULT(tl_nav_input_check(input, NULL, &report), expected);
+    TEST_RESULT(tl_nav_input_check(input, NULL, NULL, &report), expected);
     if (expected != TL_OK) {
         assert_string_equal(report.element, element);
         TEST_CHECK(report.element_index == index && report.advice != NULL);
@@ -61,7 +61,7 @@ static void meshes_and_areas_are_checked(void **state)
     uint8_t areas[TEST_LEVEL_MAX_TRIANGLES] = { 0 };
     tl_nav_input input = { LEVEL.mesh, areas, NULL, 0 };
     tl_aabb bounds, expected = test_level_bounds(&LEVEL);
-    TEST_RESULT(tl_nav_input_check(&input, &bounds, NULL), TL_OK);
+    TEST_RESULT(tl_nav_input_check(&input, NULL, &bounds, NULL), TL_OK);
     TEST_CHECK(memcmp(&bounds, &expected, sizeof bounds) == 0);
     areas[7] = TL_NAV_MAX_AREA;
     expect(&input, TL_OK, NULL, 0);

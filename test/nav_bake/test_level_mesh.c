@@ -17,23 +17,23 @@ static void bad_meshes_are_named(void **state)
     tl_mesh_view mesh = { vertices, 4, indices, 2, NULL };
     tl_report report = { 0 };
     tl_aabb bounds;
-    TEST_RESULT(tl_level_mesh_check(&mesh, &bounds, &report), TL_OK); // vertex 3 is not used
+    TEST_RESULT(tl_level_mesh_check(&mesh, NULL, &bounds, &report), TL_OK); // vertex 3 is not used
     TEST_CHECK(bounds.max.x == 1 && bounds.max.y == 2 && bounds.max.z == 1 && bounds.min.x == 0);
-    TEST_RESULT(tl_level_mesh_check(&mesh, NULL, &report), TL_OK);
+    TEST_RESULT(tl_level_mesh_check(&mesh, NULL, NULL, &report), TL_OK);
     indices[4] = 3;
-    TEST_RESULT(tl_level_mesh_check(&mesh, &bounds, &report), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_level_mesh_check(&mesh, NULL, &bounds, &report), TL_ERR_NOT_FINITE);
     TEST_CHECK(report.element_index == 3);
     assert_string_equal(report.element, "vertex");
     vertices[3] = tl_vec3_make(0, 0, 2e12f);
-    TEST_RESULT(tl_level_mesh_check(&mesh, &bounds, &report), TL_ERR_RANGE);
+    TEST_RESULT(tl_level_mesh_check(&mesh, NULL, &bounds, &report), TL_ERR_RANGE);
     indices[4] = 4;
-    TEST_RESULT(tl_level_mesh_check(&mesh, &bounds, &report), TL_ERR_INDEX);
+    TEST_RESULT(tl_level_mesh_check(&mesh, NULL, &bounds, &report), TL_ERR_INDEX);
     TEST_CHECK(report.element_index == 1);
     vertices[3] = vertices[2]; // all are sound now, but not the index
-    TEST_RESULT(tl_level_mesh_check(&mesh, NULL, &report), TL_ERR_INDEX);
+    TEST_RESULT(tl_level_mesh_check(&mesh, NULL, NULL, &report), TL_ERR_INDEX);
     TEST_CHECK(report.element_index == 1);
     mesh.triangle_count = 0;
-    TEST_RESULT(tl_level_mesh_check(&mesh, NULL, NULL), TL_ERR_EMPTY);
+    TEST_RESULT(tl_level_mesh_check(&mesh, NULL, NULL, NULL), TL_ERR_EMPTY);
 }
 
 // A triangle that rises by `rise` over a run of `run`, turned about y by some angle and moved.

@@ -51,13 +51,9 @@ static void every_overlap_is_listed(void **state)
         tl_mesh_view mesh = random_mesh(&random, vertices, indices);
         tl_nav_lattice lattice = { { 0, 0, 0 }, 0, 0 };
         tl_lattice_map map = tl_lattice_map_make(&lattice, 0.5f, 0.2f);
-        tl_bin_grid grid = { 1 + test_random_below(&random, 6),
-                             1 + test_random_below(&random, 6),
-                             1 + test_random_below(&random, 60),
-                             1 + test_random_below(&random, 60),
-                             test_random_below(&random, 12),
-                             false,
-                             false };
+        tl_bin_grid grid = { 1 + test_random_below(&random, 6),  1 + test_random_below(&random, 6),
+                             1 + test_random_below(&random, 60), 1 + test_random_below(&random, 60),
+                             test_random_below(&random, 12),     false };
         tl_triangle_list all = { NULL, TRIANGLES };
         tl_triangle_bins bins;
         TEST_RESULT(tl_triangle_bins_init(&mesh, all, &map, &grid, NULL, &bins), TL_OK);
@@ -95,7 +91,7 @@ static void failing_memory_is_reported(void **state)
     tl_mesh_view mesh = random_mesh(&random, vertices, indices);
     tl_nav_lattice lattice = { { 0, 0, 0 }, 0, 0 };
     tl_lattice_map map = tl_lattice_map_make(&lattice, 0.5f, 0.2f);
-    tl_bin_grid grid = { 4, 4, 50, 50, 3, false, false };
+    tl_bin_grid grid = { 4, 4, 50, 50, 3, false };
     tl_triangle_list all = { NULL, TRIANGLES };
     for (uint32_t sparse = 0; sparse < 2; sparse++) {
         const uint64_t allocations = sparse ? 5 : 2;
@@ -136,7 +132,6 @@ static void sparse_grids_list_the_same(void **state)
                              1 + test_random_below(&random, 60),
                              1 + test_random_below(&random, 60),
                              test_random_below(&random, 12),
-                             false,
                              false };
         tl_triangle_list all = { NULL, TRIANGLES };
         tl_triangle_bins dense, sparse;
@@ -174,7 +169,7 @@ static void too_many_places_are_refused(void **state)
     tl_mesh_view mesh = { vertices, 3, indices, 1, NULL };
     tl_nav_lattice lattice = { { 0, 0, 0 }, 0, 0 };
     tl_lattice_map map = tl_lattice_map_make(&lattice, 1.0f, 1.0f);
-    const tl_bin_grid grid = { 1u << 16, 1u << 15, 100, 100, 3, true, false };
+    const tl_bin_grid grid = { 1u << 16, 1u << 15, 100, 100, 3, true };
     tl_triangle_list all = { NULL, 1 };
     test_allocator memory;
     test_allocator_init(&memory, 0);

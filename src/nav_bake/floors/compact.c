@@ -21,8 +21,15 @@ enum { COLUMNS_PER_TASK = 16384, OPEN_TASKS_PER_WORKER = 4 };
 
 typedef struct open_worker {
     tl_open_scratch scratch;
+    tl_floors floors;    ///< of one run of rows, where there are several
     uint64_t span_count; ///< of the rows that it opened
 } open_worker;
+
+// The floors of one run of rows.
+typedef struct open_piece {
+    tl_floors floors;
+    uint32_t first; ///< where they begin among all
+} open_piece;
 
 typedef struct open_job {
     const tl_nav_config *config; ///< with the filters to apply
@@ -30,35 +37,40 @@ typedef struct open_job {
     tl_rasterizer *rasterizer;
     tl_nav_compact *compact;
     uint32_t rows_per_task, task_count;
-    tl_floors *pieces;    ///< [task_count]
+    open_piece *pieces;   ///< [task_count]
     open_worker *workers; ///< [worker_count]
     uint32_t worker_count;
     const tl_allocator *allocator;
 } open_job;
 
-// The floors of one run of rows. A piece has room for all that its spans may hold, and where it has to wait for others,
-// then as much as it needs.
+// Room for all floors that so many spans may have.
+static tl_result make_floor_room(tl_floors *floors, uint32_t spans, const tl_allocator *allocator)
+{
+    if (floors->floor == NULL || floors->capacity < spans) {
+        tl_floors_release(floors, allocator);
+        TL_TRY(tl_floors_allocate(floors, spans, allocator));
+    }
+    floors->count = 0;
+    return TL_OK;
+}
+
+// The floors of one run of rows. A piece that has to wait for others has as much room as it needs.
 static tl_result open_rows(open_job *job, const tl_span_rows *rows, uint32_t begin, uint32_t end, open_worker *worker,
                            tl_floors *piece)
 {
     const uint32_t width = rows->width;
     const uint32_t spans = tl_span_rows_at(rows, end - 1)[width] - tl_span_rows_at(rows, begin)[0];
+    tl_floors *all = job->task_count == 1 ? piece : &worker->floors;
     worker->span_count += spans;
     worker->scratch.allocator = job->allocator;
-    tl_floors all;
-    TL_TRY(tl_floors_allocate(&all, spans + 1, job->allocator));
-    tl_result result = tl_open_rows(job->config, rows, begin, end, &worker->scratch, &all,
-                                    job->compact->first_span + (size_t)begin * width + 1);
-    if (job->task_count == 1) {
-        *piece = all;
-        return result;
+    TL_TRY(make_floor_room(all, spans + 1, job->allocator));
+    TL_TRY(tl_open_rows(job->config, rows, begin, end, &worker->scratch, all,
+                        job->compact->first_span + (size_t)begin * width + 1));
+    if (all != piece) {
+        TL_TRY(tl_floors_allocate(piece, all->count, job->allocator));
+        tl_floors_append(piece, all);
     }
-    result = result == TL_OK ? tl_floors_allocate(piece, all.count, job->allocator) : result;
-    if (result == TL_OK) {
-        tl_floors_append(piece, &all);
-    }
-    tl_floors_release(&all, job->allocator);
-    return result;
+    return TL_OK;
 }
 
 static tl_result open_task(uint32_t index, uint32_t worker, void *user)
@@ -71,7 +83,7 @@ static tl_result open_task(uint32_t index, uint32_t worker, void *user)
         TL_TRY(tl_rasterizer_run(job->rasterizer, index, worker, &band));
     }
     return open_rows(job, job->rows != NULL ? job->rows : &band, begin, end, &job->workers[worker],
-                     &job->pieces[index]);
+                     &job->pieces[index].floors);
 }
 
 static tl_result allocate_job(open_job *job, const tl_host *host)
@@ -95,6 +107,7 @@ static void free_workers(open_job *job)
 {
     for (uint32_t w = 0; job->workers != NULL && w < job->worker_count; w++) {
         tl_open_scratch_free(&job->workers[w].scratch);
+        tl_floors_release(&job->workers[w].floors, job->allocator);
     }
     tl_release_array(job->allocator, job->workers, job->worker_count, sizeof *job->workers);
     job->workers = NULL;
@@ -103,23 +116,42 @@ static void free_workers(open_job *job)
 static void free_pieces(open_job *job)
 {
     for (uint32_t k = 0; job->pieces != NULL && k < job->task_count; k++) {
-        tl_floors_release(&job->pieces[k], job->allocator);
+        tl_floors_release(&job->pieces[k].floors, job->allocator);
     }
     tl_release_array(job->allocator, job->pieces, job->task_count, sizeof *job->pieces);
     job->pieces = NULL;
 }
 
-// All pieces in the order of the rows; positions in pieces become positions in the field. Each piece is freed when it
-// has been copied.
-static tl_result join_floor_pieces(open_job *job)
+// Copies a piece to its place among all floors, and frees it; positions in it become positions in the field.
+static void join_piece(uint32_t index, uint32_t worker, void *user)
+{
+    (void)worker;
+    open_job *job = user;
+    tl_nav_compact *compact = job->compact;
+    open_piece *piece = &job->pieces[index];
+    const uint32_t begin = index * job->rows_per_task, end = tl_block_end(index, job->rows_per_task, compact->height);
+    uint32_t *ends = compact->first_span + (size_t)begin * compact->width + 1;
+    const size_t columns = (size_t)(end - begin) * compact->width;
+    for (size_t c = 0; c < columns && piece->first > 0; c++) {
+        ends[c] += piece->first;
+    }
+    tl_floors place = { compact->floor + piece->first, compact->clearance + piece->first, compact->area + piece->first,
+                        0, piece->floors.count };
+    tl_floors_append(&place, &piece->floors);
+    tl_floors_release(&piece->floors, job->allocator);
+}
+
+// All pieces in the order of the rows.
+static tl_result join_floor_pieces(open_job *job, const tl_host *host)
 {
     tl_nav_compact *compact = job->compact;
     uint64_t count = 0;
     for (uint32_t k = 0; k < job->task_count; k++) {
-        count += job->pieces[k].count;
-    }
-    if (count >= TL_NAV_NO_SPAN) {
-        return TL_ERR_LIMIT;
+        job->pieces[k].first = (uint32_t)count;
+        count += job->pieces[k].floors.count;
+        if (count >= TL_NAV_NO_SPAN) {
+            return TL_ERR_LIMIT;
+        }
     }
     compact->span_count = (uint32_t)count;
     compact->floor = tl_allocate_array(&compact->allocator, count, sizeof *compact->floor);
@@ -128,20 +160,8 @@ static tl_result join_floor_pieces(open_job *job)
     if (compact->floor == NULL || compact->clearance == NULL || compact->area == NULL) {
         return TL_ERR_MEMORY;
     }
-    tl_floors all = { compact->floor, compact->clearance, compact->area, 0, compact->span_count };
-    const uint64_t columns = (uint64_t)compact->width * compact->height;
-    const uint64_t columns_per_task = (uint64_t)compact->width * job->rows_per_task;
     compact->first_span[0] = 0;
-    for (uint32_t k = 0; k < job->task_count; k++) {
-        const uint64_t first = k * columns_per_task, left = columns - first;
-        const uint64_t count_of_piece = left < columns_per_task ? left : columns_per_task;
-        uint32_t *ends = compact->first_span + first + 1;
-        for (uint64_t c = 0; c < count_of_piece && k > 0; c++) {
-            ends[c] += all.count;
-        }
-        tl_floors_append(&all, &job->pieces[k]);
-        tl_floors_release(&job->pieces[k], job->allocator);
-    }
+    tl_run_tasks(host, join_piece, job->task_count, job);
     return TL_OK;
 }
 
@@ -157,7 +177,7 @@ static tl_result open_all(open_job *job, const tl_host *host, uint64_t *span_cou
     if (job->rasterizer != NULL) {
         tl_rasterizer_free(job->rasterizer);
     }
-    TL_TRY(join_floor_pieces(job));
+    TL_TRY(join_floor_pieces(job, host));
     return tl_nav_link_floors(host, job->compact);
 }
 

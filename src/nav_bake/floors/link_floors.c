@@ -79,38 +79,67 @@ static inline void link_pair(const linker *l, uint32_t begin, uint32_t end, uint
     }
 }
 
-// Each column with the one after it on x and on z: that is every pair once.
-static void link_row(const tl_nav_compact *compact, uint32_t z)
+static linker linker_of(const tl_nav_compact *compact)
 {
-    const linker l = {
+    return (linker){
         compact->floor, compact->clearance, (int32_t)compact->walkable_climb, (int32_t)compact->walkable_height,
         compact->step,  compact->neighbour
     };
-    const uint32_t width = compact->width;
-    const uint32_t *row = compact->first_span + (size_t)z * width;
-    const uint32_t *next_row = z + 1 < compact->height ? row + width : NULL;
+}
+
+// Each column with the one after it on x, and on z where `next_row` is not NULL: that is every pair once.
+static void link_row(const linker *l, const uint32_t *row, const uint32_t *next_row, uint32_t width)
+{
     for (uint32_t x = 0; x < width; x++) {
         const uint32_t begin = row[x], end = row[x + 1];
         if (begin == end) {
             continue;
         }
         if (x + 1 < width && row[x + 2] > end) {
-            link_pair(&l, begin, end, end, row[x + 2], 2);
+            link_pair(l, begin, end, end, row[x + 2], 2);
         }
         if (next_row != NULL && next_row[x + 1] > next_row[x]) {
-            link_pair(&l, begin, end, next_row[x], next_row[x + 1], 1);
+            link_pair(l, begin, end, next_row[x], next_row[x + 1], 1);
         }
     }
 }
 
+// Each column of a row with the one after it on z.
+static void link_to_next_row(const tl_nav_compact *compact, uint32_t z)
+{
+    const linker l = linker_of(compact);
+    const uint32_t width = compact->width;
+    const uint32_t *row = compact->first_span + (size_t)z * width, *next_row = row + width;
+    for (uint32_t x = 0; x < width; x++) {
+        if (row[x + 1] > row[x] && next_row[x + 1] > next_row[x]) {
+            link_pair(&l, row[x], row[x + 1], next_row[x], next_row[x + 1], 1);
+        }
+    }
+}
+
+// No floor of these steps anywhere yet.
+static void clear_links(const tl_nav_compact *compact, uint32_t begin, uint32_t end)
+{
+    const size_t first = 4 * (size_t)begin, count = 4 * (size_t)(end - begin);
+    if (compact->step != NULL) {
+        memset(compact->step + first, 0, count * sizeof *compact->step);
+    } else {
+        memset(compact->neighbour + first, 0xff, count * sizeof *compact->neighbour); // TL_NAV_NO_SPAN
+    }
+}
+
+// The links within a run of rows. Those to the next run come when all runs are cleared.
 static tl_result link_rows(uint32_t index, uint32_t worker, void *user)
 {
     (void)worker;
     const tl_nav_compact *compact = user;
-    uint32_t z = index * ROWS_PER_TASK;
-    const uint32_t end = compact->height - z < ROWS_PER_TASK ? compact->height : z + ROWS_PER_TASK;
-    for (; z < end; z++) {
-        link_row(compact, z);
+    const linker l = linker_of(compact);
+    const uint32_t begin = index * ROWS_PER_TASK, end = tl_block_end(index, ROWS_PER_TASK, compact->height);
+    const size_t width = compact->width;
+    clear_links(compact, compact->first_span[begin * width], compact->first_span[end * width]);
+    for (uint32_t z = begin; z < end; z++) {
+        const uint32_t *row = compact->first_span + z * width;
+        link_row(&l, row, z + 1 < end ? row + width : NULL, compact->width);
     }
     return TL_OK;
 }
@@ -134,18 +163,16 @@ tl_result tl_nav_link_floors(const tl_host *host, tl_nav_compact *compact)
     const uint64_t count = 4 * (uint64_t)compact->span_count;
     if (steps_fit(compact)) {
         compact->step = tl_allocate_array(&compact->allocator, count, sizeof *compact->step);
-        if (compact->step != NULL) {
-            memset(compact->step, 0, count * sizeof *compact->step);
-        }
     } else {
         compact->neighbour = tl_allocate_array(&compact->allocator, count, sizeof *compact->neighbour);
-        if (compact->neighbour != NULL) {
-            memset(compact->neighbour, 0xff, count * sizeof *compact->neighbour); // TL_NAV_NO_SPAN
-        }
     }
     if (compact->step == NULL && compact->neighbour == NULL) {
         return TL_ERR_MEMORY;
     }
-    return tl_run_batches(host, "compact", link_rows, (compact->height - 1) / ROWS_PER_TASK + 1, LINK_TASKS_PER_WORKER,
-                          compact);
+    const uint32_t runs = tl_block_count(compact->height, ROWS_PER_TASK);
+    TL_TRY(tl_run_batches(host, "compact", link_rows, runs, LINK_TASKS_PER_WORKER, compact));
+    for (uint32_t run = 1; run < runs; run++) {
+        link_to_next_row(compact, run * ROWS_PER_TASK - 1);
+    }
+    return TL_OK;
 }

@@ -42,10 +42,10 @@ static tl_result check_area_volume(const tl_nav_volume *volume, uint32_t index, 
     return TL_OK;
 }
 
-tl_result tl_nav_input_check(const tl_nav_input *input, tl_aabb *bounds_out, tl_report *report)
+tl_result tl_nav_input_check(const tl_nav_input *input, const tl_host *host, tl_aabb *bounds_out, tl_report *report)
 {
     tl_report_begin(report, "check");
-    TL_TRY(tl_level_mesh_check(&input->mesh, bounds_out, report));
+    TL_TRY(tl_level_mesh_check(&input->mesh, host, bounds_out, report));
     for (uint32_t i = 0; i < input->volume_count; i++) {
         TL_TRY(check_area_volume(&input->volumes[i], i, report));
     }

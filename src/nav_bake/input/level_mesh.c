@@ -7,6 +7,9 @@
 #include "base/assert.h"
 #include "base/host.h"
 
+// Blocks of triangles, each of which may be a task.
+enum { MAX_BLOCKS = 64, MIN_BLOCK = 2048 };
+
 static tl_result check_vertex(const tl_mesh_view *mesh, uint32_t vertex, tl_report *report)
 {
     tl_vec3 p = mesh->vertices[vertex];
@@ -20,30 +23,59 @@ static tl_result check_vertex(const tl_mesh_view *mesh, uint32_t vertex, tl_repo
     return TL_OK;
 }
 
-// Whether all vertices, of triangles or not, are finite and in range: mostly they are, and no corner needs a check.
-static bool are_vertices_sound(const tl_mesh_view *mesh)
+// The first triangle that is not sound, if any.
+static tl_result name_bad_triangle(const tl_mesh_view *mesh, tl_report *report)
 {
-    uint32_t sound = 1;
-    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        const tl_vec3 size = tl_abs(mesh->vertices[i]); // not a number is not below anything
-        sound &= (uint32_t)(size.x <= TL_MAX_COORDINATE) & (uint32_t)(size.y <= TL_MAX_COORDINATE) &
-                 (uint32_t)(size.z <= TL_MAX_COORDINATE);
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        const uint32_t *corner = mesh->indices + 3 * (size_t)i;
+        if (corner[0] >= mesh->vertex_count || corner[1] >= mesh->vertex_count || corner[2] >= mesh->vertex_count) {
+            return tl_report_fail(report, TL_ERR_INDEX, "triangle", i, "check the index buffer");
+        }
+        for (uint32_t k = 0; k < 3; k++) {
+            TL_TRY(check_vertex(mesh, corner[k], report));
+        }
     }
-    return sound != 0;
+    return TL_OK;
 }
 
-// Whether all indices are those of vertices.
-static bool are_indices_sound(const tl_mesh_view *mesh)
+typedef struct mesh_block {
+    tl_aabb bounds; ///< of the block's triangles
+    bool is_sound;  ///< all indices are those of vertices, all their coordinates finite and in range
+} mesh_block;
+
+typedef struct mesh_scan {
+    const tl_mesh_view *mesh;
+    uint32_t block_size; ///< triangles
+    mesh_block blocks[MAX_BLOCKS];
+} mesh_scan;
+
+// Of equal bounds, 0 and -0, the last is kept, so that blocks in order give what all triangles do.
+static void scan_block(uint32_t index, uint32_t worker, void *user)
 {
-    const size_t count = 3 * (size_t)mesh->triangle_count;
-    uint32_t largest = 0;
-    for (size_t i = 0; i < count; i++) {
-        largest = mesh->indices[i] > largest ? mesh->indices[i] : largest;
+    (void)worker;
+    mesh_scan *scan = user;
+    const tl_mesh_view *mesh = scan->mesh;
+    const uint32_t *end = mesh->indices + 3 * (size_t)tl_block_end(index, scan->block_size, mesh->triangle_count);
+    mesh_block *block = &scan->blocks[index];
+    tl_aabb bounds = tl_aabb_empty();
+    float noise = 0.0f; // until something is infinite or no number
+    block->is_sound = false;
+    for (const uint32_t *corner = mesh->indices + 3 * (size_t)index * scan->block_size; corner < end; corner += 3) {
+        if (corner[0] >= mesh->vertex_count || corner[1] >= mesh->vertex_count || corner[2] >= mesh->vertex_count) {
+            return;
+        }
+        const tl_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
+        const tl_vec3 sum = tl_add(a, tl_add(b, c));
+        noise += 0.0f * (sum.x + sum.y + sum.z);
+        bounds.min = tl_min(bounds.min, tl_min(a, tl_min(b, c)));
+        bounds.max = tl_max(bounds.max, tl_max(a, tl_max(b, c)));
     }
-    return largest < mesh->vertex_count;
+    const tl_vec3 size = tl_max(tl_abs(bounds.min), tl_abs(bounds.max));
+    block->bounds = bounds;
+    block->is_sound = noise == 0.0f && tl_maxf(size.x, tl_maxf(size.y, size.z)) <= TL_MAX_COORDINATE;
 }
 
-tl_result tl_level_mesh_check(const tl_mesh_view *mesh, tl_aabb *bounds_out, tl_report *report)
+tl_result tl_level_mesh_check(const tl_mesh_view *mesh, const tl_host *host, tl_aabb *bounds_out, tl_report *report)
 {
     if (mesh->triangle_count == 0) {
         return tl_report_fail(report, TL_ERR_EMPTY, "triangle", TL_NO_ELEMENT, "give a mesh with triangles");
@@ -51,23 +83,19 @@ tl_result tl_level_mesh_check(const tl_mesh_view *mesh, tl_aabb *bounds_out, tl_
     if (mesh->triangle_count > TL_MAX_MESH_TRIANGLES) {
         return tl_report_fail(report, TL_ERR_LIMIT, "triangle", TL_MAX_MESH_TRIANGLES, "split the mesh");
     }
-    // A part of a level has its vertices, which are many more than the corners.
-    const bool sound = mesh->vertex_count / 3 <= mesh->triangle_count && are_vertices_sound(mesh);
-    if (bounds_out == NULL && sound && are_indices_sound(mesh)) {
-        return TL_OK;
-    }
+    mesh_scan scan;
+    scan.mesh = mesh;
+    scan.block_size = mesh->triangle_count / MAX_BLOCKS + 1;
+    scan.block_size = scan.block_size > MIN_BLOCK ? scan.block_size : MIN_BLOCK;
+    const uint32_t block_count = tl_block_count(mesh->triangle_count, scan.block_size);
+    tl_run_tasks(host, scan_block, block_count, &scan);
     tl_aabb bounds = tl_aabb_empty();
-    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        const uint32_t *corner = mesh->indices + 3 * (size_t)i;
-        if (corner[0] >= mesh->vertex_count || corner[1] >= mesh->vertex_count || corner[2] >= mesh->vertex_count) {
-            return tl_report_fail(report, TL_ERR_INDEX, "triangle", i, "check the index buffer");
+    for (uint32_t k = 0; k < block_count; k++) {
+        if (!scan.blocks[k].is_sound) {
+            return name_bad_triangle(mesh, report);
         }
-        for (uint32_t k = 0; k < 3 && !sound; k++) {
-            TL_TRY(check_vertex(mesh, corner[k], report));
-        }
-        const tl_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
-        bounds.min = tl_min(bounds.min, tl_min(a, tl_min(b, c)));
-        bounds.max = tl_max(bounds.max, tl_max(a, tl_max(b, c)));
+        bounds.min = tl_min(bounds.min, scan.blocks[k].bounds.min);
+        bounds.max = tl_max(bounds.max, scan.blocks[k].bounds.max);
     }
     if (bounds_out != NULL) {
         *bounds_out = bounds;

@@ -9,9 +9,9 @@
 
 #include <math.h>
 
-/// Checks indices and coordinates, and measures the bounds of the vertices that triangles use. `bounds_out` may be
-/// NULL.
-tl_result tl_level_mesh_check(const tl_mesh_view *mesh, tl_aabb *bounds_out, tl_report *report);
+/// Checks indices and coordinates, and measures the bounds of the vertices that triangles use, as the host's tasks.
+/// `host` and `bounds_out` may be NULL.
+tl_result tl_level_mesh_check(const tl_mesh_view *mesh, const tl_host *host, tl_aabb *bounds_out, tl_report *report);
 
 /// tl_triangle_is_walkable for triangles that floats are too short for, below 1e-10 m2 or above 1e15 m2.
 bool tl_triangle_is_walkable_in_double(tl_vec3 a, tl_vec3 b, tl_vec3 c, float slope_cos);

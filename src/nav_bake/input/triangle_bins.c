@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Triangles sorted into bins (tiles, or bands of rows) by counting, so that the level is read a few times in all, not
-// once for each bin.
+// Triangles sorted into bins by counting, so that the level is read a few times in all, not once for each bin.
 
 #include "nav_bake/input/triangle_bins.h"
 
@@ -12,9 +11,6 @@
 
 #include <string.h>
 #include <talus/nav_tile.h>
-
-enum { LAST_BIN = 0xffff };
-#define NOWHERE UINT32_MAX // of LAST_BIN bins none has this number
 
 typedef struct bin_range {
     uint32_t x0, x1, z0, z1; ///< inclusive; empty when x1 < x0
@@ -47,16 +43,12 @@ static bin_range triangle_range(const tl_mesh_view *mesh, uint32_t triangle, con
     const double min_z = tl_lattice_map_z(map, tl_minf(a.z, tl_minf(b.z, c.z)));
     const double max_z = tl_lattice_map_z(map, tl_maxf(a.z, tl_maxf(b.z, c.z)));
     bin_range range = { 1, 0, 0, 0 };
-    uint32_t x0 = 0, x1 = 0, z0, z1;
-    if (!bins_along(min_z, max_z, grid->count_z, grid->size_z, grid->margin, &z0, &z1)) {
+    uint32_t x0, x1, z0, z1;
+    const double min_x = tl_lattice_map_x(map, tl_minf(a.x, tl_minf(b.x, c.x)));
+    const double max_x = tl_lattice_map_x(map, tl_maxf(a.x, tl_maxf(b.x, c.x)));
+    if (!bins_along(min_z, max_z, grid->count_z, grid->size_z, grid->margin, &z0, &z1) ||
+        !bins_along(min_x, max_x, grid->count_x, grid->size_x, grid->margin, &x0, &x1)) {
         return range;
-    }
-    if (!grid->any_x) {
-        const double min_x = tl_lattice_map_x(map, tl_minf(a.x, tl_minf(b.x, c.x)));
-        const double max_x = tl_lattice_map_x(map, tl_maxf(a.x, tl_maxf(b.x, c.x)));
-        if (!bins_along(min_x, max_x, grid->count_x, grid->size_x, grid->margin, &x0, &x1)) {
-            return range;
-        }
     }
     return (bin_range){ x0, x1, z0, z1 };
 }
@@ -140,25 +132,13 @@ typedef struct bin_source {
     tl_triangle_list list;
     const tl_lattice_map *map;
     const tl_bin_grid *grid;
-    place_table table;    // of a sparse grid
-    uint32_t *along_rows; // [list.count] where the grid is a line: z0 and z1 of each, from counting to filling
+    place_table table; // of a sparse grid
 } bin_source;
 
 // The bins of the list's triangle i.
-static bin_range saved_range(const bin_source *source, uint32_t i)
+static bin_range listed_range(const bin_source *source, uint32_t i)
 {
-    if (source->along_rows == NULL) {
-        return triangle_range(source->mesh, tl_triangle_list_get(&source->list, i), source->map, source->grid);
-    }
-    const uint32_t both = source->along_rows[i];
-    return (bin_range){ both == NOWHERE, 0, both & LAST_BIN, both >> 16 };
-}
-
-static void save_range(const bin_source *source, uint32_t i, bin_range range)
-{
-    if (source->along_rows != NULL) {
-        source->along_rows[i] = range.x1 < range.x0 ? NOWHERE : range.z1 << 16 | range.z0;
-    }
+    return triangle_range(source->mesh, tl_triangle_list_get(&source->list, i), source->map, source->grid);
 }
 
 static uint32_t bin_at(const bin_source *source, uint32_t x, uint32_t z)
@@ -185,8 +165,7 @@ static tl_result keep_bins(bin_source *source, tl_triangle_bins *bins)
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < source->list.count; i++) {
-        bin_range range =
-            triangle_range(source->mesh, tl_triangle_list_get(&source->list, i), source->map, source->grid);
+        const bin_range range = listed_range(source, i);
         if (range.x1 >= range.x0) {
             TL_TRY(add_places_of(source, range, allocator));
         }
@@ -219,9 +198,7 @@ static tl_result count_triangles(const bin_source *source, tl_triangle_bins *bin
     uint64_t total = 0;
     memset(bins->first, 0, (bins->bin_count + 1) * sizeof *bins->first);
     for (uint32_t i = 0; i < source->list.count; i++) {
-        bin_range range =
-            triangle_range(source->mesh, tl_triangle_list_get(&source->list, i), source->map, source->grid);
-        save_range(source, i, range);
+        const bin_range range = listed_range(source, i);
         if (range.x1 < range.x0) {
             continue;
         }
@@ -245,8 +222,8 @@ static tl_result count_triangles(const bin_source *source, tl_triangle_bins *bin
 static void fill_bins(const bin_source *source, tl_triangle_bins *bins)
 {
     for (uint32_t i = 0; i < source->list.count; i++) {
-        uint32_t triangle = tl_triangle_list_get(&source->list, i);
-        const bin_range range = saved_range(source, i);
+        const uint32_t triangle = tl_triangle_list_get(&source->list, i);
+        const bin_range range = listed_range(source, i);
         if (range.x1 < range.x0) {
             continue;
         }
@@ -270,12 +247,6 @@ static tl_result make_bins(bin_source *source, tl_triangle_bins *bins)
         return TL_ERR_MEMORY;
     }
     bins->first = first;
-    if (source->grid->any_x && source->grid->count_z <= LAST_BIN) {
-        source->along_rows = tl_allocate_array(bins->allocator, source->list.count, sizeof *source->along_rows);
-        if (source->along_rows == NULL) {
-            return TL_ERR_MEMORY;
-        }
-    }
     tl_result result = count_triangles(source, bins);
     if (result == TL_OK) {
         bins->triangles = tl_allocate_array(bins->allocator, first[bins->bin_count], sizeof *bins->triangles);
@@ -293,9 +264,8 @@ tl_result tl_triangle_bins_init(const tl_mesh_view *mesh, tl_triangle_list list,
     memset(bins, 0, sizeof *bins);
     bins->allocator = allocator;
     bins->bin_count = (uint64_t)grid->count_x * grid->count_z;
-    bin_source source = { mesh, list, map, grid, { NULL, NULL, 0, 0 }, NULL };
+    bin_source source = { mesh, list, map, grid, { NULL, NULL, 0, 0 } };
     tl_result result = make_bins(&source, bins);
-    tl_release_array(allocator, source.along_rows, list.count, sizeof *source.along_rows);
     place_table_free(&source.table, allocator);
     if (result != TL_OK) {
         tl_triangle_bins_free(bins);

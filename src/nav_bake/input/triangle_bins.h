@@ -25,7 +25,6 @@ typedef struct tl_bin_grid {
     uint32_t size_x, size_z; ///< columns, > 0
     uint32_t margin;         ///< columns
     bool sparse;             ///< keep only the bins that hold triangles
-    bool any_x;              ///< count_x is 1, and triangles at any x belong to the one bin of their rows
 } tl_bin_grid;
 
 /// The bins that are kept: all, or of a sparse grid those with triangles, so that memory and time follow what is there

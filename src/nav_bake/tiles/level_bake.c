@@ -144,7 +144,7 @@ static tl_result sort_triangles(level_job *job, tl_report *report)
     tl_nav_lattice lattice = { config.lattice.origin, (int32_t)(job->range.x * size), (int32_t)(job->range.z * size) };
     tl_lattice_map map = tl_lattice_map_make(&lattice, config.cell_size, config.cell_height);
     const bool sparse = tile_count_of(job) > DENSE_TILES;
-    tl_bin_grid grid = { job->range.count_x, job->range.count_z, size, size, config.border_size, sparse, false };
+    tl_bin_grid grid = { job->range.count_x, job->range.count_z, size, size, config.border_size, sparse };
     tl_triangle_list all = { NULL, job->input->mesh.triangle_count };
     tl_result result = tl_triangle_bins_init(&job->input->mesh, all, &map, &grid, job->host.allocator, &job->bins);
     return result == TL_ERR_LIMIT
@@ -208,7 +208,7 @@ static tl_result take_range(level_job *job, const tl_nav_tile_range *range, tl_r
 
 static tl_result bake_tile_range(level_job *job, const tl_nav_tile_range *range, tl_nav_bake_report *report)
 {
-    TL_TRY(tl_nav_input_check(job->input, &job->bounds, &report->base));
+    TL_TRY(tl_nav_input_check(job->input, &job->host, &job->bounds, &report->base));
     TL_TRY(take_range(job, range, &report->base));
     return tile_count_of(job) > 0 ? bake_level_tiles(job, report) : allocate_stacks(job, 0);
 }

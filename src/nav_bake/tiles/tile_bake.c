@@ -279,14 +279,14 @@ void tl_nav_stages_hand_over(tl_nav_stages *stages, const tl_allocator *allocato
     stages->detail.allocator = host;
 }
 
-static tl_result check_tile_arguments(const tl_nav_config *config, const tl_nav_input *input, tl_nav_tile **tile_out,
-                                      tl_report *report)
+static tl_result check_tile_arguments(const tl_nav_config *config, const tl_nav_input *input, const tl_host *host,
+                                      tl_nav_tile **tile_out, tl_report *report)
 {
     tl_report_begin(report, "check");
     TL_REFUSE_NULL(tile_out, report);
     TL_REFUSE_NULL(config, report);
     TL_REFUSE_NULL(input, report);
-    return tl_nav_input_check(input, NULL, report);
+    return tl_nav_input_check(input, host, NULL, report);
 }
 
 tl_result tl_nav_tile_bake(const tl_nav_config *config, const tl_nav_input *input, const tl_host *host,
@@ -307,7 +307,7 @@ tl_result tl_nav_tile_bake(const tl_nav_config *config, const tl_nav_input *inpu
     if (stages_out != NULL) {
         memset(stages_out, 0, sizeof *stages_out);
     }
-    tl_result result = check_tile_arguments(config, input, tile_out, &report.base);
+    tl_result result = check_tile_arguments(config, input, &metered, tile_out, &report.base);
     if (result == TL_OK) {
         tl_triangle_list all = { NULL, input->mesh.triangle_count };
         tl_nav_config whole = *config;

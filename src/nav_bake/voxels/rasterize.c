@@ -12,6 +12,7 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "nav_bake/input/level_mesh.h"
+#include "nav_bake/input/row_bins.h"
 #include "nav_bake/voxels/batches.h"
 #include "nav_bake/voxels/triangle_block.h"
 
@@ -21,7 +22,9 @@ enum {
     BAND_COLUMNS = 6144,      // of some 35 bytes each, with their spans: 210 KB
     MIN_BAND_ROWS = 16,       // as each band sees a row more on both sides,
     MAX_TALL_WIDTH = 1 << 17, // unless they are so long that it takes much memory
-    BANDS_PER_WORKER = 4      // between two calls of the progress hook
+    SHARED_BAND_ROWS = 12,    // where there would be fewer bands than workers,
+    LEAST_BAND_ROWS = 6,      // or else so few
+    BANDS_PER_WORKER = 4      // where there would be fewer; and between two calls of the progress hook
 };
 
 struct tl_raster_worker {
@@ -116,21 +119,42 @@ tl_result tl_rasterizer_run(tl_rasterizer *rasterizer, uint32_t band_index, uint
     return TL_OK;
 }
 
+// How many bands give all workers something to do: a few for each, of a multiple of their number, unless the bands
+// become so low that the rows which two of them see count for much.
+static uint32_t bands_to_share(uint32_t height, uint32_t workers)
+{
+    const uint32_t most = height / SHARED_BAND_ROWS, few = height / LEAST_BAND_ROWS;
+    if (workers == 1) {
+        return 1;
+    }
+    if (most <= workers) {
+        return few < workers ? few : workers;
+    }
+    const uint32_t whole = most - most % workers;
+    return whole / workers < BANDS_PER_WORKER ? whole : workers * BANDS_PER_WORKER;
+}
+
+// Bands of equal height, of about so many columns: a tile that is a little larger is not cut in two.
+static uint32_t rows_of_bands(uint32_t width, uint32_t height, uint32_t workers)
+{
+    const uint64_t wanted = ((uint64_t)width * height + BAND_COLUMNS / 2) / BAND_COLUMNS;
+    const uint32_t most = height < TL_MAX_ROW_BINS ? height : TL_MAX_ROW_BINS;
+    const uint32_t bands = wanted < 1 ? 1 : wanted < most ? (uint32_t)wanted : most;
+    uint32_t rows = (height - 1) / bands + 1;
+    rows = rows < MIN_BAND_ROWS && width <= MAX_TALL_WIDTH ? MIN_BAND_ROWS : rows;
+    const uint32_t shared = bands_to_share(height, workers);
+    const uint32_t rows_to_share = shared > 1 ? (height - 1) / shared + 1 : height;
+    return rows < rows_to_share ? rows : rows_to_share;
+}
+
 static tl_result init(tl_rasterizer *r, const tl_host *host)
 {
     const tl_nav_config *config = r->config;
-    // Bands of equal height, of about so many columns: a tile that is a little larger is not cut in two.
-    const uint64_t columns = (uint64_t)config->width * config->height;
-    const uint64_t wanted = (columns + BAND_COLUMNS / 2) / BAND_COLUMNS;
-    const uint32_t bands = wanted < 1 ? 1 : wanted < config->height ? (uint32_t)wanted : config->height;
-    r->rows_per_band = (config->height - 1) / bands + 1;
-    if (r->rows_per_band < MIN_BAND_ROWS && config->width <= MAX_TALL_WIDTH) {
-        r->rows_per_band = MIN_BAND_ROWS;
-    }
+    r->worker_count = tl_worker_count(host);
+    r->rows_per_band = rows_of_bands(config->width, config->height, r->worker_count);
     r->band_count = (config->height - 1) / r->rows_per_band + 1;
     const uint64_t rows_seen = (uint64_t)r->rows_per_band + 2 * (uint64_t)r->margin;
     r->line = rows_seen > config->width ? (uint32_t)rows_seen : config->width;
-    r->worker_count = tl_worker_count(host);
     r->map = tl_lattice_map_make(&config->lattice, config->cell_size, config->cell_height);
     r->workers = tl_allocate_array(r->allocator, r->worker_count, sizeof *r->workers);
     if (r->workers == NULL) {
@@ -138,8 +162,8 @@ static tl_result init(tl_rasterizer *r, const tl_host *host)
     }
     memset(r->workers, 0, r->worker_count * sizeof *r->workers);
     if (r->band_count > 1) {
-        tl_bin_grid grid = { 1, r->band_count, config->width, r->rows_per_band, r->margin, false, true };
-        return tl_triangle_bins_init(r->mesh, r->list, &r->map, &grid, r->allocator, &r->bins);
+        const tl_row_grid grid = { r->band_count, r->rows_per_band, r->margin };
+        return tl_row_bins_init(r->mesh, r->list, &r->map, grid, host, &r->bins);
     }
     return TL_OK;
 }
@@ -310,7 +334,7 @@ tl_result tl_nav_rasterize(const tl_nav_config *config, const tl_mesh_view *mesh
     memset(heightfield_out, 0, sizeof *heightfield_out);
     TL_REFUSE_NULL(config, report_out);
     TL_REFUSE_NULL(mesh, report_out);
-    TL_TRY(tl_level_mesh_check(mesh, NULL, report_out));
+    TL_TRY(tl_level_mesh_check(mesh, host, NULL, report_out));
     tl_triangle_list all = { NULL, mesh->triangle_count };
     return tl_nav_rasterize_list(config, mesh, areas, all, host, heightfield_out, report_out);
 }
