@@ -49,6 +49,7 @@ static TL_ALWAYS_INLINE void gather_triangles(const tl_soup *soup, const uint32_
                                               uint32_t lanes, packet_triangles *all)
 {
     tl_f32x16 corners[3][3], normals[3], extents = tl_f32x16_all(0.0f);
+    memset(all->triangle, 0, sizeof all->triangle);
     for (uint32_t i = 0; i < 3; i++) {
         corners[i][0] = corners[i][1] = corners[i][2] = normals[i] = tl_f32x16_all(0.0f);
     }
@@ -104,18 +105,19 @@ static TL_ALWAYS_INLINE void measure_lanes(const ray_packet *p, bool is_segment,
         double mx = cy * dz - cz * dy, my = cz * dx - cx * dz, mz = cx * dy - cy * dx;
         double along = sum_axes(nx * dx, ny * dy, nz * dz), across = sum_axes(nx * cx, ny * cy, nz * cz);
         double inverse = 1.0 / along;
-        float u = (float)(sum_axes(mx * qx, my * qy, mz * qz) * inverse);
-        float v = -(float)(sum_axes(mx * px, my * py, mz * pz) * inverse);
-        u = u > 0.0f ? u : 0.0f;
-        u = u < 1.0f ? u : 1.0f;
-        v = v > 0.0f ? v : 0.0f;
         double wide = (double)all->extent[i];
         places->margin[i] = fabs(across) - tl_ray_least_across(wide, reach);
         places->t[i] = (float)(across * inverse);
-        places->u[i] = u;
-        places->v[i] = v < 1.0f - u ? v : 1.0f - u;
+        places->u[i] = (float)(sum_axes(mx * qx, my * qy, mz * qz) * inverse);
+        places->v[i] = -(float)(sum_axes(mx * px, my * py, mz * pz) * inverse);
         places->along[i] = along;
     }
+    // As tl_ray_keep_inside does; a choice in the loop would keep compilers from making vectors of it.
+    tl_f32x16 zero = tl_f32x16_all(0.0f), one = tl_f32x16_all(1.0f);
+    tl_f32x16 u = tl_f32x16_min(tl_f32x16_max(lanes_of(places->u), zero), one);
+    tl_f32x16 v = tl_f32x16_min(tl_f32x16_max(lanes_of(places->v), zero), tl_f32x16_sub(one, u));
+    tl_f32x16_store(places->u, u);
+    tl_f32x16_store(places->v, v);
 }
 
 // Writes the hits of some lanes, in front of what is there already when `compare`: of equal t the lowest index wins.
