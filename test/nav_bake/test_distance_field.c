@@ -201,7 +201,7 @@ static void fails_at_each_allocation(void **state)
         TEST_RESULT(result, TL_ERR_MEMORY);
         TEST_CHECK(test.live_blocks == 0 && compact.distance == NULL);
     }
-    TEST_CHECK(k == 3 && test.live_blocks == 1);
+    TEST_CHECK(k == 4 && test.live_blocks == 1);
     // Once more on top of the old field: it is replaced.
     tl_host host = { &test.allocator, NULL, NULL };
     test.fail_at = 0;

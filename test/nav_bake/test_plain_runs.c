@@ -4,8 +4,9 @@
 // they give floor by floor: a compact heightfield with 32-bit neighbours instead of steps has no runs.
 
 #include "nav_compact_fixture.h"
+#include "nav_fields.h"
 
-#include "nav_bake/floors/plain_runs.h"
+#include "nav_bake/floors/floor_bands.h"
 
 // The fixture's neighbours as steps.
 static int16_t *steps_of(const tl_nav_compact *compact)
@@ -62,12 +63,12 @@ static void runs_are_plain(void **state)
     for (uint32_t round = 0; round < 60; round++) {
         tl_nav_compact compact = random_ground(&random, 1 + (int)(round % 3));
         tl_plain_runs runs;
-        TEST_RESULT(tl_plain_runs_find(&compact, NULL, &runs), TL_OK);
+        TEST_RESULT(tl_plain_runs_find(&compact, 0, compact.span_count, NULL, &runs), TL_OK);
         TEST_CHECK(runs.count == 0); // without steps
         uint32_t *neighbour = compact.neighbour;
         compact.step = steps_of(&compact);
         compact.neighbour = NULL;
-        TEST_RESULT(tl_plain_runs_find(&compact, NULL, &runs), TL_OK);
+        TEST_RESULT(tl_plain_runs_find(&compact, 0, compact.span_count, NULL, &runs), TL_OK);
         uint32_t end = 0;
         for (uint32_t k = 0; k < runs.count; k++) {
             TEST_CHECK(runs.runs[k].first >= end && runs.runs[k].count > 0);
@@ -126,9 +127,59 @@ static void sweeps_are_those_without_runs(void **state)
     TEST_CHECK(eroded > 1000 && kept > 1000 && far > 1000);
 }
 
+// Tall enough for bands: the same as on one thread, with and without runs, where distances reach over several seams.
+static void bands_are_those_of_one_sweep(void **state)
+{
+    (void)state;
+    test_random random = { 21 };
+    tl_tasks tasks;
+    tasks = test_backward_tasks(&tasks, 7);
+    const tl_host many = { NULL, &tasks, NULL };
+    uint32_t over_seams = 0, most_bands = 0;
+    for (uint32_t round = 0; round < 40; round++) {
+        const int storeys = 1 + (int)(round % 3);
+        tl_nav_compact one = fixture_random(&random, 100 + test_random_below(&random, 60),
+                                            40 + test_random_below(&random, 90), storeys, round % 4, 0);
+        const uint32_t count = one.span_count;
+        if (round % 2 == 0) {
+            one.step = steps_of(&one);
+        }
+        uint32_t *neighbour = one.neighbour;
+        one.neighbour = one.step != NULL ? NULL : neighbour;
+        tl_nav_compact shared = one;
+        shared.area = (uint8_t *)tl_allocate_array(NULL, count, 1);
+        memcpy(shared.area, one.area, count);
+        tl_floor_bands bands;
+        TEST_RESULT(tl_floor_bands_make(&one, &many, &bands), TL_OK);
+        most_bands = bands.count > most_bands ? bands.count : most_bands;
+        tl_nav_config config;
+        memset(&config, 0, sizeof config);
+        config.walkable_radius = round % 5;
+        TEST_RESULT(tl_nav_erode(&config, NULL, &one, NULL), TL_OK);
+        TEST_RESULT(tl_nav_erode(&config, &many, &shared, NULL), TL_OK);
+        TEST_CHECK(memcmp(one.area, shared.area, count) == 0);
+        TEST_RESULT(tl_nav_distance_field(NULL, &one, NULL), TL_OK);
+        TEST_RESULT(tl_nav_distance_field(&many, &shared, NULL), TL_OK);
+        TEST_CHECK(one.max_distance == shared.max_distance);
+        TEST_CHECK(memcmp(one.distance, shared.distance, count * sizeof *one.distance) == 0);
+        for (uint32_t k = 1; k < bands.count; k++) {
+            over_seams += one.distance[bands.bands[k].begin + 50] > 2; // of a row that follows a seam
+        }
+        tl_floor_bands_free(&bands);
+        tl_release_array(NULL, shared.distance, count, sizeof *shared.distance);
+        tl_release_array(NULL, shared.area, count, 1);
+        tl_release_array(NULL, one.step, 4 * (uint64_t)count, sizeof(int16_t));
+        one.step = NULL;
+        one.neighbour = neighbour;
+        fixture_compact_free(&one);
+    }
+    TEST_CHECK(over_seams > 10 && most_bands >= 5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(runs_are_plain),
-                                        cmocka_unit_test(sweeps_are_those_without_runs) };
+                                        cmocka_unit_test(sweeps_are_those_without_runs),
+                                        cmocka_unit_test(bands_are_those_of_one_sweep) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

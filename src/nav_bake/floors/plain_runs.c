@@ -64,19 +64,19 @@ static tl_result split_alike(tl_plain_runs *runs, const tl_nav_compact *compact,
     return TL_OK;
 }
 
-tl_result tl_plain_runs_find(const tl_nav_compact *compact, const tl_allocator *allocator, tl_plain_runs *runs_out)
+tl_result tl_plain_runs_find(const tl_nav_compact *compact, uint32_t begin, uint32_t end, const tl_allocator *allocator,
+                             tl_plain_runs *runs_out)
 {
     memset(runs_out, 0, sizeof *runs_out);
     runs_out->allocator = allocator;
-    const uint32_t count = compact->span_count;
     tl_result result = TL_OK;
-    for (uint32_t i = 0; compact->step != NULL && i < count && result == TL_OK;) {
+    for (uint32_t i = begin; compact->step != NULL && i < end && result == TL_OK;) {
         const int16_t *step = compact->step + 4 * (size_t)i;
         if (step[2] <= 0 || step[0] != -step[2] || step[1] == 0 || step[3] == 0) {
             i++;
             continue;
         }
-        const uint32_t alike = tl_nav_steps_alike(compact, i, count - i);
+        const uint32_t alike = tl_nav_steps_alike(compact, i, end - i);
         if (alike >= MIN_PLAIN_RUN + 2) {
             result = split_alike(runs_out, compact, i, alike);
         }

@@ -26,14 +26,10 @@ typedef struct tl_plain_runs {
     const tl_allocator *allocator;
 } tl_plain_runs;
 
-/// Finds the runs that are long enough to gain by. A compact heightfield without steps has none.
-tl_result tl_plain_runs_find(const tl_nav_compact *compact, const tl_allocator *allocator, tl_plain_runs *runs_out);
+/// Finds the runs among the floors [begin, end) of whole rows that are long enough to gain by. A compact heightfield
+/// without steps has none.
+tl_result tl_plain_runs_find(const tl_nav_compact *compact, uint32_t begin, uint32_t end, const tl_allocator *allocator,
+                             tl_plain_runs *runs_out);
 void tl_plain_runs_free(tl_plain_runs *runs);
-
-/// Where the floors before run k end that are in no run; k may be runs->count.
-static inline uint32_t tl_plain_runs_begin(const tl_plain_runs *runs, uint32_t k, uint32_t span_count)
-{
-    return k < runs->count ? runs->runs[k].first : span_count;
-}
 
 #endif

@@ -8,7 +8,7 @@
 #include "base/host.h"
 
 // Blocks of triangles, each of which may be a task.
-enum { MAX_BLOCKS = 64, MIN_BLOCK = 2048 };
+enum { MAX_SCAN_BLOCKS = 64, MIN_SCAN_BLOCK = 2048 };
 
 static tl_result check_vertex(const tl_mesh_view *mesh, uint32_t vertex, tl_report *report)
 {
@@ -46,7 +46,7 @@ typedef struct mesh_block {
 typedef struct mesh_scan {
     const tl_mesh_view *mesh;
     uint32_t block_size; ///< triangles
-    mesh_block blocks[MAX_BLOCKS];
+    mesh_block blocks[MAX_SCAN_BLOCKS];
 } mesh_scan;
 
 // Of equal bounds, 0 and -0, the last is kept, so that blocks in order give what all triangles do.
@@ -85,8 +85,8 @@ tl_result tl_level_mesh_check(const tl_mesh_view *mesh, const tl_host *host, tl_
     }
     mesh_scan scan;
     scan.mesh = mesh;
-    scan.block_size = mesh->triangle_count / MAX_BLOCKS + 1;
-    scan.block_size = scan.block_size > MIN_BLOCK ? scan.block_size : MIN_BLOCK;
+    scan.block_size = mesh->triangle_count / MAX_SCAN_BLOCKS + 1;
+    scan.block_size = scan.block_size > MIN_SCAN_BLOCK ? scan.block_size : MIN_SCAN_BLOCK;
     const uint32_t block_count = tl_block_count(mesh->triangle_count, scan.block_size);
     tl_run_tasks(host, scan_block, block_count, &scan);
     tl_aabb bounds = tl_aabb_empty();

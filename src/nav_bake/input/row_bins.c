@@ -15,7 +15,7 @@
 
 #include <string.h>
 
-enum { MIN_BLOCK = 1024, BLOCKS_PER_WORKER = 4, LINE = 64 / sizeof(uint32_t), AT_ONCE = 64 };
+enum { MIN_BIN_BLOCK = 1024, BLOCKS_PER_WORKER = 4, LINE = 64 / sizeof(uint32_t), AT_ONCE = 64 };
 // Rows that a triangle may reach farther than its corners: half of one, where a wall on the field's far side is moved
 // inwards; and far more than what is lost when a row is divided by the bin's height.
 #define REACH 0.75
@@ -38,7 +38,8 @@ typedef struct row_binning {
 } row_binning;
 
 // The rows, in metres, of the list's triangles [begin, end).
-static void find_heights(const row_binning *b, uint32_t begin, uint32_t end, float *restrict min, float *restrict max)
+static void find_rows_reached(const row_binning *b, uint32_t begin, uint32_t end, float *restrict min,
+                              float *restrict max)
 {
     const tl_vec3 *vertices = b->mesh->vertices;
     for (uint32_t i = begin; i < end; i++) {
@@ -51,8 +52,8 @@ static void find_heights(const row_binning *b, uint32_t begin, uint32_t end, flo
 
 // Bins from rows: without branches, so that compilers make it as wide as the machine's registers. The map is monotone:
 // the ends of a range are those of the box.
-static void find_bins(const row_binning *b, const float *restrict min, const float *restrict max, uint32_t count,
-                      row_range *restrict ranges)
+static void find_row_bins(const row_binning *b, const float *restrict min, const float *restrict max, uint32_t count,
+                          row_range *restrict ranges)
 {
     const tl_lattice_map map = *b->map;
     const double bins = (double)b->grid.count, per_bin = 1.0 / (double)b->grid.size;
@@ -65,7 +66,7 @@ static void find_bins(const row_binning *b, const float *restrict min, const flo
     }
 }
 
-static void count_block(uint32_t index, uint32_t worker, void *user)
+static void count_rows_of_block(uint32_t index, uint32_t worker, void *user)
 {
     (void)worker;
     row_binning *b = user;
@@ -76,8 +77,8 @@ static void count_block(uint32_t index, uint32_t worker, void *user)
         float min[AT_ONCE], max[AT_ONCE];
         row_range *ranges = b->ranges + begin;
         some = end - begin < AT_ONCE ? end - begin : AT_ONCE;
-        find_heights(b, begin, begin + some, min, max);
-        find_bins(b, min, max, some, ranges);
+        find_rows_reached(b, begin, begin + some, min, max);
+        find_row_bins(b, min, max, some, ranges);
         for (uint32_t i = 0; i < some; i++) {
             for (uint32_t bin = ranges[i].first; bin < ranges[i].end; bin++) {
                 counts[bin]++;
@@ -86,7 +87,7 @@ static void count_block(uint32_t index, uint32_t worker, void *user)
     }
 }
 
-static void fill_block(uint32_t index, uint32_t worker, void *user)
+static void fill_rows_of_block(uint32_t index, uint32_t worker, void *user)
 {
     (void)worker;
     const row_binning *b = user;
@@ -101,7 +102,7 @@ static void fill_block(uint32_t index, uint32_t worker, void *user)
 }
 
 // From how many triangles each block has in each bin, to where the first of them goes.
-static tl_result place_shares(const row_binning *b, uint32_t *first)
+static tl_result place_blocks(const row_binning *b, uint32_t *first)
 {
     uint64_t total = 0;
     for (uint32_t bin = 0; bin < b->grid.count; bin++) {
@@ -129,14 +130,14 @@ static tl_result make_row_bins(row_binning *b, const tl_host *host, tl_triangle_
     if (bins->first == NULL || b->ranges == NULL || b->places == NULL) {
         return TL_ERR_MEMORY;
     }
-    tl_run_tasks(host, count_block, b->block_count, b);
-    TL_TRY(place_shares(b, bins->first));
+    tl_run_tasks(host, count_rows_of_block, b->block_count, b);
+    TL_TRY(place_blocks(b, bins->first));
     bins->triangles = tl_allocate_array(allocator, bins->first[bins->bin_count], sizeof *bins->triangles);
     if (bins->triangles == NULL) {
         return TL_ERR_MEMORY;
     }
     b->triangles = bins->triangles;
-    tl_run_tasks(host, fill_block, b->block_count, b);
+    tl_run_tasks(host, fill_rows_of_block, b->block_count, b);
     return TL_OK;
 }
 
@@ -144,7 +145,7 @@ static tl_result make_row_bins(row_binning *b, const tl_host *host, tl_triangle_
 static uint32_t choose_block_size(uint32_t triangles, uint32_t bins, uint32_t workers)
 {
     const uint32_t wanted = workers > 1 ? triangles / BLOCKS_PER_WORKER / workers + 1 : triangles;
-    const uint32_t least = bins > MIN_BLOCK ? bins : MIN_BLOCK;
+    const uint32_t least = bins > MIN_BIN_BLOCK ? bins : MIN_BIN_BLOCK;
     return wanted > least ? wanted : least;
 }
 

@@ -91,7 +91,7 @@ static void update_backward(const updater *u)
         while (u->second[w] != 0) {
             const uint32_t bit = tl_highest_bit(u->second[w]), i = 64 * w + bit;
             u->second[w] ^= UINT64_C(1) << bit;
-            const uint16_t value = tl_distance_backward(compact, u->sharp, i, u->forward[i]);
+            const uint16_t value = tl_chamfer_backward(compact, u->sharp, i, u->forward[i]);
             if (value == u->sharp[i]) {
                 continue;
             }
@@ -133,15 +133,6 @@ static void read_stage(const tl_distance_stages *stages, uint32_t step, uint32_t
     }
 }
 
-static uint16_t largest_distance(const uint16_t *values, size_t count)
-{
-    uint16_t largest = 0;
-    for (size_t i = 0; i < count; i++) {
-        largest = values[i] > largest ? values[i] : largest;
-    }
-    return largest;
-}
-
 tl_result tl_distance_field_update(const uint8_t *before, const tl_distance_stages *stages,
                                    const tl_allocator *allocator, tl_nav_compact *compact)
 {
@@ -163,7 +154,7 @@ tl_result tl_distance_field_update(const uint8_t *before, const tl_distance_stag
         update_forward(&u);
         update_backward(&u);
         update_blur(&u);
-        compact->max_distance = largest_distance(u.sharp, count);
+        compact->max_distance = tl_largest_distance(u.sharp, count);
         compact->distance = u.blurred;
     } else {
         tl_release_array(&compact->allocator, u.blurred, count, sizeof *u.blurred);
@@ -207,21 +198,24 @@ tl_result tl_distance_stages_make(const tl_nav_compact *compact, const tl_alloca
 {
     const uint32_t count = compact->span_count;
     memset(stages_out, 0, sizeof *stages_out);
-    tl_plain_runs runs;
-    TL_TRY(tl_plain_runs_find(compact, allocator, &runs));
+    const tl_host host = { allocator, NULL, NULL };
+    tl_floor_bands bands;
+    TL_TRY(tl_floor_bands_make(compact, &host, &bands));
     uint16_t *forward = tl_allocate_array(allocator, 3 * (uint64_t)count, sizeof *forward);
     if (forward == NULL) {
-        tl_plain_runs_free(&runs);
+        tl_floor_bands_free(&bands);
         return TL_ERR_MEMORY;
     }
     uint16_t *sharp = forward + count, *blurred = sharp + count;
     tl_distance_stages stages = { forward, sizeof *forward };
-    tl_distance_sweep_forward(compact, &runs, forward);
+    tl_chamfer chamfer = tl_distance_chamfer(compact, &bands, forward);
+    tl_chamfer_sweep_forward(&chamfer, NULL);
     memcpy(sharp, forward, count * sizeof *sharp);
-    tl_distance_sweep_backward(compact, &runs, sharp);
-    tl_distance_blur(compact, &runs, sharp, blurred);
-    tl_plain_runs_free(&runs);
-    if (largest_distance(forward, 3 * (size_t)count) <= UINT8_MAX &&
+    chamfer.distance = sharp;
+    tl_chamfer_sweep_backward(&chamfer, NULL);
+    tl_distance_blur(&chamfer, NULL, blurred);
+    tl_floor_bands_free(&bands);
+    if (tl_largest_distance(forward, 3 * (size_t)count) <= UINT8_MAX &&
         narrow_stages(&stages, count, allocator) != TL_OK) {
         tl_distance_stages_free(&stages, count, allocator);
         return TL_ERR_MEMORY;

@@ -13,7 +13,9 @@
 #include "base/host.h"
 #include "base/memory_meter.h"
 #include "nav_bake/floors/compact.h"
+#include "nav_bake/floors/erode.h"
 #include "nav_bake/input/input_check.h"
+#include "nav_bake/regions/distance_field.h"
 #include "nav_bake/regions/regions.h"
 
 #include <string.h>
@@ -23,9 +25,9 @@ typedef struct tile_job {
     const tl_nav_input *input;
     tl_triangle_list list;
     tl_host host;
-    bool keep;          // all intermediate data
-    bool keep_distance; // the distance field at least
-    bool has_distance;  // the floors come with one
+    bool keep;            // all intermediate data
+    bool keep_distance;   // the distance field at least
+    tl_floor_bands bands; // for erosion and the distance field
     tl_nav_stages *stages;
     tl_nav_tile *tile;       // until it is in the stack
     tl_nav_tile_stack stack; // it alone, or its layers
@@ -74,7 +76,10 @@ static tl_result bake_floors(tile_job *job)
 
 static tl_result erode_floors(tile_job *job)
 {
-    return tl_nav_erode(job->config, &job->host, &job->stages->compact, &job->report->base);
+    tl_report_begin(&job->report->base, "erode");
+    TL_TRY(tl_progress_update(&job->host, "erode", 0, 1));
+    TL_TRY(tl_nav_erode_bands(job->config, &job->host, &job->bands, &job->stages->compact));
+    return tl_progress_update(&job->host, "erode", 1, 1);
 }
 
 static tl_result mark_areas(tile_job *job)
@@ -88,12 +93,20 @@ static tl_result mark_areas(tile_job *job)
     return tl_progress_update(&job->host, "areas", input->volume_count, input->volume_count);
 }
 
+static tl_result measure_distances(tile_job *job)
+{
+    if (job->config->partition != TL_NAV_WATERSHED) {
+        return TL_OK;
+    }
+    tl_report_begin(&job->report->base, "distance field");
+    TL_TRY(tl_progress_update(&job->host, "distance field", 0, 1));
+    TL_TRY(tl_nav_distance_of_bands(&job->host, &job->bands, &job->stages->compact));
+    return tl_progress_update(&job->host, "distance field", 1, 1);
+}
+
 static tl_result bake_regions(tile_job *job)
 {
     tl_nav_compact *compact = &job->stages->compact;
-    if (job->config->partition == TL_NAV_WATERSHED && !job->has_distance) {
-        TL_TRY(tl_nav_distance_field(&job->host, compact, &job->report->base));
-    }
     TL_TRY(tl_nav_divide_regions(job->config, &job->host, compact, job->keep_distance, &job->report->base));
     job->report->region_count += compact->region_count > 0 ? compact->region_count - 1 : 0;
     job->report->filtered_regions += compact->region_stats.filtered_regions;
@@ -234,8 +247,11 @@ static tl_result finish_tile(tile_job *job)
 static tl_result bake_from_triangles(tile_job *job)
 {
     TL_TRY(bake_floors(job));
+    TL_TRY(tl_floor_bands_make(&job->stages->compact, &job->host, &job->bands));
     TL_TRY(erode_floors(job));
     TL_TRY(mark_areas(job));
+    TL_TRY(measure_distances(job));
+    tl_floor_bands_free(&job->bands);
     return finish_tile(job);
 }
 
@@ -265,6 +281,7 @@ tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input
     job.stages = stages != NULL ? stages : &scratch;
     job.report = report;
     const tl_result result = bake_from_triangles(&job);
+    tl_floor_bands_free(&job.bands);
     tl_nav_stages_free(&scratch);
     return hand_over(&job, result, stack_out);
 }
@@ -346,10 +363,13 @@ tl_result tl_nav_tile_bake_from_distance(const tl_nav_config *config, tl_nav_com
     job.config = config;
     job.host = host != NULL ? *host : plain;
     job.keep = true; // the floors are the caller's
-    job.has_distance = has_distance;
     job.stages = &stages;
     job.report = &report;
-    const tl_result result = finish_tile(&job);
+    tl_result result = TL_OK;
+    if (!has_distance && config->partition == TL_NAV_WATERSHED) {
+        result = tl_nav_distance_field(&job.host, &stages.compact, &report.base);
+    }
+    result = result == TL_OK ? finish_tile(&job) : result;
     const tl_nav_compact *worked = &stages.compact;
     tl_release_array(&compact->allocator, worked->distance, worked->span_count, sizeof *worked->distance);
     tl_release_array(&compact->allocator, worked->region, worked->span_count, sizeof *worked->region);
