@@ -325,7 +325,6 @@ void bench_prepared(arena &a, double bar)
 {
     double begin = bench_thread_seconds();
     tl_nav_prepare_def def = tl_default_nav_prepare_def();
-    def.label_bytes = 256u << 20;
     tl_nav_prepared made;
     if (tl_navmesh_prepare(a.level.twin.get(), &def, &made) != TL_OK || !tl_navmesh_is_prepared(a.navmesh())) {
         std::printf("  prepared               no visibility graph\n");

@@ -229,12 +229,11 @@ tl_result TL_JS_EXPORT(js_find_wide_path)(tl_js_navmesh *self, uint32_t flags, f
     return result == TL_OK ? put_corners(at, self->corners, path.corner_count) : result;
 }
 
-/// Slot: bytes for a table and for labels; then kind, corner vertices, edges, bytes.
+/// Slot: bytes for a table; then kind, corner vertices, edges, bytes.
 tl_result TL_JS_EXPORT(js_prepare)(tl_js_navmesh *self)
 {
     tl_nav_prepare_def def = tl_default_nav_prepare_def();
     def.table_bytes = (uint64_t)tl_js_slot[0];
-    def.label_bytes = (uint64_t)tl_js_slot[1];
     tl_nav_prepared prepared;
     const tl_result result = tl_navmesh_prepare(self->navmesh, &def, &prepared);
     tl_js_report = prepared.base;

@@ -262,7 +262,6 @@ namespace Talus.Interop
         TL_NAV_PREPARED_NONE = 0,
         TL_NAV_PREPARED_GRAPH = 1,
         TL_NAV_PREPARED_TABLE = 2,
-        TL_NAV_PREPARED_LABELS = 3,
     }
 
     public enum tl_pack_axes
@@ -2307,7 +2306,6 @@ namespace Talus.Interop
     public unsafe struct tl_nav_prepare_def
     {
         public ulong table_bytes;
-        public ulong label_bytes;
         public tl_progress* progress;
         public uint cookie;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Preparing a navmesh whose tiles stay for a while: the visibility graph, distances and hub labels for shortest paths.
+// Preparing a navmesh whose tiles stay for a while: the visibility graph and distances for shortest paths.
 
 #ifndef TALUS_NAV_PREPARE_H
 #define TALUS_NAV_PREPARE_H
@@ -16,11 +16,7 @@ typedef struct tl_nav_prepare_def {
     /// Bytes for a table of the all-pairs shortest distances between corner vertices, 6 for each pair. Default 32 MiB,
     /// enough for 2,364 corner vertices; 0: no table.
     uint64_t table_bytes;
-    /// Bytes for hub labels where the table is larger than that: for each corner vertex its distances to some hundred
-    /// hubs. Baking takes 20 s and 78 MB on a city of 25,000 corner vertices, and stops without labels when the bytes
-    /// are used up. A query needs as many nodes as there are corner vertices to use them. Default 0: no labels.
-    uint64_t label_bytes;
-    /// Stages "visibility graph", "landmarks", "distances" and "hub labels". NULL: silent and not cancellable. Memory
+    /// Stages "visibility graph", "landmarks" and "distances". NULL: silent and not cancellable. Memory
     /// comes from the navmesh's allocator.
     const tl_progress *progress;
     uint32_t cookie; ///< set by tl_default_nav_prepare_def
@@ -31,12 +27,11 @@ TL_API tl_nav_prepare_def tl_default_nav_prepare_def(void);
 /// How shortest paths are found.
 typedef enum tl_nav_prepared_kind {
     TL_NAV_PREPARED_NONE,  ///< by a search over polygons: a seam leads to two floors at once
-    TL_NAV_PREPARED_GRAPH, ///< by A* over the visibility graph: neither table nor labels fit
-    TL_NAV_PREPARED_TABLE, ///< by the table of distances, without a search
-    TL_NAV_PREPARED_LABELS ///< by hub labels, without a search
+    TL_NAV_PREPARED_GRAPH, ///< by A* over the visibility graph: no table fits
+    TL_NAV_PREPARED_TABLE  ///< by the table of distances, without a search
 } tl_nav_prepared_kind;
 
-/// A word for a kind: "none", "graph", "table", "labels".
+/// A word for a kind: "none", "graph", "table".
 TL_API const char *tl_nav_prepared_kind_name(tl_nav_prepared_kind kind);
 
 /// What tl_navmesh_prepare baked. After an error only `base` says something.
@@ -45,18 +40,18 @@ typedef struct tl_nav_prepared {
     tl_nav_prepared_kind kind;
     uint32_t corner_vertex_count; ///< vertices of the navmesh at which a shortest path may turn
     uint32_t edge_count;          ///< of the visibility graph, each counted from both ends
-    uint64_t bytes;               ///< held now, graph, table and labels
+    uint64_t bytes;               ///< held now, graph and table
     uint64_t table_bytes;         ///< that a table takes, or would take; UINT64_MAX: more than 65,535 corner vertices
 } tl_nav_prepared;
 
 /// Makes path searches fast: bakes the visibility graph of the corner vertices, at which shortest paths turn; and where
-/// it fits the def, a table of the distances between all of them, or hub labels.
+/// it fits the def, a table of the distances between all of them.
 ///
 /// Answers stay the same: the shortest paths. The graph serves filters that pass every polygon at the same cost, while
 /// there are no off-mesh links, and until a tile or link is added or removed; then searches are as before, until this
 /// is called again. Where a seam leads to two floors at once (a polygon is linked to two others over the same stretch)
 /// there is no graph. NULL def: the default one. `prepared_out` (may be NULL) says what was baked. A navmesh that is
-/// prepared already keeps its graph, and gets or loses table and labels as the def says. O(what all corner vertices
+/// prepared already keeps its graph, and gets or loses the table as the def says. O(what all corner vertices
 /// see), and a Dijkstra search from each of them for the table: 1 to 3 ms for levels of 100 to 200 polygons, 28 ms for
 /// 300 corner vertices in the open; the graph alone 0.8 s and 42 MB for a city of 26,000 polygons. Changes the navmesh:
 /// no query may run meanwhile. On failure the navmesh is not prepared: TL_ERR_MEMORY, TL_ERR_LIMIT, TL_ERR_CANCELLED;

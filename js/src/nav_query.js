@@ -169,12 +169,11 @@ const methods = {
     return check(wasm.js_find_wide_place(this._address, flags, options.radius ?? 10, agentRadius)) === 0 ? readLocation(0) : null;
   },
 
-  prepare({ tableBytes = 32 * 1024 * 1024, labelBytes = 0 } = {}) {
+  prepare({ tableBytes = 32 * 1024 * 1024 } = {}) {
     F64[SLOT] = tableBytes;
-    F64[SLOT + 1] = labelBytes;
     check(wasm.js_prepare(this._address));
     const s = SLOT;
-    return { kind: ['none', 'graph', 'table', 'labels'][F64[s]], cornerVertexCount: F64[s + 1], edgeCount: F64[s + 2], bytes: F64[s + 3] };
+    return { kind: ['none', 'graph', 'table'][F64[s]], cornerVertexCount: F64[s + 1], edgeCount: F64[s + 2], bytes: F64[s + 3] };
   },
 
   castRay(start, end, options = {}) {

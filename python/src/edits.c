@@ -273,8 +273,7 @@ static PyObject *navmesh_prepare(PyObject *self, PyObject *args)
     PyObject *capsule;
     tl_nav_prepare_def def = tl_default_nav_prepare_def();
     unsigned long long table = 0;
-    unsigned long long labels = 0;
-    if (!PyArg_ParseTuple(args, "OKK", &capsule, &table, &labels)) {
+    if (!PyArg_ParseTuple(args, "OK", &capsule, &table)) {
         return NULL;
     }
     const binding_navmesh *held = binding_navmesh_to_change(capsule);
@@ -282,7 +281,6 @@ static PyObject *navmesh_prepare(PyObject *self, PyObject *args)
         return NULL;
     }
     def.table_bytes = table;
-    def.label_bytes = labels;
     tl_nav_prepared prepared;
     tl_result result;
     Py_BEGIN_ALLOW_THREADS result = tl_navmesh_prepare(held->navmesh, &def, &prepared);

@@ -373,13 +373,13 @@ class Navmesh:
         x, y, z = point
         return x, y, z
 
-    def prepare(self, *, table_bytes: int = 32 << 20, label_bytes: int = 0) -> str:
+    def prepare(self, *, table_bytes: int = 32 << 20) -> str:
         """Make paths faster, with the same answers, until the navmesh is changed.
 
-        Returns what was made: ``table``, ``labels``, ``graph`` or ``none``.
+        Returns what was made: ``table``, ``graph`` or ``none``.
         """
         with self._lock:
-            kind, _, _ = _talus.navmesh_prepare(self._navmesh, int(table_bytes), int(label_bytes))
+            kind, _, _ = _talus.navmesh_prepare(self._navmesh, int(table_bytes))
         return str(kind)
 
     # --- links ----------------------------------------------------------------------------------------------------

@@ -180,12 +180,11 @@ static tl_result bake_navmesh(const tl_host *host)
     return result;
 }
 
-static tl_result prepare_with(const tl_host *host, uint64_t table_bytes, uint64_t label_bytes)
+static tl_result prepare_with(const tl_host *host, uint64_t table_bytes)
 {
     tl_nav_prepare_def def = tl_default_nav_prepare_def();
     def.progress = host->progress;
     def.table_bytes = table_bytes;
-    def.label_bytes = label_bytes;
     tl_navmesh *navmesh;
     TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
     for (uint32_t i = 0; i < tl_navmesh_slot_count(world.navmesh); i++) {
@@ -200,12 +199,12 @@ static tl_result prepare_with(const tl_host *host, uint64_t table_bytes, uint64_
 
 static tl_result prepare_table(const tl_host *host)
 {
-    return prepare_with(host, (uint64_t)1 << 30, 0);
+    return prepare_with(host, (uint64_t)1 << 30);
 }
 
-static tl_result prepare_labels(const tl_host *host)
+static tl_result prepare_graph(const tl_host *host)
 {
-    return prepare_with(host, 0, (uint64_t)1 << 30);
+    return prepare_with(host, 0);
 }
 
 static tl_result find_links(const tl_host *host)
@@ -348,7 +347,7 @@ static void no_operation_is_silent_for_long(void **state)
     measure("split soup", bake_split_soup);
     measure("navmesh", bake_navmesh);
     measure("prepare, table", prepare_table);
-    measure("prepare, labels", prepare_labels);
+    measure("prepare, graph", prepare_graph);
     measure("links", find_links);
     measure("audit", audit);
     measure("audit, missing", audit_nothing);

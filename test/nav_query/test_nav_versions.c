@@ -77,7 +77,6 @@ static void prepare_both(twins *t, tl_navmesh *draft)
 {
     tl_nav_prepare_def def = tl_default_nav_prepare_def();
     def.table_bytes = test_random_below(&t->random, 2) == 0 ? 0 : def.table_bytes;
-    def.label_bytes = test_random_below(&t->random, 2) == 0 ? 0 : 1u << 20;
     TEST_RESULT(tl_navmesh_prepare(t->alone, &def, NULL), TL_OK);
     TEST_RESULT(tl_navmesh_prepare(draft, &def, NULL), TL_OK);
     TEST_RESULT(tl_navmesh_prepare_wide(t->alone, NULL, NULL), TL_OK);

@@ -362,19 +362,17 @@ static void queries_end_on_levels(void **state)
 static void queries_end_on_prepared_navmeshes(void **state)
 {
     (void)state;
-    static const tl_nav_prepared_kind KINDS[] = { TL_NAV_PREPARED_GRAPH, TL_NAV_PREPARED_TABLE,
-                                                  TL_NAV_PREPARED_LABELS };
+    static const tl_nav_prepared_kind KINDS[] = { TL_NAV_PREPARED_GRAPH, TL_NAV_PREPARED_TABLE };
     test_random random = { 3 };
     uint32_t by_graph = 0;
     for (uint32_t i = 0; i < 12; i++) {
         fixture_level level = fixture_random(&random, 1 + i % 4, 14);
-        level.tile_cells = i % 2 == 0 ? 0 : 5;
+        level.tile_cells = i / 2 % 2 == 0 ? 0 : 5;
         tl_navmesh *navmesh = fixture_build(&level, NULL);
         tl_nav_prepare_def def = tl_default_nav_prepare_def();
         tl_nav_prepared prepared;
-        const tl_nav_prepared_kind kind = KINDS[i % 3];
+        const tl_nav_prepared_kind kind = KINDS[i % 2];
         def.table_bytes = kind == TL_NAV_PREPARED_TABLE ? 1u << 28 : 0;
-        def.label_bytes = kind == TL_NAV_PREPARED_LABELS ? 1u << 28 : 0;
         TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &prepared), TL_OK);
         by_graph += prepared.kind == kind && prepared.corner_vertex_count > 8;
         ask_everywhere(navmesh, &random, 4);

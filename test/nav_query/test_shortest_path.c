@@ -120,23 +120,22 @@ static tl_nav_location pick(const graph *g, test_random *random, tally *t)
     return location;
 }
 
-// By the search over polygons, then by the one over the visibility graph, then by the table, then by labels.
+// By the search over polygons, then by the one over the visibility graph, then by the table.
 static void check_level(tl_navmesh *navmesh, uint32_t pairs, uint64_t seed, tally *t)
 {
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     graph g = make_graph(navmesh);
-    for (uint32_t kind = TL_NAV_PREPARED_NONE; kind <= TL_NAV_PREPARED_LABELS; kind++) {
+    for (uint32_t kind = TL_NAV_PREPARED_NONE; kind <= TL_NAV_PREPARED_TABLE; kind++) {
         test_random random = { seed };
-        tl_nav_prepare_def def_of_kind = { kind == TL_NAV_PREPARED_TABLE ? UINT64_MAX - 1 : 0,
-                                           kind == TL_NAV_PREPARED_LABELS ? UINT64_MAX : 0, NULL, TL_DEF_COOKIE };
+        tl_nav_prepare_def def_of_kind = { kind == TL_NAV_PREPARED_TABLE ? UINT64_MAX - 1 : 0, NULL, TL_DEF_COOKIE };
         tl_nav_prepared made;
         memset(&made, 0, sizeof made);
         if (kind != TL_NAV_PREPARED_NONE) {
             TEST_RESULT(tl_navmesh_prepare(navmesh, &def_of_kind, &made), TL_OK);
             TEST_CHECK(made.kind == kind || made.kind == TL_NAV_PREPARED_NONE || made.corner_vertex_count == 0);
-            t->prepared += made.kind == TL_NAV_PREPARED_LABELS;
+            t->prepared += made.kind == TL_NAV_PREPARED_TABLE;
         }
         for (uint32_t i = 0; i < pairs; i++) {
             tl_nav_location start = pick(&g, &random, t), goal = pick(&g, &random, t);

@@ -211,18 +211,6 @@ static void test_budgets(void **state)
         TEST_CHECK(graph_bytes < made.bytes - made.table_bytes);
         TEST_CHECK(tl_navmesh_is_prepared(navmesh) && compare(navmesh, twin, &random, 40) > 4);
     }
-    // Labels: as many bytes as they take are enough, and one less is not.
-    def.table_bytes = 0;
-    def.label_bytes = UINT64_MAX;
-    TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &made), TL_OK);
-    TEST_CHECK(made.kind == TL_NAV_PREPARED_LABELS && made.bytes > graph_bytes);
-    uint64_t label_bytes = made.bytes - graph_bytes;
-    for (uint32_t i = 0; i < 4; i++) {
-        def.label_bytes = label_bytes - (i % 2 == 0 ? 1 : 0);
-        TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &made), TL_OK);
-        TEST_CHECK(made.kind == (i % 2 == 0 ? TL_NAV_PREPARED_GRAPH : TL_NAV_PREPARED_LABELS));
-        TEST_CHECK(tl_navmesh_is_prepared(navmesh) && compare(navmesh, twin, &random, 40) > 4);
-    }
     TEST_CHECK(strcmp(tl_nav_prepared_kind_name(TL_NAV_PREPARED_TABLE), "table") == 0);
     TEST_CHECK(strcmp(tl_nav_prepared_kind_name((tl_nav_prepared_kind)77), "unknown") == 0);
     tl_navmesh_destroy(navmesh);
@@ -236,13 +224,11 @@ static void test_slices(void **state)
     const char *const rows[] = { "000", "0#0", "000" };
     fixture_level level = fixture_make(rows, 3);
     tl_navmesh *navmesh = fixture_build(&level, NULL);
-    const tl_nav_prepare_def defs[3] = { { UINT64_MAX - 1, 0, NULL, TL_DEF_COOKIE },
-                                         { 0, UINT64_MAX, NULL, TL_DEF_COOKIE },
-                                         { 0, 0, NULL, TL_DEF_COOKIE } };
+    const tl_nav_prepare_def defs[2] = { { UINT64_MAX - 1, NULL, TL_DEF_COOKIE }, { 0, NULL, TL_DEF_COOKIE } };
     tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } };
     tl_nav_location goal = { tl_navmesh_polygon_ref(navmesh, 0, 7), { 10, 0, 10 } };
     tl_nav_query *query = fixture_query(1000);
-    for (uint32_t i = 0; i < 3; i++) {
+    for (uint32_t i = 0; i < 2; i++) {
         tl_nav_path_progress progress;
         tl_nav_shortest_path path;
         TEST_RESULT(tl_navmesh_prepare(navmesh, &defs[i], NULL), TL_OK);
@@ -309,8 +295,7 @@ static void test_memory(void **state)
     test_allocator_init(&failing, 0);
     tl_navmesh *navmesh = fixture_build(&level, &failing.allocator);
     uint64_t before = failing.live_blocks, failures = 0;
-    const tl_nav_prepare_def defs[2] = { { UINT64_MAX - 1, 0, NULL, TL_DEF_COOKIE },
-                                         { 0, UINT64_MAX, NULL, TL_DEF_COOKIE } };
+    const tl_nav_prepare_def defs[2] = { { UINT64_MAX - 1, NULL, TL_DEF_COOKIE }, { 0, NULL, TL_DEF_COOKIE } };
     for (uint32_t i = 0; i < 2; i++) {
         tl_result result = TL_ERR_MEMORY;
         for (uint64_t k = 1; result != TL_OK; k++) {

@@ -186,12 +186,10 @@ export type Obstacle = { area?: number; base: Vec3Like; height: number } & (
 export interface PrepareOptions {
   /** Bytes for a table of distances. Default 32 MiB. */
   tableBytes?: number;
-  /** Bytes for hub labels where the table does not fit. Default 0. */
-  labelBytes?: number;
 }
 
 export interface Prepared {
-  kind: 'none' | 'graph' | 'table' | 'labels';
+  kind: 'none' | 'graph' | 'table';
   cornerVertexCount: number;
   edgeCount: number;
   bytes: number;

@@ -178,7 +178,6 @@ pub type tl_nav_prepared_kind = c_int;
 pub const TL_NAV_PREPARED_NONE: tl_nav_prepared_kind = 0;
 pub const TL_NAV_PREPARED_GRAPH: tl_nav_prepared_kind = 1;
 pub const TL_NAV_PREPARED_TABLE: tl_nav_prepared_kind = 2;
-pub const TL_NAV_PREPARED_LABELS: tl_nav_prepared_kind = 3;
 pub type tl_pack_axes = c_int;
 pub const TL_PACK_AXES_Y_UP: tl_pack_axes = 0;
 pub const TL_PACK_AXES_Z_UP: tl_pack_axes = 1;
@@ -2005,7 +2004,6 @@ pub struct tl_nav_rebaked_tile {
 #[derive(Clone, Copy)]
 pub struct tl_nav_prepare_def {
     pub table_bytes: u64,
-    pub label_bytes: u64,
     pub progress: *const tl_progress,
     pub cookie: u32,
 }
@@ -5571,11 +5569,10 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_rebaked_tile, tile_x), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_rebaked_tile, tile_z), 4);
         assert_eq!(core::mem::offset_of!(tl_nav_rebaked_tile, stack), 8);
-        assert_eq!(core::mem::size_of::<tl_nav_prepare_def>(), 32);
+        assert_eq!(core::mem::size_of::<tl_nav_prepare_def>(), 24);
         assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, table_bytes), 0);
-        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, label_bytes), 8);
-        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, progress), 16);
-        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, cookie), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, progress), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, cookie), 16);
         assert_eq!(core::mem::size_of::<tl_nav_prepared>(), 80);
         assert_eq!(core::mem::offset_of!(tl_nav_prepared, base), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_prepared, kind), 48);

@@ -79,7 +79,7 @@ tl_nav_meeting tl_nav_best_by_table(const tl_nav_visibility_graph *graph, tl_nav
     // The leg of the lowest total first: it bounds the others. A total may be too long by its roundings.
     const float margin = 1.0f + TL_FLOAT_GAMMA(16);
     uint32_t goal_count = ends->goal_count;
-    tl_nav_meeting best = { INFINITY, NULL, NULL, 0 };
+    tl_nav_meeting best = { INFINITY, NULL, NULL };
     for (uint32_t i = 1; i < ends->start_count; i++) {
         if (ends->starts[i].total < ends->starts[0].total) {
             swap(&ends->starts[i], &ends->starts[0]);

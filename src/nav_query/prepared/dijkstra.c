@@ -15,6 +15,22 @@
 // Vertices between two calls of progress: with some dozen edges each they take a few milliseconds.
 enum { SETTLED_PER_CALL = 4096 };
 
+static bool is_nearer(tl_nav_open_vertex a, tl_nav_open_vertex b)
+{
+    return a.length < b.length || (a.length == b.length && a.vertex < b.vertex);
+}
+
+#define TL_HEAP(name)                 open_vertex_##name
+#define TL_HEAP_ITEM                  tl_nav_open_vertex
+#define TL_HEAP_BEFORE(context, a, b) is_nearer(a, b)
+#include "base/heap.inl"
+
+static void open_vertex(tl_nav_dijkstra *s, double length, uint32_t vertex)
+{
+    const tl_nav_open_vertex item = { length, vertex };
+    open_vertex_push(s->heap, &s->heap_count, item, NULL);
+}
+
 tl_result tl_nav_dijkstra_init(const tl_allocator *allocator, const tl_nav_visibility_graph *graph, tl_stage *stage,
                                tl_nav_dijkstra *lengths_out)
 {
@@ -25,9 +41,7 @@ tl_result tl_nav_dijkstra_init(const tl_allocator *allocator, const tl_nav_visib
     lengths_out->before = tl_allocate_array(allocator, graph->vertex_count, sizeof *lengths_out->before);
     lengths_out->heap =
         tl_allocate_array(allocator, (uint64_t)graph->vertex_count + graph->edge_count, sizeof *lengths_out->heap);
-    lengths_out->settled = tl_allocate_array(allocator, graph->vertex_count, sizeof *lengths_out->settled);
-    if (lengths_out->length == NULL || lengths_out->before == NULL || lengths_out->settled == NULL ||
-        lengths_out->heap == NULL) {
+    if (lengths_out->length == NULL || lengths_out->before == NULL || lengths_out->heap == NULL) {
         tl_nav_dijkstra_free(allocator, lengths_out);
         return TL_ERR_MEMORY;
     }
@@ -39,7 +53,6 @@ void tl_nav_dijkstra_free(const tl_allocator *allocator, tl_nav_dijkstra *length
     const tl_nav_visibility_graph *graph = lengths->graph;
     tl_release_array(allocator, lengths->length, graph->vertex_count, sizeof *lengths->length);
     tl_release_array(allocator, lengths->before, graph->vertex_count, sizeof *lengths->before);
-    tl_release_array(allocator, lengths->settled, graph->vertex_count, sizeof *lengths->settled);
     tl_release_array(allocator, lengths->heap, (uint64_t)graph->vertex_count + graph->edge_count,
                      sizeof *lengths->heap);
 }
@@ -53,18 +66,17 @@ tl_result tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources,
     for (uint32_t i = 0; i < source_count; i++) {
         lengths->length[sources[i]] = 0.0;
         lengths->before[sources[i]] = sources[i];
-        tl_nav_dijkstra_open(lengths, 0.0, sources[i]);
+        open_vertex(lengths, 0.0, sources[i]);
     }
-    lengths->settled_count = 0;
+    uint32_t settled = 0;
     while (lengths->heap_count > 0) {
-        tl_nav_open_vertex next = tl_nav_dijkstra_next(lengths);
+        const tl_nav_open_vertex next = open_vertex_pop(lengths->heap, &lengths->heap_count, NULL);
         if (next.length > lengths->length[next.vertex]) {
             continue;
         }
-        if (lengths->settled_count % SETTLED_PER_CALL == 0) {
+        if (settled++ % SETTLED_PER_CALL == 0) {
             TL_TRY(tl_stage_add(lengths->stage, 0));
         }
-        lengths->settled[lengths->settled_count++] = next.vertex;
         const tl_nav_corner_vertex *vertex = &graph->vertices[next.vertex];
         for (uint32_t k = vertex[0].first_edge; k < vertex[1].first_edge; k++) {
             const tl_nav_visibility_edge *edge = &graph->edges[k];
@@ -72,7 +84,7 @@ tl_result tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources,
             if (length < lengths->length[edge->to]) {
                 lengths->length[edge->to] = length;
                 lengths->before[edge->to] = next.vertex;
-                tl_nav_dijkstra_open(lengths, length, edge->to);
+                open_vertex(lengths, length, edge->to);
             }
         }
     }

@@ -20,8 +20,6 @@ typedef struct tl_nav_dijkstra {
     uint32_t *before;         ///< by corner vertex: the one before it on the way there; itself for a source
     tl_nav_open_vertex *heap; ///< [edge_count + corner_vertex_count]: an entry each time a length falls
     uint32_t heap_count;
-    uint32_t *settled; ///< corner vertices that were reached, the nearest first
-    uint32_t settled_count;
 } tl_nav_dijkstra;
 
 static inline double tl_nav_visibility_edge_length(const tl_nav_corner_vertex *from, const tl_nav_visibility_edge *edge)
@@ -29,28 +27,6 @@ static inline double tl_nav_visibility_edge_length(const tl_nav_corner_vertex *f
     double x = (double)edge->x - (double)from->x;
     double z = (double)edge->z - (double)from->z;
     return sqrt(x * x + z * z);
-}
-
-static inline bool tl_nav_open_vertex_before(tl_nav_open_vertex a, tl_nav_open_vertex b)
-{
-    return a.length < b.length || (a.length == b.length && a.vertex < b.vertex);
-}
-
-#define TL_HEAP(name)                 tl_nav_open_vertex_##name
-#define TL_HEAP_ITEM                  tl_nav_open_vertex
-#define TL_HEAP_BEFORE(context, a, b) tl_nav_open_vertex_before(a, b)
-#include "base/heap.inl"
-
-static inline void tl_nav_dijkstra_open(tl_nav_dijkstra *s, double length, uint32_t vertex)
-{
-    const tl_nav_open_vertex item = { length, vertex };
-    tl_nav_open_vertex_push(s->heap, &s->heap_count, item, NULL);
-}
-
-/// The nearest open vertex, taken off the heap, which must not be empty.
-static inline tl_nav_open_vertex tl_nav_dijkstra_next(tl_nav_dijkstra *s)
-{
-    return tl_nav_open_vertex_pop(s->heap, &s->heap_count, NULL);
 }
 
 /// TL_ERR_MEMORY: nothing is left to free.

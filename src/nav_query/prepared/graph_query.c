@@ -2,7 +2,7 @@
 //
 // The shortest path on a prepared navmesh: the straight line where it arrives, else one over corner vertices.
 //
-// With the table of distances, or hub labels, nothing is searched: of the corner vertices in whose visibility cones the
+// With the table of distances nothing is searched: of the corner vertices in whose visibility cones the
 // start and the goal lie, the pair with the shortest path is the answer. The path is read off by walking along its
 // legs; a first or last leg that rounding alone put into a cone is struck out, and the next best pair taken. No
 // distance is too long, so the first path that can be walked is the shortest of all. Source: Shen, Cheema, Harabor,
@@ -17,31 +17,15 @@
 
 #include <string.h>
 
-// The best pair, and the corner vertices on its way, in query->on_path.
-static tl_nav_meeting best_pair(tl_nav_query *query, const tl_nav_visibility_graph *graph, tl_nav_ends *ends,
-                                uint32_t *count_out)
-{
-    tl_nav_meeting best;
-    if (graph->table != NULL) {
-        best = tl_nav_best_by_table(graph, ends);
-        *count_out =
-            best.start != NULL ? tl_nav_unpack_table(graph, &best, query->on_path, query->max_nodes) : UINT32_MAX;
-    } else {
-        best = tl_nav_best_by_labels(graph, ends, query->to_hub);
-        *count_out =
-            best.start != NULL ? tl_nav_unpack_labels(graph, &best, query->on_path, query->max_nodes) : UINT32_MAX;
-    }
-    return best;
-}
-
-// By what is known of all lengths. False: no pair can be walked, or there is no room.
-static bool find_by_lengths(tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph, tl_nav_ends *ends,
-                            const tl_nav_path_buffers *room, tl_nav_shortest_path *path_out)
+// By the table of all lengths. False: no pair can be walked, or there is no room.
+static bool find_by_table(tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph, tl_nav_ends *ends,
+                          const tl_nav_path_buffers *room, tl_nav_shortest_path *path_out)
 {
     tl_nav_query *query = search->query;
     for (uint32_t tries = 0; tries < ends->start_count + ends->goal_count; tries++) {
-        uint32_t count = 0;
-        tl_nav_meeting best = best_pair(query, graph, ends, &count);
+        const tl_nav_meeting best = tl_nav_best_by_table(graph, ends);
+        const uint32_t count =
+            best.start != NULL ? tl_nav_unpack_table(graph, &best, query->on_path, query->max_nodes) : UINT32_MAX;
         if (count == UINT32_MAX) {
             query->is_short = query->is_short || best.start != NULL;
             return false;
@@ -59,12 +43,6 @@ static bool find_by_lengths(tl_nav_shortest_search *search, const tl_nav_visibil
         *(blocked == 0 ? best.start : best.goal) = (tl_nav_corner_leg){ 0, INFINITY, INFINITY };
     }
     return false;
-}
-
-// Whether lengths are known, and the query has room to make use of them.
-static bool knows_lengths(const tl_nav_query *query, const tl_nav_visibility_graph *graph)
-{
-    return graph->table != NULL || (graph->labels.first != NULL && graph->vertex_count <= query->max_nodes);
 }
 
 // Whether the goal is seen from the start; the path is then written. `*is_unclear_out`: it cannot be told.
@@ -126,16 +104,13 @@ bool tl_nav_find_over_graph(tl_nav_shortest_search *search, const tl_nav_visibil
     // From here on the query's memory is used: a search in slices that was under way is no more.
     tl_nav_query *query = search->query;
     bool is_found;
-    if (graph->labels.first != NULL) {
-        tl_nav_query_make_room(query, graph->vertex_count);
-    }
     do {
         tl_nav_ends ends;
         tl_nav_next_generation(query);
         query->is_short = false;
         is_found =
             tl_nav_find_ends(search, graph, &ends) &&
-            ((knows_lengths(query, graph) && find_by_lengths(search, graph, &ends, room, path_out)) ||
+            ((graph->table != NULL && find_by_table(search, graph, &ends, room, path_out)) ||
              (tl_nav_find_ends(search, graph, &ends) && tl_nav_search_graph(search, graph, &ends, room, path_out)));
     } while (!is_found && query->is_short && tl_nav_query_grow(query));
     return is_found;

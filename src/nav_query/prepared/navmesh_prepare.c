@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Preparing a navmesh for shortest paths: its visibility graph, and a table of distances or hub labels if they fit.
+// Preparing a navmesh for shortest paths: its visibility graph, and a table of distances if it fits.
 
 #include "nav_query/prepared/corner_distances.h"
 #include "nav_query/prepared/visibility_graph.h"
@@ -13,13 +13,13 @@
 
 tl_nav_prepare_def tl_default_nav_prepare_def(void)
 {
-    tl_nav_prepare_def def = { 32u << 20, 0, NULL, TL_DEF_COOKIE };
+    tl_nav_prepare_def def = { 32u << 20, NULL, TL_DEF_COOKIE };
     return def;
 }
 
 const char *tl_nav_prepared_kind_name(tl_nav_prepared_kind kind)
 {
-    static const char *const NAMES[] = { "none", "graph", "table", "labels" };
+    static const char *const NAMES[] = { "none", "graph", "table" };
     return (unsigned)kind < TL_COUNT_OF(NAMES) ? NAMES[kind] : "unknown";
 }
 
@@ -47,7 +47,7 @@ static void outlive_state(tl_navmesh *navmesh, uint64_t edit_before)
     }
 }
 
-// Where older versions have the graph: a head of its own for this one, so that it may get and lose a table and labels.
+// Where older versions have the graph: a head of its own for this one, so that it may get and lose a table.
 static tl_result own_graph(tl_navmesh *navmesh)
 {
     if (!tl_nav_is_shared(navmesh->history, navmesh->graph)) {
@@ -80,7 +80,6 @@ static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *de
     const tl_allocator *allocator = &navmesh->allocator;
     tl_nav_visibility_graph *graph = navmesh->graph;
     if (tl_nav_corner_distances_size(graph) <= def->table_bytes) {
-        tl_nav_free_hub_labels(allocator, graph);
         if (graph->table != NULL) {
             return TL_OK;
         }
@@ -90,28 +89,17 @@ static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *de
     }
     tl_nav_free_corner_distances(allocator, graph);
     tl_nav_free_legs(allocator, graph);
-    if (graph->labels.first != NULL && tl_nav_hub_labels_size(graph) <= def->label_bytes) {
-        return TL_OK;
-    }
-    tl_nav_free_hub_labels(allocator, graph);
-    if (def->label_bytes == 0) {
-        return TL_OK;
-    }
-    tl_result result = tl_nav_bake_hub_labels(allocator, &host, graph, def->label_bytes);
-    return result == TL_ERR_LIMIT ? TL_OK : result; // the graph serves without
+    return TL_OK;
 }
 
 static void note_prepared(const tl_nav_visibility_graph *graph, tl_nav_prepared *made)
 {
-    made->kind = graph->table != NULL          ? TL_NAV_PREPARED_TABLE
-                 : graph->labels.first != NULL ? TL_NAV_PREPARED_LABELS
-                                               : TL_NAV_PREPARED_GRAPH;
+    made->kind = graph->table != NULL ? TL_NAV_PREPARED_TABLE : TL_NAV_PREPARED_GRAPH;
     made->corner_vertex_count = graph->vertex_count;
     made->edge_count = graph->edge_count;
     made->table_bytes = tl_nav_corner_distances_size(graph);
     made->bytes = tl_nav_visibility_graph_size(graph) + tl_nav_kept_legs_size(graph) +
-                  (graph->table != NULL ? made->table_bytes : 0) +
-                  (graph->labels.first != NULL ? tl_nav_hub_labels_size(graph) : 0);
+                  (graph->table != NULL ? made->table_bytes : 0);
 }
 
 tl_result tl_navmesh_prepare(tl_navmesh *navmesh, const tl_nav_prepare_def *def, tl_nav_prepared *prepared_out)

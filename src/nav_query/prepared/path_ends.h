@@ -24,7 +24,6 @@ typedef struct tl_nav_ends {
 typedef struct tl_nav_meeting {
     float length; ///< metres of the path; INFINITY: there is none
     tl_nav_corner_leg *start, *goal;
-    uint32_t hub; ///< its rank, where hub labels were asked
 } tl_nav_meeting;
 
 #endif

@@ -292,7 +292,6 @@ void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibili
         tl_nav_free_cones(allocator, graph);
         tl_nav_free_corner_distances(allocator, graph);
         tl_nav_free_legs(allocator, graph);
-        tl_nav_free_hub_labels(allocator, graph);
         tl_release_array(allocator, graph, 1, sizeof *graph);
     }
 }

@@ -12,7 +12,6 @@
 #include "nav_query/exact/shortest_search.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/prepared/corner_cones.h"
-#include "nav_query/prepared/hub_labels.h"
 #include "nav_query/prepared/kept_legs.h"
 
 #include <math.h>
@@ -50,9 +49,8 @@ struct tl_nav_visibility_graph {
     float *table;          ///< metres by corner vertex and corner vertex, or NULL (corner_distances.c)
     uint16_t *table_next;  ///< by the same pair: the next corner vertex on the path from the second to the first
     tl_nav_kept_legs kept; ///< where there is a table
-    tl_nav_hub_labels labels;
-    double rounding;      ///< metres within which a point is on a line
-    float landmark_error; ///< metres by which a difference of two landmark distances may be wrong
+    double rounding;       ///< metres within which a point is on a line
+    float landmark_error;  ///< metres by which a difference of two landmark distances may be wrong
 };
 
 /// The sides to which a path that comes along (x, z) to a corner vertex may turn there: those on which its walls are.
@@ -71,7 +69,7 @@ static inline uint32_t tl_nav_turns_at(const tl_nav_corner_vertex *vertex, doubl
 
 /// Bakes the visibility graph of a navmesh without forks at seams. TL_ERR_MEMORY, TL_ERR_LIMIT.
 tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, const tl_host *host, tl_nav_visibility_graph **graph_out);
-/// Bytes that the graph takes, without table and labels.
+/// Bytes that the graph takes, without its table.
 uint64_t tl_nav_visibility_graph_size(const tl_nav_visibility_graph *graph);
 void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibility_graph *graph);
 

@@ -43,11 +43,7 @@ struct tl_nav_query {
     // The node pool (node_pool.h): A* over ways into polygons, floods, the wide search.
     tl_nav_node *nodes;
     uint32_t *buckets; ///< bucket_count is a power of two
-    /// [max_nodes] numbers of 64 bits.
-    union {
-        uint64_t *heap; ///< open nodes of the pool with their totals (node_heap.c)
-        float *to_hub;  ///< metres from the start to each hub (prepared/hub_labels.c)
-    };
+    uint64_t *heap;    ///< [max_nodes]: open nodes of the pool with their totals (node_heap.c)
     uint32_t node_count;
     uint32_t bucket_count;
     uint32_t heap_count;
