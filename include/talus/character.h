@@ -150,6 +150,9 @@ typedef struct tl_character_report {
 ///
 /// A step up counts when its end is walkable ground no more than step_height above its begin and it leads farther than
 /// sliding does. Ground is walkable when its normal is within max_slope; at the edge of a step its face counts.
+/// What is too steep to stand on, as a rock, a beam or a sheet on its edge, is climbed where such ground lies a radius
+/// or half of one ahead. In the air, what pushes at ground that is too steep is taken from the velocity: it slides
+/// down.
 ///
 /// TL_ERR_ARGUMENT, with the field in the report: NULLs; "level" has both a soup and a scene, or neither; "seconds";
 /// "max_triangles" is TL_ERR_LIMIT: more of them touch the box of the capsule, its step height and a quarter of its

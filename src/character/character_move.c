@@ -206,6 +206,9 @@ static double largest_coordinate(tl_vec3d a)
 static tl_vec3d allowed_velocity(const tl_character_mover *m, tl_vec3d velocity, bool grounded)
 {
     tl_mover_plane planes[TL_MAX_MOVER_PLANES];
+    if (!grounded) {
+        tl_mover_fall_aside(m, &velocity);
+    }
     tl_mover_slide here = { { 0, 0, 0 }, velocity, { 0, 0, 0 }, false, true, 0.0, false };
     uint32_t count = tl_mover_planes(m, &here, planes), kept = 0;
     for (uint32_t i = 0; i < count; i++) {

@@ -87,6 +87,10 @@ typedef struct tl_mover_slide {
 /// The allowed motions at the contacts that were found last, as planes; their number.
 uint32_t tl_mover_planes(const tl_character_mover *m, const tl_mover_slide *slide, tl_mover_plane *planes);
 
+/// Who falls against steep ground slides down it: what of the wish pushes at it is taken from it. The nearest motion
+/// that is allowed would hold it there for as long as it pushes.
+void tl_mover_fall_aside(const tl_character_mover *m, tl_vec3d *wish);
+
 void tl_mover_slide_along(tl_character_mover *m, tl_mover_slide *slide);
 
 /// Moves a capsule that overlaps, or nearly, out of what it overlaps.

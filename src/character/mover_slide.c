@@ -163,6 +163,25 @@ static void land(const tl_character_mover *m, tl_mover_slide *slide)
     }
 }
 
+void tl_mover_fall_aside(const tl_character_mover *m, tl_vec3d *wish)
+{
+    tl_mover_plane walls[TL_MAX_MOVER_PLANES];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < m->contact_count && wish->y < 0.0; i++) {
+        const tl_vec3d n = m->contacts[i].normal;
+        const double flat = sqrt(n.x * n.x + n.z * n.z);
+        if (n.y > UPRIGHT_COSINE && n.y < m->cos_slope && flat > LEAN_SINE) {
+            count = add_plane(walls, count, tl_vec3d_make(n.x / flat, 0.0, n.z / flat), 0.0);
+        }
+    }
+    tl_vec3d aside = { wish->x, 0.0, wish->z };
+    if (count > 0 && !tl_allowed_motion(walls, count, aside, SLACK_SHARE * m->gap, &aside)) {
+        aside = tl_vec3d_make(0.0, 0.0, 0.0);
+    }
+    wish->x = aside.x;
+    wish->z = aside.z;
+}
+
 void tl_mover_slide_along(tl_character_mover *m, tl_mover_slide *slide)
 {
     tl_mover_plane planes[TL_MAX_MOVER_PLANES];
@@ -173,6 +192,9 @@ void tl_mover_slide_along(tl_character_mover *m, tl_mover_slide *slide)
         tl_mover_find_contacts(m, slide->feet);
         note_contacts(m, slide);
         land(m, slide);
+        if (!slide->walking) {
+            tl_mover_fall_aside(m, &slide->wish);
+        }
         uint32_t count = tl_mover_planes(m, slide, planes);
         tl_vec3d motion;
         if (!allowed_motion(planes, count, slide, slack, true, &motion) &&

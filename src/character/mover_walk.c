@@ -34,15 +34,16 @@ static bool has_support(tl_character_mover *m, tl_vec3d feet)
     return tl_mover_support(m, (double)INFINITY) != NULL;
 }
 
-// Down by at most `drop`, to where the gap is whole: half of it is left by the sweep, and taken back.
-static tl_vec3d descend(tl_character_mover *m, tl_vec3d feet, double drop, bool *hit_out)
+// Down by at most `drop`, along what leans by less than `lean`, to where the gap is whole: half of it is left by the
+// sweep, and taken back.
+static tl_vec3d descend(tl_character_mover *m, tl_vec3d feet, double drop, double lean, bool *hit_out)
 {
     *hit_out = false;
     tl_vec3d motion = tl_vec3d_make(0.0, -drop, 0.0);
     for (int i = 0; i < MAX_DESCENTS; i++) {
         tl_mover_sweep sweep = tl_mover_cast(m, feet, motion);
         double moved = -motion.y * sweep.t;
-        if (sweep.hit && (sweep.normal.y >= LEAN_COSINE || has_support(m, tl_vec3d_mul_add(feet, motion, sweep.t)))) {
+        if (sweep.hit && (sweep.normal.y >= lean || has_support(m, tl_vec3d_mul_add(feet, motion, sweep.t)))) {
             double back = 0.5 * m->gap / sweep.normal.y, most = 0.5 * moved;
             back = sweep.normal.y < LEAN_COSINE && back > most ? most : back;
             *hit_out = true;
@@ -71,10 +72,10 @@ static bool reach_heights(tl_character_mover *m, double low, double high)
     return !m->crowded;
 }
 
-static bool settle_within(tl_character_mover *m, tl_vec3d *feet, double drop, double highest)
+static bool settle_within(tl_character_mover *m, tl_vec3d *feet, double drop, double lean, double highest)
 {
     bool hit;
-    tl_vec3d low = descend(m, *feet, drop, &hit);
+    tl_vec3d low = descend(m, *feet, drop, lean, &hit);
     if (!hit) {
         return false;
     }
@@ -90,13 +91,13 @@ static bool settle_within(tl_character_mover *m, tl_vec3d *feet, double drop, do
 
 // To the ground within `drop`, when it can be stood on, no edge above `highest`; else the feet stay. False: there is no
 // such ground. It is mostly near, so what is farther down is collected only where it is not.
-static bool settle_down(tl_character_mover *m, tl_vec3d *feet, double drop, double highest)
+static bool settle_down(tl_character_mover *m, tl_vec3d *feet, double drop, double lean, double highest)
 {
     double known = feet->y - m->feet_low.y;
-    if (known > 0.0 && known < drop && settle_within(m, feet, known, highest)) {
+    if (known > 0.0 && known < drop && settle_within(m, feet, known, lean, highest)) {
         return true;
     }
-    if (reach_heights(m, feet->y - drop, feet->y) && settle_within(m, feet, drop, highest)) {
+    if (reach_heights(m, feet->y - drop, feet->y) && settle_within(m, feet, drop, lean, highest)) {
         return true;
     }
     tl_mover_find_contacts(m, *feet);
@@ -120,24 +121,36 @@ static bool leads_farther(const tl_character_mover *m, tl_vec3d to, tl_vec3d tha
     return tl_vec3d_dot(tl_vec3d_sub(to, than), wish) > FARTHER_SHARE * m->gap * tl_vec3d_length(wish);
 }
 
-// Steps with sides that are too steep, as a rock's: what the wish leads to cannot be stood on, but a radius farther is
-// ground no higher than a step. Then it climbs the side, held as if on ground, and a slow character is not stopped by
-// it.
-static bool climbs_side(tl_character_mover *m, const tl_mover_slide *slid, tl_vec3d from, tl_vec3d lifted,
-                        tl_vec3d wish, tl_vec3d *feet)
+// Whether there is ground no higher than a step where `far` leads to from a step's height, or down the other side
+// there; not down the same side.
+static bool finds_ground(tl_character_mover *m, const tl_mover_slide *slid, tl_vec3d from, tl_vec3d lifted,
+                         tl_vec3d far)
 {
-    double length = flat_length(wish), reach = AHEAD_RADII * m->radius;
-    tl_vec3d room = tl_vec3d_make(reach, 0.0, reach), far = tl_vec3d_scale(wish, m->radius / length);
-    m->crowded = m->crowded || !tl_mover_collect(m, tl_vec3d_sub(m->feet_low, room), tl_vec3d_add(m->feet_high, room));
+    const tl_vec3d half = tl_vec3d_mul_add(lifted, far, 0.5);
     tl_mover_slide probe = { lifted, far, { 0, 0, 0 }, true, true, slid->highest, false };
     tl_mover_slide_along(m, &probe);
     tl_vec3d top = probe.feet;
     double known = m->ground_height;
-    bool found = leads_farther(m, top, tl_vec3d_mul_add(lifted, far, 0.5), wish) &&
-                 settle_down(m, &top, ground_below(m, from, top), slid->highest) && top.y > from.y + m->gap;
+    bool found = leads_farther(m, top, half, far) &&
+                 settle_down(m, &top, ground_below(m, from, top), m->cos_slope, slid->highest) &&
+                 leads_farther(m, top, half, far);
     m->ground_height = known;
+    return found;
+}
+
+// Steps with sides that are too steep, as a rock's or a beam's: what the wish leads to cannot be stood on, but a radius
+// farther, or half of one, is ground no higher than a step. Then it climbs the side, held as if on ground, and a slow
+// character is not stopped by it.
+static bool climbs_side(tl_character_mover *m, const tl_mover_slide *slid, tl_vec3d from, tl_vec3d lifted,
+                        tl_vec3d wish, tl_vec3d *feet)
+{
+    double reach = AHEAD_RADII * m->radius;
+    tl_vec3d room = tl_vec3d_make(reach, 0.0, reach), far = tl_vec3d_scale(wish, m->radius / flat_length(wish));
+    m->crowded = m->crowded || !tl_mover_collect(m, tl_vec3d_sub(m->feet_low, room), tl_vec3d_add(m->feet_high, room));
+    bool found =
+        finds_ground(m, slid, from, lifted, far) || finds_ground(m, slid, from, lifted, tl_vec3d_scale(far, 0.5));
     bool hit;
-    *feet = descend(m, lifted, ground_below(m, from, lifted), &hit);
+    *feet = descend(m, lifted, ground_below(m, from, lifted), LEAN_COSINE, &hit);
     tl_mover_find_contacts(m, *feet);
     const tl_mover_contact *side = tl_mover_steep_support(m);
     bool held = hit && side != NULL && side->normal.y >= LEAN_COSINE;
@@ -164,7 +177,7 @@ static bool walk_over_step(tl_character_mover *m, const tl_mover_slide *slid, tl
     if (!leads_farther(m, end, slid->feet, wish)) {
         return false;
     }
-    bool settled = settle_down(m, &end, ground_below(m, from, end), slid->highest);
+    bool settled = settle_down(m, &end, ground_below(m, from, end), LEAN_COSINE, slid->highest);
     if (settled ? !leads_farther(m, end, slid->feet, wish) : !climbs_side(m, slid, from, ahead.feet, wish, &end)) {
         return false;
     }
@@ -184,5 +197,5 @@ bool tl_mover_walk(tl_character_mover *m, tl_vec3d *feet, tl_vec3d wish)
     }
     m->report->blocked = m->report->blocked || slide.blocked;
     *feet = slide.feet;
-    return settle_down(m, feet, ground_below(m, from, slide.feet), slide.highest);
+    return settle_down(m, feet, ground_below(m, from, slide.feet), LEAN_COSINE, slide.highest);
 }

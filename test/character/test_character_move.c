@@ -333,6 +333,60 @@ static void test_rocks(void **state)
     }
 }
 
+// A beam with steep sides on the floor, or a sheet that stands on its edge, is a step too: over it and down again, at
+// any speed, up to a step's height. So is a row of stones without a level face.
+static void test_beams(void **state)
+{
+    (void)state;
+    const float heights[] = { 0.1f, 0.25f, 0.39f, 0.43f };
+    for (int i = 0; i < 24; i++) {
+        model m = { 0 };
+        const float h = heights[i % 4], speed = i < 12 ? 3 : 0.5f, half = i / 4 % 3 == 0 ? 0.0f : 0.12f;
+        world_floor(&m, -5, -5, 10, 5, 0, 1);
+        const float width = i / 4 % 3 == 2 ? 0.5f : 10.0f; // stones, or one beam
+        for (float z = -5; z < 4.9f; z += width) {
+            const tl_vec3 in = { 1.5f - half, 0, z }, out = { 1.5f + half, 0, z };
+            const float lean = width < 1 ? 0.2f * width : 0.0f;
+            const tl_vec3 top = { 1.5f, h, z + lean }, end = { 1.5f, h, z + width - lean };
+            const tl_vec3 in_end = { in.x, 0, z + width }, out_end = { out.x, 0, z + width };
+            world_quad(&m, in, in_end, end, top);
+            world_quad(&m, out_end, out, top, end);
+        }
+        world w = world_begin(&m);
+        tl_character c = character_at(0, 0.01f, 0.13f);
+        int in_air = 0;
+        for (int k = 0; k < (int)(3.5f / speed / WORLD_TICK); k++) {
+            tick(&w, &c, tl_vec3_make(speed, 0, 0));
+            in_air += c.grounded == 0;
+        }
+        TEST_CHECK(w.deepest <= TOUCH && c.grounded == 1 && in_air <= 20);
+        TEST_CHECK(c.position.y < 0.01f && (i % 4 < 3 ? c.position.x > 2.5f : c.position.x < 1.5f));
+        world_end(&w);
+    }
+}
+
+// Who falls against a steep slope slides down it, however hard it pushes: at a terminal speed, as the push takes the
+// slide's horizontal part every time.
+static void test_clinging(void **state)
+{
+    (void)state;
+    const float angles[] = { 46, 50, 60, 75, 85 };
+    for (int i = 0; i < 5; i++) {
+        float length, slope;
+        model m = ramp(angles[i], 17, &length, &slope);
+        world w = world_begin(&m);
+        tl_character c = character_at(0.6f + 0.5f * length, 0.5f * length * slope + 0.3f, 0.1f);
+        const float top = c.position.y;
+        int ticks = 0;
+        for (; ticks < 1500 && c.grounded == 0; ticks++) {
+            tick(&w, &c, tl_vec3_make(4, 0, 0));
+        }
+        TEST_CHECK(c.grounded == 1 && c.position.y < 0.01f && w.deepest <= TOUCH);
+        TEST_CHECK(top / ((float)ticks * WORLD_TICK) > 0.15f);
+        world_end(&w);
+    }
+}
+
 // Put into walls and floors it comes out, by the short way; between walls that leave no room it says that it is stuck.
 static void test_inside(void **state)
 {
@@ -476,7 +530,7 @@ int main(void)
         cmocka_unit_test(test_ledges),     cmocka_unit_test(test_gaps),      cmocka_unit_test(test_corners),
         cmocka_unit_test(test_ceilings),   cmocka_unit_test(test_inside),    cmocka_unit_test(test_fast),
         cmocka_unit_test(test_far_away),   cmocka_unit_test(test_bad_input), cmocka_unit_test(test_rollback),
-        cmocka_unit_test(test_rocks),
+        cmocka_unit_test(test_rocks),      cmocka_unit_test(test_beams),     cmocka_unit_test(test_clinging),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
