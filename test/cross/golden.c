@@ -263,6 +263,7 @@ int main(void)
     golden_hulls();
     golden_pairs();
     golden_polygons();
+    golden_decompositions(&view);
     golden_navmeshes(&view, soup);
     golden_world(&view);
 

@@ -69,6 +69,7 @@ void golden_characters(const tl_soup *soup);
 void golden_hulls(void);
 void golden_pairs(void);
 void golden_polygons(void);
+void golden_decompositions(const tl_mesh_view *view);
 void golden_navmeshes(const tl_mesh_view *view, const tl_soup *soup);
 void golden_world(const tl_mesh_view *view);
 void golden_nav_answers(const tl_navmesh *navmesh, const char *kind);
