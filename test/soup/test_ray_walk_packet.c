@@ -46,6 +46,7 @@ typedef enum ray_family {
     FAMILY_CAMERA,   // an origin; they look around, so octants and axes change
     FAMILY_AXES,     // directions in planes of the axes
     FAMILY_PARALLEL, // a direction, from a square
+    FAMILY_LIGHT,    // a camera's, whose segments run the other way: to one place
     FAMILY_CORNERS,  // aimed at corners and middles of edges from one point
     FAMILY_SPOILED,  // a camera's with short, wrong, long and tiny ones among them
     FAMILY_NOTHING,
@@ -118,8 +119,9 @@ static void make_rays(const model *m, tl_aabb box, ray_family family, uint64_t s
         }
         out->rays[i] = ray;
         float length = family == FAMILY_CORNERS ? 1.0f : size * 0.4f;
-        tl_segment segment = { ray.origin, tl_mul_add(ray.origin, ray.direction, length) };
-        out->segments[i] = segment;
+        tl_vec3 end = tl_mul_add(ray.origin, ray.direction, length);
+        tl_segment segment = { ray.origin, end }, back = { end, ray.origin };
+        out->segments[i] = family == FAMILY_LIGHT ? back : segment;
     }
 }
 
@@ -239,6 +241,13 @@ static void test_counts(void **state)
     }
     // A camera's rays are traced together, also where octant and axis change in a row.
     (void)watch(soup, &all);
+    TEST_CHECK(apart == 0 && alone < COUNT / 5);
+    // So are lines to a light, from wherever they begin.
+    make_rays(&terrain, tl_soup_bounds(soup), FAMILY_LIGHT, 5, &all);
+    static bool answers[COUNT];
+    tl_ray_batch sight = { soup, NULL, all.segments, COUNT, NULL, NULL, answers, false };
+    alone = apart = 0;
+    test_packets(&sight);
     TEST_CHECK(apart == 0 && alone < COUNT / 5);
     // Rays without order are not, and few of them are looked at.
     make_rays(&terrain, tl_soup_bounds(soup), FAMILY_NOTHING, 5, &all);

@@ -66,6 +66,29 @@ static TL_ALWAYS_INLINE packet_vectors load_rays(const tl_ray_batch *batch, cons
     return v;
 }
 
+// How far points lie from the first of them, along the axis where that is most.
+static TL_ALWAYS_INLINE float spread_of(const tl_f32x16 point[3])
+{
+    tl_f32x16 farthest = tl_f32x16_all(0.0f);
+    for (uint32_t i = 0; i < 3; i++) {
+        tl_f32x16 away = tl_f32x16_sub(point[i], tl_f32x16_all(tl_f32x16_first(point[i])));
+        farthest = tl_f32x16_max(farthest, tl_f32x16_abs(away));
+    }
+    return tl_f32x16_largest(farthest);
+}
+
+// Sight is the same from both ends, so lines to one place, as to a light, are traced from there.
+static TL_ALWAYS_INLINE void begin_at_closer_ends(packet_vectors *v)
+{
+    if (spread_of(v->target) < spread_of(v->origin)) {
+        for (uint32_t i = 0; i < 3; i++) {
+            tl_f32x16 origin = v->origin[i];
+            v->origin[i] = v->target[i];
+            v->target[i] = origin;
+        }
+    }
+}
+
 // Loads the rays of p->index, of which the first `count` are meant.
 static TL_ALWAYS_INLINE void load_packet(const tl_ray_batch *batch, uint32_t count, ray_packet *p)
 {
@@ -74,6 +97,9 @@ static TL_ALWAYS_INLINE void load_packet(const tl_ray_batch *batch, uint32_t cou
     }
     p->rays = (1u << count) - 1u;
     packet_vectors v = load_rays(batch, p->index);
+    if (batch->segments != NULL && batch->hits == NULL) {
+        begin_at_closer_ends(&v);
+    }
     for (uint32_t i = 0; i < 3; i++) {
         tl_f32x16_store(p->origin[i], v.origin[i]);
         tl_f32x16_store(p->target[i], v.target[i]);
@@ -91,8 +117,9 @@ typedef struct packet_kind {
     uint32_t along[3];    // bits: rays whose direction is largest along an axis, the lowest of them
 } packet_kind;
 
-// Coherent rays: their directions, scaled to a largest component of 1, differ by this from the first one's.
-#define PACKET_SPREAD 0.5f
+// Coherent rays: their directions, scaled to a largest component of 1, differ by this from the first one's: a wide
+// interval still costs less than rays apart.
+#define PACKET_SPREAD 1.0f
 // Their origins by this share of the soup's largest side.
 #define PACKET_ORIGIN_SPREAD 0.02f
 
