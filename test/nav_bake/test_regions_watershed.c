@@ -2,6 +2,7 @@
 //
 // Watershed against a naive twin that looks at every floor in every step, and its invariants on random storeys.
 
+#include "nav_fields.h"
 #include "nav_region_checks.h"
 
 #include "nav_bake/regions/regions.h"
@@ -271,6 +272,30 @@ static void narrow_corridor_is_kept(void **state)
     fixture_compact_free(&compact);
 }
 
+// Large enough for blocks of the field and of the floors that wait.
+static void tasks_give_the_same_regions(void **state)
+{
+    (void)state;
+    test_random random = { 31 };
+    tl_tasks tasks;
+    tasks = test_backward_tasks(&tasks, 3);
+    const tl_host many = { NULL, &tasks, NULL };
+    for (uint32_t round = 0; round < 4; round++) {
+        tl_nav_compact compact = fixture_random(&random, 260, 240, 1 + (int)round, 0, round % 2 * 4);
+        const size_t bytes = compact.span_count * sizeof *compact.region;
+        tl_nav_config config = region_config(TL_NAV_WATERSHED, 30, 80);
+        TEST_RESULT(tl_nav_distance_field(NULL, &compact, NULL), TL_OK);
+        TEST_RESULT(tl_nav_bake_regions(&config, NULL, &compact, NULL), TL_OK);
+        uint32_t *alone = (uint32_t *)malloc(bytes);
+        memcpy(alone, compact.region, bytes);
+        const uint32_t count = compact.region_count;
+        TEST_RESULT(tl_nav_bake_regions(&config, &many, &compact, NULL), TL_OK);
+        TEST_CHECK(count > 10 && compact.region_count == count && memcmp(alone, compact.region, bytes) == 0);
+        free(alone);
+        fixture_compact_free(&compact);
+    }
+}
+
 static void needs_distance(void **state)
 {
     (void)state;
@@ -319,6 +344,7 @@ int main(void)
         cmocka_unit_test(spirals_are_split),
         cmocka_unit_test(example_two_rooms),
         cmocka_unit_test(narrow_corridor_is_kept),
+        cmocka_unit_test(tasks_give_the_same_regions),
         cmocka_unit_test(needs_distance),
         cmocka_unit_test(fails_at_each_allocation),
     };

@@ -94,6 +94,7 @@ tl_result tl_nav_divide_regions(const tl_nav_config *config, const tl_host *host
                             .arena = &arena,
                             .region = region,
                             .region_count = 1,
+                            .host = host,
                             .scrap = keep_distance ? NULL : compact->distance };
     tl_result result = divide_by_method(config, &work);
     if (report_out != NULL) {

@@ -24,7 +24,8 @@ typedef struct tl_region_work {
     uint32_t *region;      ///< [span_count]
     uint32_t region_count; ///< largest id without the border's + 1
     tl_nav_region_stats stats;
-    uint16_t *scrap; ///< compact->distance where it may be overwritten, else NULL
+    const tl_host *host; ///< whose tasks may share the work; NULL: none
+    uint16_t *scrap;     ///< compact->distance where it may be overwritten, else NULL
     tl_stacked_columns stacked;
 } tl_region_work;
 
