@@ -13,20 +13,24 @@
 #include "nav_bake/contours/contours.h"
 
 #include "base/assert.h"
+#include "base/host.h"
 #include "nav_bake/floors/links.h"
 
 #include <string.h>
 
 enum {
     MIN_RUN = 8, // of floors that are worth a loop of their own
-    LONGEST_RUN = 64
+    LONGEST_RUN = 64,
+    MIN_TRACE_BLOCK = 8192 // floors
 };
 
 typedef struct tracer {
     tl_contour_work *work;
-    uint8_t *outline;     // [span_count + 8] bit d: edge d is on an outline; bit d + 4: and was not walked yet
-    uint32_t *first_edge; // [span_count / 8 + 1] outline edges of the floors before each eighth one
-    uint32_t *vertex_of;  // [outline edges] the raw vertex where that edge starts, once it was walked
+    uint8_t *outline;      // [span_count + 8] bit d: edge d is on an outline; bit d + 4: and was not walked yet
+    uint32_t *first_edge;  // [span_count / 8 + 1] outline edges of the floors before each eighth one
+    uint32_t *vertex_of;   // [outline edges] the raw vertex where that edge starts, once it was walked
+    uint32_t block_size;   // floors that one task marks
+    uint64_t *block_edges; // outline edges of a block, then of those before it
     uint32_t loop_capacity;
     uint64_t steps_left; // a walk leaves each pair (floor, direction) once: 4 a floor
 } tracer;
@@ -112,13 +116,16 @@ static void outlines_of_run(const tl_nav_compact *compact, uint32_t first, uint3
     }
 }
 
-static void mark_outlines(tracer *t)
+// Marks the outlines of a block of floors, and counts them.
+static void mark_outlines(uint32_t index, uint32_t worker, void *user)
 {
+    (void)worker;
+    const tracer *t = user;
     const tl_nav_compact *compact = t->work->compact;
-    const uint32_t count = compact->span_count;
+    const uint32_t begin = index * t->block_size, end = tl_block_end(index, t->block_size, compact->span_count);
     uint8_t *restrict outline = t->outline; // what pointers lead to would else be read again after each byte
-    for (uint32_t i = 0, alike; i < count; i += alike) {
-        const uint32_t most = count - i < LONGEST_RUN ? count - i : LONGEST_RUN;
+    for (uint32_t i = begin, alike; i < end; i += alike) {
+        const uint32_t most = end - i < LONGEST_RUN ? end - i : LONGEST_RUN;
         alike = compact->step != NULL ? tl_nav_steps_alike(compact, i, most) : 1;
         if (alike >= MIN_RUN) {
             outlines_of_run(compact, i, alike, outline + i);
@@ -128,22 +135,58 @@ static void mark_outlines(tracer *t)
             }
         }
     }
+    uint32_t edge_count = 0; // below 4 * 2^30
+    for (uint32_t i = begin; i < end; i += 8) {
+        edge_count += count_edges(eight_outlines(t, i));
+    }
+    t->block_edges[index] = edge_count;
 }
 
-// Counts them, and marks them as not yet walked.
-static uint64_t number_edges(tracer *t)
+// Numbers the edges of a block, from those of the blocks before it on, and marks them as not yet walked.
+static void number_edges(uint32_t index, uint32_t worker, void *user)
 {
-    const uint32_t count = t->work->compact->span_count;
-    uint64_t edge_count = 0;
-    for (uint32_t i = 0; i < count; i += 8) {
-        t->first_edge[i / 8] = (uint32_t)edge_count;
+    (void)worker;
+    const tracer *t = user;
+    const uint32_t begin = index * t->block_size,
+                   end = tl_block_end(index, t->block_size, t->work->compact->span_count);
+    uint32_t edge_count = (uint32_t)t->block_edges[index];
+    for (uint32_t i = begin; i < end; i += 8) {
+        t->first_edge[i / 8] = edge_count;
         edge_count += count_edges(eight_outlines(t, i));
     }
     uint8_t *outline = t->outline;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = begin; i < end; i++) {
         outline[i] = (uint8_t)(outline[i] * 0x11);
     }
-    return edge_count;
+}
+
+// Finds all outline edges and returns how many they are, as the host's tasks in blocks of whole runs.
+static tl_result find_edges(tracer *t, tl_arena *scratch, uint64_t *count_out)
+{
+    const uint32_t count = t->work->compact->span_count, workers = tl_worker_count(t->work->host);
+    const uint32_t share = (count / workers / LONGEST_RUN + 1) * LONGEST_RUN;
+    t->block_size = share > MIN_TRACE_BLOCK ? share : MIN_TRACE_BLOCK;
+    const uint32_t block_count = tl_block_count(count, t->block_size);
+    t->outline = TL_PUSH(scratch, uint8_t, (uint64_t)count + 8);
+    t->first_edge = TL_PUSH(scratch, uint32_t, (uint64_t)count / 8 + 1);
+    t->block_edges = TL_PUSH(scratch, uint64_t, block_count);
+    if (t->outline == NULL || t->first_edge == NULL || t->block_edges == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(t->outline + count, 0, 8);
+    tl_run_tasks(t->work->host, mark_outlines, block_count, t);
+    uint64_t edge_count = 0;
+    for (uint32_t b = 0; b < block_count; b++) {
+        const uint64_t of_block = t->block_edges[b];
+        t->block_edges[b] = edge_count;
+        edge_count += of_block;
+    }
+    if (edge_count >= UINT32_MAX) {
+        return TL_ERR_LIMIT;
+    }
+    tl_run_tasks(t->work->host, number_edges, block_count, t);
+    *count_out = edge_count;
+    return TL_OK;
 }
 
 // The floors that meet in the corner behind edge `direction` of a floor, going clockwise: the floor itself, the one
@@ -355,17 +398,8 @@ static tl_result walk_all(tracer *t)
 static tl_result prepare_trace(tracer *t, tl_arena *scratch)
 {
     tl_contour_work *work = t->work;
-    const uint32_t count = work->compact->span_count;
-    t->outline = TL_PUSH_ZERO(scratch, uint8_t, (uint64_t)count + 8);
-    t->first_edge = TL_PUSH(scratch, uint32_t, (uint64_t)count / 8 + 1);
-    if (t->outline == NULL || t->first_edge == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    mark_outlines(t);
-    uint64_t edge_count = number_edges(t);
-    if (edge_count >= UINT32_MAX) {
-        return TL_ERR_LIMIT;
-    }
+    uint64_t edge_count = 0;
+    TL_TRY(find_edges(t, scratch, &edge_count));
     t->vertex_of = TL_PUSH(scratch, uint32_t, edge_count);
     work->vertices = TL_PUSH(work->arena, tl_contour_vertex, edge_count + 1); // one ahead while a loop is open
     work->across = TL_PUSH(work->arena, uint32_t, edge_count);

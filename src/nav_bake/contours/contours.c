@@ -234,7 +234,7 @@ tl_result tl_nav_bake_contours(const tl_nav_config *config, const tl_nav_compact
     contours_out->allocator = tl_allocator_or_default(host != NULL ? host->allocator : NULL);
     tl_arena arena;
     tl_arena_init(&arena, &contours_out->allocator);
-    tl_contour_work work = { .config = config, .compact = compact, .arena = &arena };
+    tl_contour_work work = { .config = config, .compact = compact, .host = host, .arena = &arena };
     tl_result result = build_contour_set(&work, host, contours_out);
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes + contours_out->block_size;

@@ -23,6 +23,7 @@ typedef struct tl_contour_loop {
 typedef struct tl_contour_work {
     const tl_nav_config *config;
     const tl_nav_compact *compact;
+    const tl_host *host; ///< whose tasks may share the work; NULL: none
     tl_arena *arena;
 
     uint32_t vertex_count;

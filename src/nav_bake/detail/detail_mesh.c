@@ -1,30 +1,49 @@
 // SPDX-License-Identifier: MIT
 //
 // Detail mesh: the driver. Samples all edges once, then builds patch by patch in scratch memory that is as large as the
-// largest patch needs, and packs the result into one block.
+// largest patch needs, groups of patches as the host's tasks, and packs the result into one block.
 
 #include "nav_bake/detail/detail.h"
 
 #include "base/assert.h"
 #include "base/host.h"
+#include "base/min_max.h"
+#include "nav_bake/voxels/batches.h"
 
 #include <string.h>
 
-typedef struct patch_builder {
-    tl_detail_work *work;
-    tl_detail_mesh mesh;
-    tl_detail_heap heap;
-    tl_detail_point *samples;
-    uint32_t sample_capacity, point_capacity;
-    tl_detail_extent extent; // of the polygon at hand
-    // The patches so far.
-    tl_nav_detail_patch *patches;
+enum { PATCHES_PER_GROUP = 256, GROUPS_PER_WORKER = 4 };
+
+// The patches of some polygons that follow one another: a task.
+typedef struct patch_group {
     tl_vec3 *vertices;
     tl_nav_detail_triangle *triangles;
     uint32_t vertex_count, vertex_capacity, triangle_count, triangle_capacity;
+} patch_group;
+
+// What a worker builds patches with.
+typedef struct patch_builder {
+    const tl_detail_work *work;
+    tl_arena arena; // of its scratch, and of the groups it builds
+    tl_detail_mesh mesh;
+    tl_detail_heap heap;
+    tl_detail_point *samples;
+    uint32_t sample_capacity;
+    tl_detail_extent extent; // of the polygon at hand
+    patch_group *group;      // at hand
     double max_error;
     uint32_t limited_patches;
 } patch_builder;
+
+typedef struct detail_job {
+    tl_detail_work *work;
+    uint32_t sample_capacity, point_capacity; // of the largest patch
+    uint32_t group_size, group_count;
+    tl_nav_detail_patch *patches; // [polygon_count] positions within their group
+    patch_group *groups;
+    patch_builder *builders; // [worker_count]
+    uint32_t worker_count;
+} detail_job;
 
 static uint32_t corner_count_of(const tl_polygon_mesh *polygons, uint32_t polygon)
 {
@@ -41,16 +60,16 @@ static uint32_t outline_count_of(const tl_detail_work *work, uint32_t polygon)
 }
 
 // Finds what the largest patch needs.
-static tl_result measure_patches(patch_builder *b, tl_report *report)
+static tl_result measure_patches(detail_job *job, tl_report *report)
 {
-    const tl_polygon_mesh *polygons = b->work->polygons;
+    const tl_polygon_mesh *polygons = job->work->polygons;
     uint64_t samples = 0, points = 0;
     for (uint32_t p = 0; p < polygons->polygon_count; p++) {
         tl_detail_extent e = tl_detail_polygon_extent(polygons, p);
         if ((int64_t)e.max_x - e.min_x > TL_DETAIL_MAX_EXTENT || (int64_t)e.max_z - e.min_z > TL_DETAIL_MAX_EXTENT) {
             return tl_report_fail(report, TL_ERR_LIMIT, "polygon", p, "it spans over 2^20 columns: use tiles");
         }
-        uint64_t inside = tl_detail_sample_bound(b->work, p), outline = outline_count_of(b->work, p);
+        uint64_t inside = tl_detail_sample_bound(job->work, p), outline = outline_count_of(job->work, p);
         if (outline > TL_DETAIL_MAX_VERTICES) {
             return tl_report_fail(report, TL_ERR_LIMIT, "polygon", p,
                                   "it has too many corners: use max_verts_per_poly");
@@ -61,17 +80,24 @@ static tl_result measure_patches(patch_builder *b, tl_report *report)
     if (samples >= TL_DETAIL_NONE) {
         return tl_report_fail(report, TL_ERR_LIMIT, "sample", samples, "use tiles or a larger detail_sample_dist");
     }
-    b->sample_capacity = (uint32_t)samples;
-    b->point_capacity = (uint32_t)(points < TL_DETAIL_MAX_VERTICES ? points : TL_DETAIL_MAX_VERTICES);
+    job->sample_capacity = (uint32_t)samples;
+    job->point_capacity = (uint32_t)(points < TL_DETAIL_MAX_VERTICES ? points : TL_DETAIL_MAX_VERTICES);
     return TL_OK;
 }
 
-static tl_result allocate_scratch(patch_builder *b)
+// A worker's scratch, when it builds its first patch.
+static tl_result prepare_builder(const detail_job *job, patch_builder *b)
 {
-    tl_arena *arena = b->work->arena;
+    if (b->work != NULL) {
+        return TL_OK;
+    }
     // A triangulation of n points on and in a convex outline has at most 2 n - 5 triangles. While one point is put in,
     // each flip adds an edge to it: fewer than n flips, which write 2 triangles each, after 4 at the start.
-    uint64_t points = b->point_capacity, triangles = 2 * points;
+    const uint64_t points = job->point_capacity, triangles = 2 * points;
+    tl_arena *arena = &b->arena;
+    tl_arena_init(arena, &job->work->arena->allocator);
+    b->work = job->work;
+    b->sample_capacity = job->sample_capacity;
     b->mesh.points = TL_PUSH(arena, tl_detail_point, points);
     b->mesh.triangle_of = TL_PUSH(arena, uint32_t, points);
     b->mesh.triangles = TL_PUSH(arena, tl_detail_triangle, triangles);
@@ -83,11 +109,10 @@ static tl_result allocate_scratch(patch_builder *b)
     b->heap.place = TL_PUSH(arena, uint32_t, triangles);
     b->heap.error = TL_PUSH(arena, double, triangles);
     b->heap.worst = TL_PUSH(arena, uint32_t, triangles);
-    b->patches = TL_PUSH(arena, tl_nav_detail_patch, b->work->polygons->polygon_count);
     b->mesh.samples = b->samples;
     return b->mesh.points && b->mesh.triangle_of && b->mesh.triangles && b->mesh.changed && b->mesh.stack &&
                    b->mesh.next_sample && b->samples && b->heap.triangles && b->heap.place && b->heap.error &&
-                   b->heap.worst && b->patches
+                   b->heap.worst
                ? TL_OK
                : TL_ERR_MEMORY;
 }
@@ -149,7 +174,7 @@ static void place_samples(tl_detail_mesh *mesh, uint32_t sample_count)
 // Triangulates one polygon. `b->mesh` holds the result.
 static void build_patch(patch_builder *b, uint32_t polygon)
 {
-    tl_detail_work *work = b->work;
+    const tl_detail_work *work = b->work;
     uint32_t begin = work->polygons->first[polygon], corner_count = corner_count_of(work->polygons, polygon);
     bool coarse = false;
     b->extent = tl_detail_polygon_extent(work->polygons, polygon);
@@ -186,33 +211,38 @@ static tl_vec3 to_world(const patch_builder *b, const tl_detail_point *p)
     return tl_vec3_make((float)x, tl_nav_lattice_to_world(lattice->origin.y, p->y, compact->cell_height), (float)z);
 }
 
-static tl_result store_patch(patch_builder *b, uint32_t polygon)
+static tl_result make_patch_room(patch_builder *b)
 {
-    tl_detail_mesh *mesh = &b->mesh;
-    uint64_t vertices = (uint64_t)b->vertex_count + mesh->point_count;
-    uint64_t triangles = (uint64_t)b->triangle_count + mesh->triangle_count;
+    patch_group *group = b->group;
+    const uint64_t vertices = (uint64_t)group->vertex_count + b->mesh.point_count;
+    const uint64_t triangles = (uint64_t)group->triangle_count + b->mesh.triangle_count;
     if (vertices >= UINT32_MAX || triangles >= UINT32_MAX) {
         return TL_ERR_LIMIT;
     }
-    if (vertices > b->vertex_capacity) {
-        b->vertices = grow_store(b->work->arena, b->vertices, b->vertex_count, (uint32_t)vertices, &b->vertex_capacity,
-                                 sizeof *b->vertices);
+    if (vertices > group->vertex_capacity) {
+        group->vertices = grow_store(&b->arena, group->vertices, group->vertex_count, (uint32_t)vertices,
+                                     &group->vertex_capacity, sizeof *group->vertices);
     }
-    if (triangles > b->triangle_capacity) {
-        b->triangles = grow_store(b->work->arena, b->triangles, b->triangle_count, (uint32_t)triangles,
-                                  &b->triangle_capacity, sizeof *b->triangles);
+    if (triangles > group->triangle_capacity) {
+        group->triangles = grow_store(&b->arena, group->triangles, group->triangle_count, (uint32_t)triangles,
+                                      &group->triangle_capacity, sizeof *group->triangles);
     }
-    if (b->vertices == NULL || b->triangles == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    tl_nav_detail_patch patch = { b->vertex_count, mesh->point_count, b->triangle_count, mesh->triangle_count };
-    b->patches[polygon] = patch;
+    return group->vertices != NULL && group->triangles != NULL ? TL_OK : TL_ERR_MEMORY;
+}
+
+static tl_result store_patch(patch_builder *b, tl_nav_detail_patch *patch)
+{
+    const tl_detail_mesh *mesh = &b->mesh;
+    patch_group *group = b->group;
+    TL_TRY(make_patch_room(b));
+    *patch =
+        (tl_nav_detail_patch){ group->vertex_count, mesh->point_count, group->triangle_count, mesh->triangle_count };
     for (uint32_t k = 0; k < mesh->point_count; k++) {
-        b->vertices[b->vertex_count++] = to_world(b, &mesh->points[k]);
+        group->vertices[group->vertex_count++] = to_world(b, &mesh->points[k]);
     }
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
         const tl_detail_triangle *from = &mesh->triangles[t];
-        tl_nav_detail_triangle *to = &b->triangles[b->triangle_count++];
+        tl_nav_detail_triangle *to = &group->triangles[group->triangle_count++];
         to->edge_flags = 0;
         for (int k = 0; k < 3; k++) {
             to->corner[k] = (uint16_t)from->corner[k];
@@ -222,12 +252,28 @@ static tl_result store_patch(patch_builder *b, uint32_t polygon)
     return TL_OK;
 }
 
-static tl_result pack_detail(const patch_builder *b, const tl_allocator *allocator, tl_nav_detail *out)
+static tl_result build_group(uint32_t index, uint32_t worker, void *user)
 {
-    uint32_t patch_count = b->work->polygons->polygon_count;
-    uint64_t vertex_bytes = (uint64_t)b->vertex_count * sizeof *b->vertices;
-    uint64_t patch_bytes = (uint64_t)patch_count * sizeof *b->patches;
-    uint64_t size = vertex_bytes + patch_bytes + (uint64_t)b->triangle_count * sizeof *b->triangles + 1; // never empty
+    const detail_job *job = user;
+    patch_builder *b = &job->builders[worker];
+    TL_TRY(prepare_builder(job, b));
+    b->group = &job->groups[index];
+    const uint32_t end = tl_block_end(index, job->group_size, job->work->polygons->polygon_count);
+    for (uint32_t p = index * job->group_size; p < end; p++) {
+        build_patch(b, p);
+        TL_TRY(store_patch(b, &job->patches[p]));
+    }
+    return TL_OK;
+}
+
+static tl_result allocate_detail(uint64_t vertices, uint64_t triangles, uint32_t patches, const tl_allocator *allocator,
+                                 tl_nav_detail *out)
+{
+    if (vertices >= UINT32_MAX || triangles >= UINT32_MAX) {
+        return TL_ERR_LIMIT;
+    }
+    const uint64_t vertex_bytes = vertices * sizeof *out->vertices, patch_bytes = patches * sizeof *out->patches;
+    const uint64_t size = vertex_bytes + patch_bytes + triangles * sizeof *out->triangles + 1; // never empty
     if (size > SIZE_MAX) {
         return TL_ERR_LIMIT;
     }
@@ -241,38 +287,65 @@ static tl_result pack_detail(const patch_builder *b, const tl_allocator *allocat
     out->patches = (tl_nav_detail_patch *)(void *)block;
     out->vertices = (tl_vec3 *)(void *)(block + patch_bytes);
     out->triangles = (tl_nav_detail_triangle *)(void *)(block + patch_bytes + vertex_bytes);
-    out->patch_count = patch_count;
-    out->vertex_count = b->vertex_count;
-    out->triangle_count = b->triangle_count;
-    out->max_error = (float)(b->max_error * (double)b->work->compact->cell_height);
-    out->limited_patches = b->limited_patches;
-    if (patch_count > 0) {
-        memcpy(out->patches, b->patches, (size_t)patch_bytes);
-        memcpy(out->vertices, b->vertices, (size_t)vertex_bytes);
-        memcpy(out->triangles, b->triangles, b->triangle_count * sizeof *b->triangles);
-    }
+    out->patch_count = patches;
     return TL_OK;
 }
 
-enum { PATCHES_PER_UPDATE = 256 };
-
-static tl_result build_patches(tl_detail_work *work, const tl_host *host, tl_nav_detail *out, tl_report *report)
+// All groups in order; positions in a group become positions among all.
+static tl_result pack_detail(const detail_job *job, const tl_allocator *allocator, tl_nav_detail *out)
 {
-    uint32_t patch_count = work->polygons->polygon_count;
-    TL_TRY(tl_progress_update(host, "detail", 0, patch_count));
-    TL_TRY(tl_detail_sample_edges(work));
-    patch_builder b = { .work = work };
-    TL_TRY(measure_patches(&b, report));
-    TL_TRY(allocate_scratch(&b));
-    for (uint32_t p = 0; p < patch_count; p++) {
-        if (p > 0 && p % PATCHES_PER_UPDATE == 0) {
-            TL_TRY(tl_progress_update(host, "detail", p, patch_count));
-        }
-        build_patch(&b, p);
-        TL_TRY(store_patch(&b, p));
+    const uint32_t patch_count = job->work->polygons->polygon_count;
+    uint64_t vertices = 0, triangles = 0;
+    for (uint32_t g = 0; g < job->group_count; g++) {
+        vertices += job->groups[g].vertex_count;
+        triangles += job->groups[g].triangle_count;
     }
-    TL_TRY(pack_detail(&b, host != NULL ? host->allocator : NULL, out));
-    return tl_progress_update(host, "detail", patch_count, patch_count);
+    TL_TRY(allocate_detail(vertices, triangles, patch_count, allocator, out));
+    for (uint32_t g = 0; g < job->group_count; g++) {
+        const patch_group *group = &job->groups[g];
+        const uint32_t end = tl_block_end(g, job->group_size, patch_count);
+        for (uint32_t p = g * job->group_size; p < end; p++) {
+            out->patches[p] = job->patches[p];
+            out->patches[p].first_vertex += out->vertex_count;
+            out->patches[p].first_triangle += out->triangle_count;
+        }
+        memcpy(out->vertices + out->vertex_count, group->vertices, group->vertex_count * sizeof *group->vertices);
+        memcpy(out->triangles + out->triangle_count, group->triangles,
+               group->triangle_count * sizeof *group->triangles);
+        out->vertex_count += group->vertex_count;
+        out->triangle_count += group->triangle_count;
+    }
+    double max_error = 0;
+    for (uint32_t w = 0; w < job->worker_count; w++) {
+        max_error = tl_max_f64(max_error, job->builders[w].max_error);
+        out->limited_patches += job->builders[w].limited_patches;
+    }
+    out->max_error = (float)(max_error * (double)job->work->compact->cell_height);
+    return TL_OK;
+}
+
+static tl_result allocate_detail_job(detail_job *job, const tl_host *host)
+{
+    tl_arena *arena = job->work->arena;
+    const uint32_t patch_count = job->work->polygons->polygon_count;
+    job->worker_count = tl_worker_count(host);
+    const uint32_t share = patch_count / (GROUPS_PER_WORKER * job->worker_count) + 1;
+    job->group_size = job->worker_count > 1 && share < PATCHES_PER_GROUP ? share : PATCHES_PER_GROUP;
+    job->group_count = tl_block_count(patch_count, job->group_size);
+    job->patches = TL_PUSH(arena, tl_nav_detail_patch, patch_count);
+    job->groups = TL_PUSH_ZERO(arena, patch_group, job->group_count);
+    job->builders = TL_PUSH_ZERO(arena, patch_builder, job->worker_count);
+    return job->patches != NULL && job->groups != NULL && job->builders != NULL ? TL_OK : TL_ERR_MEMORY;
+}
+
+static tl_result build_patches(detail_job *job, const tl_host *host, tl_nav_detail *out, tl_report *report)
+{
+    TL_TRY(allocate_detail_job(job, host));
+    TL_TRY(tl_progress_update(host, "detail", 0, job->group_count));
+    TL_TRY(tl_detail_sample_edges(job->work));
+    TL_TRY(measure_patches(job, report));
+    TL_TRY(tl_run_batches(host, "detail", build_group, job->group_count, 1, job));
+    return pack_detail(job, host != NULL ? host->allocator : NULL, out);
 }
 
 tl_result tl_nav_bake_detail(const tl_nav_config *config, const tl_nav_compact *compact,
@@ -294,9 +367,15 @@ tl_result tl_nav_bake_detail(const tl_nav_config *config, const tl_nav_compact *
     tl_detail_work work = { .config = config, .compact = compact, .polygons = polygons, .arena = &arena };
     work.spacing = (double)config->detail_sample_dist / (double)compact->cell_size;
     work.max_error = (double)config->detail_sample_max_error / (double)compact->cell_height;
-    tl_result result = build_patches(&work, host, detail_out, report_out);
+    detail_job job = { .work = &work };
+    const tl_result result = build_patches(&job, host, detail_out, report_out);
+    uint64_t peak = arena.peak_bytes + detail_out->block_size;
+    for (uint32_t w = 0; job.builders != NULL && w < job.worker_count; w++) {
+        peak += job.builders[w].arena.peak_bytes;
+        tl_arena_free(&job.builders[w].arena);
+    }
     if (report_out != NULL) {
-        report_out->peak_bytes = arena.peak_bytes + detail_out->block_size;
+        report_out->peak_bytes = peak;
     }
     tl_arena_free(&arena);
     if (result != TL_OK) {
