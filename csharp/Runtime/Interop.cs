@@ -614,6 +614,15 @@ namespace Talus.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_polytope_cache
+    {
+        public ushort point_count;
+        public ushort face_count;
+        public fixed ushort vertices[48];
+        public fixed byte corners[132];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_contact_cache
     {
         public tl_simplex_cache simplex;
@@ -634,6 +643,7 @@ namespace Talus.Interop
         public tl_vec3 axis_b;
         public fixed float b_to_a[12];
         public float proven_depth;
+        public tl_polytope_cache polytope;
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -205,7 +205,12 @@ static unsafe class Layout
         Test.Equal(204, (byte*)&((tl_contact_manifold*)at)->normal - at, "tl_contact_manifold.normal");
         Test.Equal(216, (byte*)&((tl_contact_manifold*)at)->separation - at, "tl_contact_manifold.separation");
         Test.Equal(220, (byte*)&((tl_contact_manifold*)at)->status - at, "tl_contact_manifold.status");
-        Test.Equal(280, sizeof(tl_contact_cache), "tl_contact_cache");
+        Test.Equal(232, sizeof(tl_polytope_cache), "tl_polytope_cache");
+        Test.Equal(0, (byte*)&((tl_polytope_cache*)at)->point_count - at, "tl_polytope_cache.point_count");
+        Test.Equal(2, (byte*)&((tl_polytope_cache*)at)->face_count - at, "tl_polytope_cache.face_count");
+        Test.Equal(4, (byte*)((tl_polytope_cache*)at)->vertices - at, "tl_polytope_cache.vertices");
+        Test.Equal(100, (byte*)((tl_polytope_cache*)at)->corners - at, "tl_polytope_cache.corners");
+        Test.Equal(512, sizeof(tl_contact_cache), "tl_contact_cache");
         Test.Equal(0, (byte*)&((tl_contact_cache*)at)->simplex - at, "tl_contact_cache.simplex");
         Test.Equal(36, (byte*)&((tl_contact_cache*)at)->count - at, "tl_contact_cache.count");
         Test.Equal(40, (byte*)&((tl_contact_cache*)at)->has_axis - at, "tl_contact_cache.has_axis");
@@ -216,6 +221,7 @@ static unsafe class Layout
         Test.Equal(216, (byte*)&((tl_contact_cache*)at)->axis_b - at, "tl_contact_cache.axis_b");
         Test.Equal(228, (byte*)((tl_contact_cache*)at)->b_to_a - at, "tl_contact_cache.b_to_a");
         Test.Equal(276, (byte*)&((tl_contact_cache*)at)->proven_depth - at, "tl_contact_cache.proven_depth");
+        Test.Equal(280, (byte*)&((tl_contact_cache*)at)->polytope - at, "tl_contact_cache.polytope");
         Test.Equal(40, sizeof(tl_mesh_view), "tl_mesh_view");
         Test.Equal(0, (byte*)&((tl_mesh_view*)at)->vertices - at, "tl_mesh_view.vertices");
         Test.Equal(8, (byte*)&((tl_mesh_view*)at)->vertex_count - at, "tl_mesh_view.vertex_count");

@@ -246,6 +246,17 @@ typedef struct tl_contact_manifold {
     tl_convex_status status;              ///< how far the answer can be trusted
 } tl_contact_manifold;
 
+/// Points and triangles that a depth is proven by, of tl_polytope_cache.
+#define TL_KEPT_POINTS 24u
+#define TL_KEPT_FACES  44u ///< see TL_KEPT_POINTS
+
+/// The polytope that a penetration depth was proven by; its fields are private.
+typedef struct tl_polytope_cache {
+    uint16_t point_count, face_count;     ///< 0: nothing is kept
+    uint16_t vertices[TL_KEPT_POINTS][2]; ///< of A and B
+    uint8_t corners[TL_KEPT_FACES][3];    ///< counter-clockwise from outside
+} tl_polytope_cache;
+
 /// What contacts keep from call to call. All zero starts cold. Keep one for each pair and thread; its fields are
 /// private.
 typedef struct tl_contact_cache {
@@ -258,6 +269,7 @@ typedef struct tl_contact_cache {
     tl_vec3 axis_a, axis_b;                ///< the normal in each shape's frame when the depth was proven
     float b_to_a[12];                      ///< the pose of B seen from A then
     float proven_depth;                    ///< metres, of the cores; they were no less deep
+    tl_polytope_cache polytope;            ///< that the depth of the cores was proven by
 } tl_contact_cache;
 
 /// With a cache a contact may be kept although another point is deeper, by up to this part of the limits' tolerance.

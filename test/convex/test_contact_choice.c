@@ -92,6 +92,46 @@ static void test_least_separation_is_the_distance(void **state)
     TEST_CHECK(deep > pair_count / 10 && apart > pair_count / 1000);
 }
 
+// The same with a cache while the pair moves on: within the slack.
+static void test_least_separation_while_moving(void **state)
+{
+    (void)state;
+    test_random random = { 55 };
+    uint32_t calls = 0, deep = 0, wrong = 0;
+    for (uint32_t i = 0; i < pair_count / 8; i++) {
+        test_body a, b;
+        make_body(&a, i % KINDS, (uint64_t)i + 7);
+        make_body(&b, i / KINDS % KINDS, (uint64_t)i + 8);
+        const float size = tl_maxf(a.size, b.size), tolerance = 0.01f * size, step = 0.002f * size;
+        const tl_contact_limits limits = { tolerance, tolerance, 0 };
+        tl_transform pose_a = tl_transform_identity(), pose_b = pose_a;
+        pose_a.rotation = test_random_rotation(&random);
+        pose_b.rotation = test_random_rotation(&random);
+        pose_b.position = tl_scale(test_random_direction(&random), test_random_range(&random, 0.1f, 1.2f));
+        const tl_vec3 way = tl_scale(test_random_direction(&random), step), turn = test_random_direction(&random);
+        tl_contact_cache cache = { 0 };
+        for (int k = 0; k < 8; k++) {
+            const tl_quat by = { step * turn.x, step * turn.y, step * turn.z, 1.0f };
+            pose_b.rotation = tl_quat_normalize(tl_quat_mul(by, pose_b.rotation));
+            pose_b.position = tl_add(pose_b.position, way);
+            tl_contact_manifold m;
+            float bounds[2];
+            if (tl_convex_contacts(&a.shape, pose_a, &b.shape, pose_b, &limits, &cache, &m) == 0) {
+                continue;
+            }
+            signed_distance(&a.shape, pose_a, &b.shape, pose_b, bounds);
+            const float gap = 4e-6f * size + TL_CONTACT_SLACK * tolerance, least = least_separation(&m);
+            calls++;
+            deep += bounds[1] < 0.0f;
+            wrong += !(least >= bounds[0] - gap && least <= bounds[1] + gap && m.separation <= bounds[1] + gap);
+        }
+        test_body_free(&a);
+        test_body_free(&b);
+    }
+    print_message("moving: %u calls, %u deep, wrong %u\n", calls, deep, wrong);
+    TEST_CHECK(wrong == 0 && deep > pair_count / 4);
+}
+
 // Of the contacts' convex hull, seen along the normal.
 static double manifold_area(const tl_contact_manifold *m)
 {
@@ -237,6 +277,7 @@ int main(int argc, char **argv)
     pair_count = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : pair_count;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_least_separation_is_the_distance),
+        cmocka_unit_test(test_least_separation_while_moving),
         cmocka_unit_test(test_area_under_jitter),
         cmocka_unit_test(test_sharp_tips),
         cmocka_unit_test(test_contacts_continue),

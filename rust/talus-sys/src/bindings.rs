@@ -503,6 +503,14 @@ pub struct tl_contact_manifold {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct tl_polytope_cache {
+    pub point_count: u16,
+    pub face_count: u16,
+    pub vertices: [[u16; 2]; 24],
+    pub corners: [[u8; 3]; 44],
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct tl_contact_cache {
     pub simplex: tl_simplex_cache,
     pub count: u32,
@@ -514,6 +522,7 @@ pub struct tl_contact_cache {
     pub axis_b: tl_vec3,
     pub b_to_a: [f32; 12],
     pub proven_depth: f32,
+    pub polytope: tl_polytope_cache,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -4319,7 +4328,12 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_contact_manifold, normal), 204);
         assert_eq!(core::mem::offset_of!(tl_contact_manifold, separation), 216);
         assert_eq!(core::mem::offset_of!(tl_contact_manifold, status), 220);
-        assert_eq!(core::mem::size_of::<tl_contact_cache>(), 280);
+        assert_eq!(core::mem::size_of::<tl_polytope_cache>(), 232);
+        assert_eq!(core::mem::offset_of!(tl_polytope_cache, point_count), 0);
+        assert_eq!(core::mem::offset_of!(tl_polytope_cache, face_count), 2);
+        assert_eq!(core::mem::offset_of!(tl_polytope_cache, vertices), 4);
+        assert_eq!(core::mem::offset_of!(tl_polytope_cache, corners), 100);
+        assert_eq!(core::mem::size_of::<tl_contact_cache>(), 512);
         assert_eq!(core::mem::offset_of!(tl_contact_cache, simplex), 0);
         assert_eq!(core::mem::offset_of!(tl_contact_cache, count), 36);
         assert_eq!(core::mem::offset_of!(tl_contact_cache, has_axis), 40);
@@ -4330,6 +4344,7 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_contact_cache, axis_b), 216);
         assert_eq!(core::mem::offset_of!(tl_contact_cache, b_to_a), 228);
         assert_eq!(core::mem::offset_of!(tl_contact_cache, proven_depth), 276);
+        assert_eq!(core::mem::offset_of!(tl_contact_cache, polytope), 280);
         assert_eq!(core::mem::size_of::<tl_mesh_view>(), 40);
         assert_eq!(core::mem::offset_of!(tl_mesh_view, vertices), 0);
         assert_eq!(core::mem::offset_of!(tl_mesh_view, vertex_count), 8);

@@ -6,19 +6,15 @@
 // seen from A, no support value falls by more than m, so the depth is at least the proven one less m. The support
 // along the old normal bounds it from above. When both meet within the slack, no other normal is shallower by more: two
 // support queries instead of a search. Motion is counted from the proof, not from the last call, so it does not add up
-// unseen. The normal is tried as A carries it, and as B does, since either may own the face.
+// unseen. The normal is tried as A carries it, and as B does, since either may own the face. What has moved by more
+// than the slack is left to the polytope that was kept (polytope_keep.c), where there is one.
 
 #include "convex/contact/contact_axis.h"
 
-#include "convex/core/farthest.h"
 #include "math/tolerance.h"
 
 // A pose kept in floats, and support points: roundings of their size.
 #define KEPT_POSE_ERROR (4.0 * (double)TL_FLOAT_ROUNDING)
-
-// A scan of so many vertices for the largest product alone takes less than a support query, which has to find the
-// lowest of all vertices that have it: along a face's normal these are the corners of the face, compared exactly.
-#define SMALL_HULL 64u
 
 // A ball around the points of a shape. False for shapes whose extent is not known.
 static bool ball_of(const tl_convex *shape, tl_vec3d *middle, double *reach)
@@ -72,49 +68,6 @@ static tl_vec3d unit(tl_vec3 v)
     return tl_vec3d_scale(d, 1.5 - 0.5 * tl_vec3d_dot(d, d));
 }
 
-// Whether the support's value costs less than its point.
-static bool is_small(const tl_convex *shape)
-{
-    return shape->kind == TL_CONVEX_BOX ||
-           (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count >= 4 && shape->hull->vertex_count <= SMALL_HULL);
-}
-
-// How far a small shape reaches along two directions; returns the size of its coordinates.
-static double small_reach(const tl_convex *shape, const tl_vec3d d[2], double reach[2])
-{
-    if (shape->kind == TL_CONVEX_HULL) {
-        tl_aabb box = shape->hull->bounds;
-        tl_reach_of_two(tl_hull_vertices(shape->hull), shape->hull->vertex_count, d, reach);
-        return tl_vec3d_size(tl_vec3d_from(tl_max(tl_abs(box.min), tl_abs(box.max))));
-    }
-    tl_vec3d c = tl_vec3d_from(shape->corners[0]), h = tl_vec3d_from(shape->corners[1]);
-    for (int k = 0; k < 2; k++) {
-        reach[k] = tl_vec3d_dot(d[k], c) + (fabs(d[k].x) * h.x + fabs(d[k].y) * h.y + fabs(d[k].z) * h.z);
-    }
-    return tl_vec3d_size(c) + tl_vec3d_size(h);
-}
-
-// The value of A - B's support function along two normals.
-static void depths_along(tl_minkowski *pair, const tl_vec3d normals[2], double depths[2])
-{
-    if (is_small(pair->a) && is_small(pair->b)) {
-        const tl_vec3d back[2] = { tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, normals[0])),
-                                   tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, normals[1])) };
-        double reach_a[2], reach_b[2];
-        double scale = small_reach(pair->a, normals, reach_a) + small_reach(pair->b, back, reach_b);
-        pair->scale = fmax(pair->scale, scale + pair->origin_size);
-        for (int k = 0; k < 2; k++) {
-            depths[k] = reach_a[k] + reach_b[k] - tl_vec3d_dot(normals[k], pair->b_to_a.origin);
-        }
-        return;
-    }
-    for (int k = 0; k < 2; k++) {
-        tl_minkowski_point point;
-        tl_minkowski_support(pair, normals[k], &point);
-        depths[k] = tl_vec3d_dot(normals[k], point.w) + pair->direction_error;
-    }
-}
-
 bool tl_axis_holds(tl_minkowski *pair, const tl_contact_cache *cache, double slack, tl_deepest *out)
 {
     tl_vec3d middle;
@@ -122,14 +75,14 @@ bool tl_axis_holds(tl_minkowski *pair, const tl_contact_cache *cache, double sla
     if (cache->has_axis == 0 || !ball_of(pair->b, &middle, &reach)) {
         return false;
     }
-    double least = (double)cache->proven_depth - motion_since(pair, cache, middle, reach);
-    if (!(least > 0.0)) {
-        return false;
+    const double motion = motion_since(pair, cache, middle, reach), least = (double)cache->proven_depth - motion;
+    if (!(least > 0.0) || (motion > slack && cache->polytope.point_count > 0)) {
+        return false; // a polytope proves more
     }
     // As A carries it, and as B does.
     const tl_vec3d normals[2] = { unit(cache->axis_a), tl_frame_rotate(&pair->b_to_a, unit(cache->axis_b)) };
     double depths[2];
-    depths_along(pair, normals, depths);
+    tl_minkowski_reach_of_two(pair, normals, depths);
     const int best = depths[0] <= depths[1] ? 0 : 1;
     if (!(depths[best] - least <= slack)) {
         return false;

@@ -12,8 +12,8 @@
 // crossing. The deepest point is always a contact: the query's witness joins the corners then.
 //
 // The normal comes from the last call where that is proven to serve still (contact_axis.c), of two boxes from their 15
-// axes (box_depth.c), and else from GJK and EPA. The first two know no deepest point: it is a corner of the patch, or
-// the search is made after all.
+// axes (box_depth.c), and else from GJK and EPA, which goes on from the polytope of the last call (polytope_keep.c).
+// The first two know no deepest point: it is a corner of the patch, or the search is made after all.
 //
 // Where the last normal serves, its proof also tells that B has hardly moved: then the last contacts are kept, each a
 // point of A and one of B, and only their separations are new (contact recycling: Catto, Box3D, 2026, there by a bound
@@ -23,6 +23,7 @@
 
 #include "base/assert.h"
 #include "convex/contact/face_patch.h"
+#include "convex/depth/epa.h"
 #include "math/tolerance.h"
 
 #include <float.h>
@@ -221,24 +222,38 @@ static void simplex_features(const tl_simplex *simplex, uint32_t features[2])
     features[1] = b != TL_NO_VERTEX ? TL_FEATURE_VERTEX | b : 0;
 }
 
-// By GJK and EPA. False when the shapes are farther apart than the margin.
+static void take_depth(contact_search *s, const tl_core_depth *depth, tl_deepest *deepest)
+{
+    s->out->status = depth->status;
+    deepest->normal = depth->normal;
+    deepest->on_a = depth->on_a;
+    deepest->on_b = depth->on_b;
+    deepest->separation = -depth->upper;
+    deepest->lower_depth = depth->status == TL_CONVEX_CONVERGED ? depth->lower : 0.0;
+}
+
+// By GJK and EPA, which goes on from the last polytope where there is one. False when the shapes are farther apart than
+// the margin.
 static bool search_deepest(contact_search *s, tl_deepest *deepest)
 {
+    tl_core_depth depth;
+    tl_polytope_cache *polytope = s->cache != NULL ? &s->cache->polytope : NULL;
+    deepest->has_points = true;
+    deepest->features[0] = deepest->features[1] = 0;
+    if (polytope != NULL && tl_epa_resume(&s->pair, polytope, &depth)) {
+        take_depth(s, &depth, deepest);
+        return true;
+    }
     tl_gjk gjk;
     tl_gjk_run(&s->pair, s->cache != NULL ? &s->cache->simplex : NULL, -1.0, &gjk);
     s->out->status = gjk.status;
-    deepest->has_points = true;
-    deepest->features[0] = deepest->features[1] = 0;
     if (gjk.overlap) {
-        tl_core_depth depth;
-        tl_core_depth_find(&s->pair, &gjk, &depth);
-        s->out->status = depth.status;
-        deepest->normal = depth.normal;
-        deepest->on_a = depth.on_a;
-        deepest->on_b = depth.on_b;
-        deepest->separation = -depth.upper;
-        deepest->lower_depth = depth.status == TL_CONVEX_CONVERGED ? depth.lower : 0.0;
+        tl_core_depth_find(&s->pair, &gjk, polytope, &depth);
+        take_depth(s, &depth, deepest);
         return true;
+    }
+    if (polytope != NULL) {
+        polytope->point_count = 0;
     }
     if (gjk.upper - s->radii > s->margin) {
         return false;

@@ -11,6 +11,7 @@
 
 #include "convex/contact/face_patch.h"
 
+#include "base/compiler.h"
 #include "convex/core/farthest.h"
 
 // A face that is steeper than 60 degrees to the direction is no face to rest on.
@@ -40,7 +41,7 @@ static void consider_face(candidate *best, uint32_t face)
 }
 
 // Of the planes of a block the largest product with the direction; all of them are kept. `lanes` is even.
-static double block_products(const double *rows, uint32_t lanes, tl_vec3d d, double dots[8])
+static TL_ALWAYS_INLINE double block_products(const double *rows, uint32_t lanes, tl_vec3d d, double dots[8])
 {
 #if TL_HAS_F64X2
     const tl_f64x2 x = tl_f64x2_all(d.x), y = tl_f64x2_all(d.y), z = tl_f64x2_all(d.z);
@@ -63,21 +64,40 @@ static double block_products(const double *rows, uint32_t lanes, tl_vec3d d, dou
 #endif
 }
 
-// All of them, a block at a time; lanes beyond the last face are passed over.
+// The first of the products that is the largest.
+static uint32_t first_lane(const double dots[8], uint32_t lanes, double most)
+{
+    uint32_t mask = 0;
+#if TL_HAS_F64X2
+    for (uint32_t i = 0; i < lanes; i += 2) {
+        mask |= tl_f64x2_masks(tl_f64x2_where_equal(tl_f64x2_load(dots + i), tl_f64x2_all(most))) << i;
+    }
+#else
+    for (uint32_t i = 0; i < lanes; i++) {
+        mask |= (dots[i] == most ? 1u : 0u) << i;
+    }
+#endif
+    return tl_lowest_bit(mask);
+}
+
+// All of them, a block at a time. Lanes beyond the last face are zero, and some face always looks along the direction.
 static void consider_faces(candidate *best)
 {
     const double *rows = best->planes;
     const uint32_t count = best->hull->face_count, lanes = best->lanes;
-    double dots[8];
+    const tl_vec3d direction = best->direction;
+    double dots[8], best_dot = best->dot;
+    uint32_t face = best->face;
     for (uint32_t from = 0; from < count; from += 8, rows += 32) {
-        if (!(block_products(rows, lanes, best->direction, dots) > best->dot)) {
-            continue;
-        }
-        for (uint32_t lane = 0; lane < 8 && from + lane < count; lane++) {
-            best->face = dots[lane] > best->dot ? from + lane : best->face;
-            best->dot = dots[lane] > best->dot ? dots[lane] : best->dot;
+        const double most =
+            lanes == 8 ? block_products(rows, 8, direction, dots) : block_products(rows, lanes, direction, dots);
+        if (most > best_dot) {
+            best_dot = most;
+            face = from + first_lane(dots, lanes, most);
         }
     }
+    best->dot = best_dot;
+    best->face = face;
 }
 
 // Those around the vertex that a half-edge starts at, but for its own.
@@ -115,7 +135,7 @@ static void climb(candidate *best)
     }
 }
 
-static void keep_facet_corner(tl_face *face, uint32_t at, uint32_t k)
+static TL_ALWAYS_INLINE void keep_facet_corner(tl_face *face, uint32_t at, uint32_t k)
 {
     const tl_hull *hull = face->facet.hull;
     const uint32_t twin = tl_hull_edge_twin(hull, at), vertex = tl_hull_edge_origin(hull, at);

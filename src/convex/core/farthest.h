@@ -9,6 +9,7 @@
 #ifndef TALUS_SRC_CONVEX_FARTHEST_H
 #define TALUS_SRC_CONVEX_FARTHEST_H
 
+#include "base/compiler.h"
 #include "base/lowest_bit.h"
 #include "math/simd2d.h"
 #include "math/vec3d.h"
@@ -134,29 +135,31 @@ static inline uint32_t tl_farthest(const tl_vec3 *points, uint32_t count, const 
     return tl_farthest_plain(points, count, direction);
 }
 
-// The largest product itself, of count >= 4 points, along two directions.
-static inline void tl_reach_of_two(const tl_vec3 *points, uint32_t count, const tl_vec3d direction[2], double reach[2])
+// The largest product itself, of count >= 4 points, along one direction or two.
+static TL_ALWAYS_INLINE void tl_reach_along(const tl_vec3 *points, uint32_t count, const tl_vec3d *direction,
+                                            int directions, double *reach)
 {
 #if TL_HAS_F64X2
-    tl_f64x2 d[2][3], best[2] = { tl_f64x2_all(-(double)INFINITY), tl_f64x2_all(-(double)INFINITY) };
-    for (int k = 0; k < 2; k++) {
+    tl_f64x2 d[2][3], best[2];
+    for (int k = 0; k < directions; k++) {
         d[k][0] = tl_f64x2_all(direction[k].x);
         d[k][1] = tl_f64x2_all(direction[k].y);
         d[k][2] = tl_f64x2_all(direction[k].z);
+        best[k] = tl_f64x2_all(-(double)INFINITY);
     }
     for (uint32_t i = 0; i < count; i += 4) {
         tl_f64x2 x[2], y[2], z[2]; // of the last four some are computed again
         tl_f64x2_load_points(&points[i + 4 <= count ? i : count - 4].x, x, y, z);
-        for (int k = 0; k < 2; k++) {
+        for (int k = 0; k < directions; k++) {
             best[k] = tl_f64x2_max(best[k], tl_f64x2_max(tl_farthest_two(d[k], x[0], y[0], z[0]),
                                                          tl_farthest_two(d[k], x[1], y[1], z[1])));
         }
     }
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < directions; k++) {
         reach[k] = tl_f64x2_get_x(tl_f64x2_max(best[k], tl_f64x2_swap(best[k])));
     }
 #else
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < directions; k++) {
         uint32_t vertex = tl_farthest_plain(points, count, &direction[k]);
         reach[k] = tl_vec3d_dot(direction[k], tl_vec3d_from(points[vertex]));
     }

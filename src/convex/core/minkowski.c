@@ -23,6 +23,10 @@
 // With a hint so many are still scanned: eight products take less than a look at what is around the hint.
 #define SCANNED_WITH_HINT 8u
 
+// A scan of so many vertices for the largest product alone takes less than a support query, which has to find the
+// lowest of all vertices that have it: along a face's normal these are the corners of the face, compared exactly.
+#define SMALL_HULL 64u
+
 // Vertex k of a box: bit i of k says which side on axis i.
 static tl_vec3d box_vertex(const tl_convex *shape, uint32_t k)
 {
@@ -257,5 +261,113 @@ bool tl_minkowski_vertex(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_
     point->vertex_a = vertex_a;
     point->vertex_b = vertex_b;
     finish_point(pair, on_b, point);
+    return true;
+}
+
+// Whether the support's value costs less than its point.
+static bool is_small(const tl_convex *shape)
+{
+    return shape->kind == TL_CONVEX_BOX ||
+           (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count >= 4 && shape->hull->vertex_count <= SMALL_HULL);
+}
+
+// How far a small shape reaches along one direction or two; returns the size of its coordinates.
+static TL_ALWAYS_INLINE double small_reach(const tl_convex *shape, const tl_vec3d *d, int directions, double *reach)
+{
+    if (shape->kind == TL_CONVEX_HULL) {
+        tl_aabb box = shape->hull->bounds;
+        tl_reach_along(tl_hull_vertices(shape->hull), shape->hull->vertex_count, d, directions, reach);
+        return tl_vec3d_size(tl_vec3d_from(tl_max(tl_abs(box.min), tl_abs(box.max))));
+    }
+    tl_vec3d c = tl_vec3d_from(shape->corners[0]), h = tl_vec3d_from(shape->corners[1]);
+    for (int k = 0; k < directions; k++) {
+        reach[k] = tl_vec3d_dot(d[k], c) + (fabs(d[k].x) * h.x + fabs(d[k].y) * h.y + fabs(d[k].z) * h.z);
+    }
+    return tl_vec3d_size(c) + tl_vec3d_size(h);
+}
+
+static TL_ALWAYS_INLINE void reach_along(tl_minkowski *pair, const tl_vec3d *normals, int directions, double *reach)
+{
+    if (is_small(pair->a) && is_small(pair->b)) {
+        tl_vec3d back[2];
+        double reach_a[2], reach_b[2];
+        for (int k = 0; k < directions; k++) {
+            back[k] = tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, normals[k]));
+        }
+        double scale = small_reach(pair->a, normals, directions, reach_a) +
+                       small_reach(pair->b, back, directions, reach_b) + pair->origin_size;
+        pair->scale = scale > pair->scale ? scale : pair->scale;
+        for (int k = 0; k < directions; k++) {
+            reach[k] = reach_a[k] + reach_b[k] - tl_vec3d_dot(normals[k], pair->b_to_a.origin);
+        }
+        return;
+    }
+    for (int k = 0; k < directions; k++) {
+        tl_minkowski_point point;
+        tl_minkowski_support(pair, normals[k], &point);
+        reach[k] = tl_vec3d_dot(normals[k], point.w) + pair->direction_error;
+    }
+}
+
+double tl_minkowski_reach(tl_minkowski *pair, tl_vec3d normal)
+{
+    double reach;
+    reach_along(pair, &normal, 1, &reach);
+    return reach;
+}
+
+void tl_minkowski_reach_of_two(tl_minkowski *pair, const tl_vec3d normals[2], double reach_out[2])
+{
+    reach_along(pair, normals, 2, reach_out);
+}
+
+// The same for shapes of vertices in a row, which are asked for most.
+static const tl_vec3 *vertex_row(const tl_convex *shape, uint32_t *count)
+{
+    switch (shape->kind) {
+    case TL_CONVEX_HULL:
+        *count = shape->hull->vertex_count;
+        return tl_hull_vertices(shape->hull);
+    case TL_CONVEX_POINTS:
+        *count = shape->point_count;
+        return shape->points;
+    case TL_CONVEX_INLINE:
+        *count = shape->point_count;
+        return shape->corners;
+    default:
+        return NULL;
+    }
+}
+
+bool tl_minkowski_vertices(tl_minkowski *pair, const uint16_t (*vertices)[2], uint32_t count,
+                           tl_minkowski_point *points)
+{
+    uint32_t count_a = 0, count_b = 0;
+    const tl_vec3 *row_a = vertex_row(pair->a, &count_a), *row_b = vertex_row(pair->b, &count_b);
+    for (uint32_t i = 0; i < count && (row_a == NULL || row_b == NULL); i++) {
+        if (!tl_minkowski_vertex(pair, vertices[i][0], vertices[i][1], &points[i])) {
+            return false;
+        }
+    }
+    if (row_a == NULL || row_b == NULL) {
+        return true;
+    }
+    const tl_frame b_to_a = pair->b_to_a;
+    double most = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t vertex_a = vertices[i][0], vertex_b = vertices[i][1];
+        if (vertex_a >= count_a || vertex_b >= count_b) {
+            return false;
+        }
+        const tl_vec3d on_b = tl_vec3d_from(row_b[vertex_b]), on_a = tl_vec3d_from(row_a[vertex_a]);
+        const double scale = tl_vec3d_size(on_a) + tl_vec3d_size(on_b);
+        most = scale > most ? scale : most;
+        points[i].a = on_a;
+        points[i].w = tl_vec3d_sub(on_a, tl_frame_point(&b_to_a, on_b));
+        points[i].vertex_a = vertex_a;
+        points[i].vertex_b = vertex_b;
+    }
+    most += pair->origin_size;
+    pair->scale = most > pair->scale ? most : pair->scale;
     return true;
 }

@@ -46,8 +46,17 @@ tl_vec3d tl_minkowski_offset(const tl_minkowski *pair);
 // The point of A - B farthest along the direction, which is not zero.
 void tl_minkowski_support(tl_minkowski *pair, tl_vec3d direction, tl_minkowski_point *point_out);
 
+// How far A - B reaches along a unit normal, or two: the support's value, which is no less than the true one but for
+// rounding in double.
+double tl_minkowski_reach(tl_minkowski *pair, tl_vec3d normal);
+void tl_minkowski_reach_of_two(tl_minkowski *pair, const tl_vec3d normals[2], double reach_out[2]);
+
 // The point of A - B of two vertices; false when a shape has no such vertex.
 bool tl_minkowski_vertex(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_b, tl_minkowski_point *point_out);
+
+// The same of many.
+bool tl_minkowski_vertices(tl_minkowski *pair, const uint16_t (*vertices)[2], uint32_t count,
+                           tl_minkowski_point *points_out);
 
 static inline tl_vec3 tl_minkowski_to_world(const tl_minkowski *pair, tl_vec3d p)
 {

@@ -8,9 +8,9 @@
 #include "convex/depth/direction_search.h"
 #include "convex/depth/epa.h"
 
-void tl_core_depth_find(tl_minkowski *pair, const tl_gjk *gjk, tl_core_depth *depth)
+void tl_core_depth_find(tl_minkowski *pair, const tl_gjk *gjk, tl_polytope_cache *cache, tl_core_depth *depth)
 {
-    tl_epa_run(pair, gjk, depth);
+    tl_epa_run(pair, gjk, cache, depth);
     if (depth->status != TL_CONVEX_CONVERGED && depth->iterations < pair->depth_steps) {
         tl_direction_search(pair, depth);
     }

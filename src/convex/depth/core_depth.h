@@ -17,6 +17,6 @@ typedef struct tl_core_depth {
 
 // From the simplex that GJK ended with when it found that the cores overlap. `depth_out->upper` bounds what supports
 // say, whose directions are rounded: the pair's direction_error comes on top of it.
-void tl_core_depth_find(tl_minkowski *pair, const tl_gjk *gjk, tl_core_depth *depth_out);
+void tl_core_depth_find(tl_minkowski *pair, const tl_gjk *gjk, tl_polytope_cache *cache, tl_core_depth *depth_out);
 
 #endif

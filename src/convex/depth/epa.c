@@ -15,13 +15,11 @@
 
 #include <string.h>
 
-// The result is a float in a world whose coordinates are: bounds closer than four roundings of the size are equal.
-#define EPA_DEPTH_GAP (4.0 * (double)TL_FLOAT_ROUNDING)
-
 typedef struct epa_search {
     tl_minkowski *pair;
     double reach; // largest |w| of the points seen; the origin is inside, so this is the size of A - B
     tl_core_depth *depth;
+    tl_polytope_cache *cache; // may be NULL
 } epa_search;
 
 // Metres that rounding may be off.
@@ -130,7 +128,7 @@ static double witness_on(const epa_search *s, const tl_polytope *p, const uint8_
 // that are as near, take the one that does.
 static void find_epa_witness(epa_search *s, const tl_polytope *p, const uint8_t best_vertices[3])
 {
-    double gap = EPA_DEPTH_GAP * s->reach;
+    double gap = TL_EPA_DEPTH_GAP * s->reach;
     double reach = fmax(s->depth->upper, 0.0) + gap;
     double best = witness_on(s, p, best_vertices, &s->depth->on_a, &s->depth->on_b);
     for (uint32_t f = 0; f < p->face_count && best > gap; f++) {
@@ -152,13 +150,23 @@ static void find_epa_witness(epa_search *s, const tl_polytope *p, const uint8_t 
     s->depth->on_b = tl_vec3d_mul_add(s->depth->on_b, off, 0.5);
 }
 
+static void keep_polytope(const epa_search *s, tl_polytope *p, uint32_t nearest)
+{
+    if (s->depth->status == TL_CONVEX_CONVERGED) {
+        tl_polytope_keep(p, nearest, s->depth->lower, s->cache);
+    } else {
+        s->cache->point_count = 0;
+    }
+}
+
 static void expand_polytope(epa_search *s, tl_polytope *p)
 {
     uint8_t best_vertices[3] = { 0, 1, 2 };
     tl_core_depth *depth = s->depth;
     depth->upper = (double)INFINITY; // what the start found is found again where it matters, with its triangle
+    uint32_t f;
     for (;;) {
-        uint32_t f = tl_polytope_nearest_face(p);
+        f = tl_polytope_nearest_face(p);
         tl_polytope_plane plane = tl_polytope_plane_of(p, f);
         const tl_vec3d normal = plane.normal;
         double scale = 1.0 / sqrt(plane.normal_sq), distance = plane.offset * scale;
@@ -168,7 +176,7 @@ static void expand_polytope(epa_search *s, tl_polytope *p)
                 best_vertices[i] = p->origins[4 * f + (uint32_t)i];
             }
         }
-        double gap = EPA_DEPTH_GAP * s->reach, beyond = tl_vec3d_dot(normal, point.w) * scale - distance;
+        double gap = TL_EPA_DEPTH_GAP * s->reach, beyond = tl_vec3d_dot(normal, point.w) * scale - distance;
         depth->lower = fmax(depth->lower, p->keys[f]);
         if (depth->upper - depth->lower <= gap || beyond <= 2.0 * epa_noise(s)) {
             depth->status = depth->upper - depth->lower <= gap + 4.0 * s->pair->direction_error ? TL_CONVEX_CONVERGED
@@ -186,12 +194,39 @@ static void expand_polytope(epa_search *s, tl_polytope *p)
         depth->iterations++;
     }
     find_epa_witness(s, p, best_vertices);
+    if (s->cache != NULL) {
+        keep_polytope(s, p, f);
+    }
 }
 
-void tl_epa_run(tl_minkowski *pair, const tl_gjk *gjk, tl_core_depth *depth)
+static bool grow_kept(tl_minkowski *pair, tl_polytope_cache *cache, tl_core_depth *depth)
+{
+    tl_polytope polytope;
+    if (!tl_polytope_resume(pair, cache, &polytope)) {
+        return false;
+    }
+    epa_search s = { pair, 0.0, depth, cache };
+    memset(depth, 0, sizeof *depth);
+    for (uint32_t i = 0; i < polytope.vertex_count; i++) {
+        const double reach = tl_vec3d_size(polytope.vertices[i].w);
+        s.reach = reach > s.reach ? reach : s.reach;
+    }
+    expand_polytope(&s, &polytope);
+    return depth->status == TL_CONVEX_CONVERGED;
+}
+
+bool tl_epa_resume(tl_minkowski *pair, tl_polytope_cache *cache, tl_core_depth *depth)
+{
+    if (cache->point_count < 4 || cache->point_count > TL_KEPT_POINTS || cache->face_count > TL_KEPT_FACES) {
+        return false;
+    }
+    return tl_polytope_holds(pair, cache, depth) || grow_kept(pair, cache, depth);
+}
+
+void tl_epa_run(tl_minkowski *pair, const tl_gjk *gjk, tl_polytope_cache *cache, tl_core_depth *depth)
 {
     tl_minkowski_point points[4];
-    epa_search s = { pair, 0.0, depth };
+    epa_search s = { pair, 0.0, depth, cache };
     memset(depth, 0, sizeof *depth);
     depth->upper = (double)INFINITY;
     tl_minkowski_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
@@ -204,6 +239,9 @@ void tl_epa_run(tl_minkowski *pair, const tl_gjk *gjk, tl_core_depth *depth)
     bool solid = count > 1 || widen_point(&s, points);
     solid = solid && (count > 2 || widen_line(&s, points));
     solid = solid && (count > 3 || widen_plane(&s, points));
+    if (cache != NULL) {
+        cache->point_count = 0;
+    }
     if (solid) {
         tl_polytope polytope;
         tl_polytope_init(&polytope, points, pair->scale);

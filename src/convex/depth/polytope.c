@@ -17,7 +17,7 @@
 // The corners of a thin face are off by as much as those of others, so its plane may be turned: no edge is longer than
 // twice the scale and no corner farther away than that, so the offset along the normal is off by four times the error
 // times the square of the scale.
-static void set_key(tl_polytope *p, uint32_t f, tl_polytope_plane plane)
+void tl_polytope_set_key(tl_polytope *p, uint32_t f, tl_polytope_plane plane)
 {
     const double error = TL_POLYTOPE_ERROR * p->scale, turned = 4.0 * error * p->scale * p->scale;
     p->seen[f] = false;
@@ -28,6 +28,8 @@ static uint8_t add_polytope_vertex(tl_polytope *p, const tl_minkowski_point *poi
 {
     p->vertices[p->vertex_count].w = point->w;
     p->vertices[p->vertex_count].a = point->a;
+    p->ids[p->vertex_count][0] = (uint16_t)(point->vertex_a < TL_POLYTOPE_NO_ID ? point->vertex_a : TL_POLYTOPE_NO_ID);
+    p->ids[p->vertex_count][1] = (uint16_t)(point->vertex_b < TL_POLYTOPE_NO_ID ? point->vertex_b : TL_POLYTOPE_NO_ID);
     return (uint8_t)p->vertex_count++;
 }
 
@@ -38,6 +40,7 @@ void tl_polytope_init(tl_polytope *p, const tl_minkowski_point points[4], double
     p->vertex_count = p->free_count = 0;
     p->scale = scale;
     p->face_count = 4;
+    p->linked = true;
     tl_vec3d u = tl_vec3d_sub(points[1].w, points[0].w), v = tl_vec3d_sub(points[2].w, points[0].w),
              w = tl_vec3d_sub(points[3].w, points[0].w);
     // Face 0 looks away from point 3.
@@ -51,7 +54,7 @@ void tl_polytope_init(tl_polytope *p, const tl_minkowski_point points[4], double
             p->origins[4 * f + i] = corners[f][i];
             p->twins[4 * f + i] = twins[f][i];
         }
-        set_key(p, f, tl_polytope_plane_of(p, f));
+        tl_polytope_set_key(p, f, tl_polytope_plane_of(p, f));
     }
 }
 
@@ -157,7 +160,7 @@ static void fan_to_apex(tl_polytope *p, const view *v, uint8_t apex)
         p->twins[beyond] = (uint16_t)(4 * f);
         p->twins[4 * f + 1] = (uint16_t)(4 * next + 2);
         p->twins[4 * next + 2] = (uint16_t)(4 * f + 1);
-        set_key(p, f, tl_polytope_plane_make(top, to_start, to_end));
+        tl_polytope_set_key(p, f, tl_polytope_plane_make(top, to_start, to_end));
         f = next;
         start = end;
         to_start = to_end;
@@ -167,7 +170,7 @@ static void fan_to_apex(tl_polytope *p, const view *v, uint8_t apex)
 bool tl_polytope_add(tl_polytope *p, uint32_t face, const tl_minkowski_point *point, double scale)
 {
     view v;
-    if (p->vertex_count == TL_POLYTOPE_VERTICES) {
+    if (p->vertex_count == TL_POLYTOPE_VERTICES || (!p->linked && !tl_polytope_link(p))) {
         return false;
     }
     const double error = TL_POLYTOPE_ERROR * scale;

@@ -13,6 +13,9 @@
 // Euler: V vertices have 2 V - 4 triangles.
 enum { TL_POLYTOPE_VERTICES = 128, TL_POLYTOPE_FACES = 2 * TL_POLYTOPE_VERTICES - 4 };
 
+// Of curved shapes, and of vertices of large hulls that are not less.
+enum { TL_POLYTOPE_NO_ID = UINT16_MAX };
+
 // b is a - w, as in a pair's point.
 typedef struct tl_polytope_vertex {
     tl_vec3d w, a;
@@ -29,6 +32,7 @@ typedef struct tl_polytope_plane {
 // Half-edge 4 f + i leads from corner i of face f to the next, counter-clockwise from outside; i is 0, 1 or 2.
 typedef struct tl_polytope {
     tl_polytope_vertex vertices[TL_POLYTOPE_VERTICES];
+    uint16_t ids[TL_POLYTOPE_VERTICES][2]; // the vertices of A and B, or TL_POLYTOPE_NO_ID
     // Metres that the face's plane is surely away from the origin, negative where the origin is outside; infinite for a
     // free slot and for a face without an area, whose points belong to its neighbours too. The polytope lies in A - B,
     // so the least of them bounds the depth.
@@ -39,6 +43,7 @@ typedef struct tl_polytope {
     uint8_t free_faces[TL_POLYTOPE_FACES];
     bool seen[TL_POLYTOPE_FACES];                  // by the point that is being added
     uint32_t vertex_count, face_count, free_count; // slots in use; a dead face's slot is taken again
+    bool linked;                                   // twins are set
 } tl_polytope;
 
 static_assert(TL_POLYTOPE_FACES <= UINT8_MAX, "indices have eight bits");
@@ -53,6 +58,9 @@ static_assert(sizeof(tl_polytope) <= 12 * 1024, "a query's stack is bounded");
 void tl_polytope_init(tl_polytope *polytope, const tl_minkowski_point points[4], double scale);
 
 uint32_t tl_polytope_nearest_face(const tl_polytope *polytope);
+
+// Computes the key of a face from its plane.
+void tl_polytope_set_key(tl_polytope *polytope, uint32_t face, tl_polytope_plane plane);
 
 static inline const tl_polytope_vertex *tl_polytope_corner(const tl_polytope *polytope, uint32_t face, uint32_t i)
 {
@@ -80,5 +88,17 @@ static inline tl_polytope_plane tl_polytope_plane_of(const tl_polytope *polytope
 // face that the point is less than that behind is seen too. False, with nothing changed, when the polytope is full or
 // rounding made the rim of what the point sees not one loop.
 bool tl_polytope_add(tl_polytope *polytope, uint32_t face, const tl_minkowski_point *point, double scale);
+
+// polytope_keep.c
+// Keeps what proves that the depth is no less than `lower`, with the face that is nearest; nothing where that takes too
+// many points, or a point that is no vertex. Changes the polytope.
+void tl_polytope_keep(tl_polytope *polytope, uint32_t nearest, double lower, tl_polytope_cache *cache_out);
+
+// The polytope that was kept, its points where they are now. False when it does not hold the origin. The caller has
+// checked the counts.
+bool tl_polytope_resume(tl_minkowski *pair, const tl_polytope_cache *cache, tl_polytope *polytope_out);
+
+// Finds the twins of a polytope that was resumed. False when its faces are no closed surface.
+bool tl_polytope_link(tl_polytope *polytope);
 
 #endif

@@ -57,7 +57,7 @@ bool tl_convex_penetration_within(const tl_convex *a, tl_transform pose_a, const
     penetration_out->iterations = gjk.iterations;
     if (gjk.overlap) {
         tl_core_depth depth;
-        tl_core_depth_find(&pair, &gjk, &depth);
+        tl_core_depth_find(&pair, &gjk, NULL, &depth);
         penetration_out->status = depth.status;
         penetration_out->iterations += depth.iterations;
         core_penetration cores = { depth.upper,  depth.lower, depth.upper + pair.direction_error,
