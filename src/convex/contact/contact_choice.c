@@ -7,6 +7,9 @@
 // so the last four stay while they span half of what the patch does (any convex region has four corners of at least
 // 0.63 of its area; Blaschke 1917), and a corner known already counts for more in a new choice. Starting from the
 // deepest corner, as is common, chooses anew with each tremor.
+//
+// Of choices that are equally large, the one whose corners are spread more evenly resists tilting in all directions:
+// four corners of a hexagon are a rectangle, twice as long as wide, or a kite of the same area.
 
 #include "convex/contact/face_patch.h"
 
@@ -20,6 +23,9 @@
 
 // A corner is the last one when it is within this part of the patch's extent of it.
 #define SAME_CORNER 0.02
+
+// Areas that differ by less than this part are as good as equal.
+#define SAME_AREA 0.01
 
 enum { DIRECTIONS = 8, MAX_CANDIDATES = DIRECTIONS + TL_MAX_CONTACTS + 1 };
 
@@ -142,9 +148,26 @@ static uint32_t keep_two(const choice *c, const tl_patch_point *kept[4])
     return first != second ? 2 : 1;
 }
 
+// How evenly four corners resist tilting: the determinant of their second moments about their middle.
+static double second_moment(const tl_patch_point *const points[4])
+{
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+    for (int i = 0; i < 4; i++) {
+        x += 0.25 * points[i]->x;
+        y += 0.25 * points[i]->y;
+    }
+    for (int i = 0; i < 4; i++) {
+        const double along_x = points[i]->x - x, along_y = points[i]->y - y;
+        xx += along_x * along_x;
+        xy += along_x * along_y;
+        yy += along_y * along_y;
+    }
+    return xx * yy - xy * xy;
+}
+
 static uint32_t keep_largest(const choice *c, double least_area, const tl_patch_point *kept[4])
 {
-    double bonus[MAX_CANDIDATES], most = least_area;
+    double bonus[MAX_CANDIDATES], most = least_area, best_moment = 0.0;
     uint32_t best[4] = { 0 };
     for (uint32_t i = 0; i < c->count; i++) {
         bonus[i] = c->points[i]->previous != TL_NO_CONTACT ? KNOWN_BONUS : 0.0;
@@ -157,8 +180,14 @@ static uint32_t keep_largest(const choice *c, double least_area, const tl_patch_
                 for (uint32_t l = k + 1; l < c->count; l++) {
                     const tl_patch_point *q = c->points[j], *s = c->points[l];
                     double value = (x * (s->y - q->y) - y * (s->x - q->x)) * (known + bonus[j] + bonus[l]);
-                    if (value > most) {
-                        most = value;
+                    if (!(value > most * (1.0 - SAME_AREA))) {
+                        continue;
+                    }
+                    const tl_patch_point *const four[4] = { p, q, r, s };
+                    const double moment = second_moment(four);
+                    if (value > most * (1.0 + SAME_AREA) || moment > best_moment) {
+                        most = value > most ? value : most;
+                        best_moment = moment;
                         best[0] = i, best[1] = j, best[2] = k, best[3] = l;
                     }
                 }
