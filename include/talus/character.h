@@ -46,7 +46,7 @@ typedef struct tl_character_def {
     /// Metres, > 0, at most radius / 4: kept free around the capsule. Default 0.002. Where coordinates are larger than
     /// 2^20 gaps (2 km by default) it is a 2^20th of them, since positions are floats.
     float gap;
-    /// Triangles and shapes near a character at one time, >= 16; each takes 250 bytes of scratch. Default 1024
+    /// Triangles and shapes near a character at one time, >= 16; each takes 340 bytes of scratch. Default 1024
     uint32_t max_triangles;
     const tl_allocator *allocator; ///< NULL: malloc
     uint32_t cookie;               ///< TL_DEF_COOKIE, set by tl_default_character_def

@@ -9,7 +9,46 @@
 
 #include "character/capsule_gap.h"
 
+#include "math/tolerance.h"
+
 #define ALL_SIDES 7u
+
+// A triangle whose sine at corner 0 is below half an ulp of float has no face.
+#define MOVER_NEEDLE_SINE_SQ ((double)TL_FLOAT_ROUNDING * (double)TL_FLOAT_ROUNDING)
+
+static tl_vec3d lesser(tl_vec3d a, tl_vec3d b)
+{
+    return tl_vec3d_make(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
+}
+
+static tl_vec3d greater(tl_vec3d a, tl_vec3d b)
+{
+    return tl_vec3d_make(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
+}
+
+void tl_mover_set_triangle(tl_mover_item *t)
+{
+    const tl_vec3d *corners = t->corners;
+    t->low = lesser(corners[0], lesser(corners[1], corners[2]));
+    t->high = greater(corners[0], greater(corners[1], corners[2]));
+    const tl_vec3d first = tl_vec3d_sub(corners[1], corners[0]), second = tl_vec3d_sub(corners[2], corners[0]);
+    const tl_vec3d normal = tl_vec3d_cross(first, second);
+    const double normal_sq = tl_vec3d_dot(normal, normal);
+    const bool has_face = normal_sq > MOVER_NEEDLE_SINE_SQ * tl_vec3d_dot(first, first) * tl_vec3d_dot(second, second);
+    t->normal = tl_vec3d_scale(normal, has_face ? 1.0 / sqrt(normal_sq) : 0.0);
+    t->edges_known = false;
+}
+
+// Most triangles near are told off by their boxes and planes: the edges are computed for the others alone, once.
+static void know_edges(tl_mover_item *t)
+{
+    for (int k = 0; k < 3 && !t->edges_known; k++) {
+        const tl_vec3d edge = tl_vec3d_sub(t->corners[(k + 1) % 3], t->corners[k]);
+        t->inward[k] = tl_vec3d_cross(t->normal, edge);
+        t->edge_sq[k] = tl_vec3d_dot(edge, edge);
+    }
+    t->edges_known = true;
+}
 
 static double clamp_to_one(double share)
 {
@@ -19,8 +58,7 @@ static double clamp_to_one(double share)
 static bool projects_inside(const tl_mover_item *t, tl_vec3d p)
 {
     for (int k = 0; k < 3; k++) {
-        tl_vec3d edge = tl_vec3d_sub(t->corners[(k + 1) % 3], t->corners[k]);
-        if (tl_vec3d_dot(tl_vec3d_cross(t->normal, edge), tl_vec3d_sub(p, t->corners[k])) < 0.0) {
+        if (tl_vec3d_dot(t->inward[k], tl_vec3d_sub(p, t->corners[k])) < 0.0) {
             return false;
         }
     }
@@ -81,27 +119,31 @@ static bool crosses_triangle(const tl_mover_item *t, const tl_mover_core *core, 
     return true;
 }
 
-// On which sides of a triangle's edges the core's ends are: bit k for the inside of edge k, seen along the normal.
+// On which sides of a triangle's edges the core's ends are: bit k for the inside of edge k, seen along the normal; and
+// whether it is all farther than the reach outside of one.
 typedef struct core_sides {
     uint32_t low, top;
+    bool beyond;
 } core_sides;
 
-static core_sides sides_of(const tl_mover_item *t, tl_vec3d low, tl_vec3d top)
+static core_sides sides_of(const tl_mover_item *t, tl_vec3d low, tl_vec3d top, double reach)
 {
-    core_sides sides = { 0, 0 };
+    core_sides sides = { 0, 0, false };
     for (int k = 0; k < 3; k++) {
-        const tl_vec3d edge = tl_vec3d_sub(t->corners[(k + 1) % 3], t->corners[k]);
-        const tl_vec3d inward = tl_vec3d_cross(t->normal, edge);
-        sides.low |= (uint32_t)(tl_vec3d_dot(inward, tl_vec3d_sub(low, t->corners[k])) >= 0.0) << k;
-        sides.top |= (uint32_t)(tl_vec3d_dot(inward, tl_vec3d_sub(top, t->corners[k])) >= 0.0) << k;
+        const double low_in = tl_vec3d_dot(t->inward[k], tl_vec3d_sub(low, t->corners[k]));
+        const double top_in = tl_vec3d_dot(t->inward[k], tl_vec3d_sub(top, t->corners[k]));
+        const double most = low_in > top_in ? low_in : top_in;
+        sides.low |= (uint32_t)(low_in >= 0.0) << k;
+        sides.top |= (uint32_t)(top_in >= 0.0) << k;
+        sides.beyond = sides.beyond || (most < 0.0 && most * most > reach * reach * t->edge_sq[k]);
     }
     return sides;
 }
 
-static void nearest_of_triangle(const tl_mover_item *t, const tl_mover_core *core, tl_mover_nearest *best)
+static void nearest_of_triangle(const tl_mover_item *t, const tl_mover_core *core, double reach, tl_mover_nearest *best)
 {
     double best_sq = (double)INFINITY;
-    core_sides in = { 0, 0 };
+    core_sides in = { 0, 0, false };
     if (t->normal.x != 0.0 || t->normal.y != 0.0 || t->normal.z != 0.0) {
         tl_vec3d top = core->low;
         top.y += core->length;
@@ -110,7 +152,11 @@ static void nearest_of_triangle(const tl_mover_item *t, const tl_mover_core *cor
         if (crosses_triangle(t, core, low, high, best)) {
             return;
         }
-        in = sides_of(t, core->low, top);
+        in = sides_of(t, core->low, top, reach);
+        if (in.beyond) {
+            best->distance = (double)INFINITY;
+            return;
+        }
         bool low_nearer = fabs(low) <= fabs(high), same_side = (low >= 0.0) == (high >= 0.0);
         if (same_side && (low_nearer ? in.low : in.top) == ALL_SIDES) {
             take_plane(t, low_nearer ? core->low : top, low_nearer ? low : high, best);
@@ -158,11 +204,12 @@ static void nearest_of_shape(const tl_mover_item *item, const tl_mover_core *cor
     best->point = tl_vec3d_add(core->low, tl_vec3d_from(in.point_a));
 }
 
-void tl_mover_nearest_of(const tl_mover_item *item, const tl_mover_core *core, tl_mover_nearest *nearest_out)
+void tl_mover_nearest_of(tl_mover_item *item, const tl_mover_core *core, double reach, tl_mover_nearest *nearest_out)
 {
     if (item->shape != NULL) {
         nearest_of_shape(item, core, nearest_out);
     } else {
-        nearest_of_triangle(item, core, nearest_out);
+        know_edges(item);
+        nearest_of_triangle(item, core, reach, nearest_out);
     }
 }

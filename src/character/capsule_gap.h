@@ -14,10 +14,13 @@ typedef struct tl_mover_item {
     tl_vec3d low, high; ///< its box
     tl_vec3d normal;    ///< unit, of the front; zero for a needle, whose height is below the precision of its corners
     tl_vec3d corners[3];
+    tl_vec3d inward[3];     ///< in its plane, from the edge that begins at each corner inwards, as long as that edge
+    double edge_sq[3];      ///< square metres: those lengths squared
     const tl_convex *shape; ///< NULL: a triangle
     const tl_transform *pose;
     uint32_t instance, triangle;
     uint16_t material;
+    bool edges_known;
 } tl_mover_item;
 
 /// An upright capsule's core: from `low` up by `length`; and the radius, for shapes.
@@ -34,7 +37,11 @@ typedef struct tl_mover_nearest {
     bool face;       ///< a triangle's inside is nearest, not an edge or corner of it
 } tl_mover_nearest;
 
-void tl_mover_nearest_of(const tl_mover_item *item, const tl_mover_core *core, tl_mover_nearest *nearest_out);
+/// Box and normal of the triangle with the item's corners.
+void tl_mover_set_triangle(tl_mover_item *item);
+
+/// What is farther than `reach` may be called infinitely far: then the distance alone is set.
+void tl_mover_nearest_of(tl_mover_item *item, const tl_mover_core *core, double reach, tl_mover_nearest *nearest_out);
 
 /// Whether the item's box lies farther from the core's box than `reach`.
 static inline bool tl_mover_is_far(const tl_mover_item *item, const tl_mover_core *core, double reach)

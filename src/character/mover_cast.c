@@ -15,8 +15,9 @@
 #define CAST_SHARE  0.5
 #define CREEP_SHARE 0.015625
 
-// The iteration ends this near to its goal, in gaps.
+// The iteration ends this near to its goal, in gaps; what stays so much farther it never reaches.
 #define CLOSE_SHARE 0.00390625
+#define MISS_SHARE  0.0078125
 
 enum { MAX_ADVANCES = 64 };
 
@@ -52,22 +53,23 @@ static double reaches_plane(const tl_mover_item *t, const tl_mover_core *core, t
     return 0.0;
 }
 
-static void cast_at_item(const tl_character_mover *m, const tl_mover_core *core, tl_vec3d motion, uint32_t index,
-                         tl_mover_sweep *best)
+static void cast_at_item(const tl_character_mover *m, const tl_mover_core *core, tl_vec3d motion, double length,
+                         uint32_t index, tl_mover_sweep *best)
 {
-    const tl_mover_item *item = &m->items[index];
+    tl_mover_item *item = &m->items[index];
     double keep = m->radius + CAST_SHARE * m->gap;
     if (sweep_misses_box(item, core, motion, keep)) {
         return;
     }
+    const double miss = keep + MISS_SHARE * m->gap;
     double t = item->shape == NULL ? reaches_plane(item, core, motion, keep) : 0.0;
     bool started = t > 0.0;
     for (uint32_t i = 0; t < best->t; i++) {
         tl_mover_core at = *core;
         at.low = tl_vec3d_mul_add(core->low, motion, t);
         tl_mover_nearest nearest;
-        tl_mover_nearest_of(item, &at, &nearest);
-        double closing = -tl_vec3d_dot(nearest.normal, motion);
+        tl_mover_nearest_of(item, &at, miss + (best->t - t) * length, &nearest);
+        double closing = nearest.distance < (double)INFINITY ? -tl_vec3d_dot(nearest.normal, motion) : 0.0;
         if (!(closing > 0.0)) {
             return;
         }
@@ -105,10 +107,14 @@ tl_mover_sweep tl_mover_cast(tl_character_mover *m, tl_vec3d feet, tl_vec3d moti
     double z = share_within(feet.z, motion.z, m->feet_low.z, m->feet_high.z);
     best.t = x < y ? x : y;
     best.t = z < best.t ? z : best.t;
+    const double length = tl_vec3d_length(motion);
     m->report->sweeps++;
+    // What it was in contact with last is likely to be met first, and then most others are told off at once.
+    const uint32_t first = m->contact_count > 0 ? m->contacts[m->contact_count - 1].item : 0;
     for (uint32_t i = 0; i < m->item_count; i++) {
-        if (m->items[i].instance != m->ignored_instance) {
-            cast_at_item(m, &core, motion, i, &best);
+        const uint32_t index = i == 0 ? first : i <= first ? i - 1 : i;
+        if (m->items[index].instance != m->ignored_instance) {
+            cast_at_item(m, &core, motion, length, index, &best);
         }
     }
     return best;

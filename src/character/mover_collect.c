@@ -8,9 +8,6 @@
 
 #include <string.h>
 
-// A triangle whose sine at corner 0 is below half an ulp of float has no face.
-#define MOVER_NEEDLE_SINE_SQ ((double)TL_FLOAT_ROUNDING * (double)TL_FLOAT_ROUNDING)
-
 typedef struct collection {
     tl_character_mover *m;
     tl_aabb box; // rounded outwards
@@ -21,26 +18,13 @@ typedef struct collection {
     bool full;
 } collection;
 
-static tl_vec3d lesser(tl_vec3d a, tl_vec3d b)
-{
-    return tl_vec3d_make(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
-}
-
-static tl_vec3d greater(tl_vec3d a, tl_vec3d b)
-{
-    return tl_vec3d_make(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
-}
-
 static tl_mover_item *next_item(collection *c)
 {
     if (c->m->item_count == c->m->def.max_triangles) {
         c->full = true;
         return NULL;
     }
-    tl_mover_item *item = &c->m->items[c->m->item_count];
-    memset(item, 0, sizeof *item);
-    item->instance = c->instance;
-    return item;
+    return &c->m->items[c->m->item_count];
 }
 
 // As rays.h says: front and back as seen from the middle of the box, materials, then the caller's word.
@@ -75,15 +59,9 @@ static bool collect_triangle(const tl_soup_triangle *triangle, void *user)
         tl_vec3d corner = tl_vec3d_from(triangle->corners[k]);
         item->corners[k] = c->at != NULL ? tl_frame_point(&c->frame, corner) : corner;
     }
-    item->low = lesser(item->corners[0], lesser(item->corners[1], item->corners[2]));
-    item->high = greater(item->corners[0], greater(item->corners[1], item->corners[2]));
-    tl_vec3d first = tl_vec3d_sub(item->corners[1], item->corners[0]);
-    tl_vec3d second = tl_vec3d_sub(item->corners[2], item->corners[0]);
-    tl_vec3d normal = tl_vec3d_cross(first, second);
-    double normal_sq = tl_vec3d_dot(normal, normal);
-    if (normal_sq > MOVER_NEEDLE_SINE_SQ * tl_vec3d_dot(first, first) * tl_vec3d_dot(second, second)) {
-        item->normal = tl_vec3d_scale(normal, 1.0 / sqrt(normal_sq));
-    }
+    tl_mover_set_triangle(item);
+    item->shape = NULL;
+    item->instance = c->instance;
     item->triangle = triangle->triangle;
     item->material = triangle->material;
     c->m->item_count += accepts_triangle(c, triangle, item);
@@ -120,10 +98,12 @@ static bool collect_instance(uint32_t instance, void *user)
     tl_mover_item *item = at->shape != NULL ? next_item(c) : NULL;
     if (item != NULL) {
         tl_aabb box = tl_convex_bounds(at->shape, at->pose);
+        memset(item, 0, sizeof *item);
         item->low = tl_vec3d_from(box.min);
         item->high = tl_vec3d_from(box.max);
         item->shape = at->shape;
         item->pose = &at->pose;
+        item->instance = instance;
         item->triangle = TL_NO_TRIANGLE;
         c->m->item_count++;
     }
@@ -142,7 +122,7 @@ bool tl_mover_collect(tl_character_mover *m, tl_vec3d low, tl_vec3d high)
     c.m = m;
     c.box.min = tl_vec3d_to_float(low);
     c.box.max = tl_vec3d_to_float(high);
-    m->item_count = 0;
+    m->item_count = m->contact_count = 0;
     m->contacts_known = false;
     const tl_character_level *level = m->level;
     if (level->soup != NULL) {

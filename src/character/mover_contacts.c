@@ -21,10 +21,13 @@
 // Contacts are within the gap and a quarter of it.
 #define CONTACT_SHARE 1.25
 
+// What is outside of a triangle's edge by more than this, in gaps, is none, with room for rounding.
+#define BEYOND_SHARE 1.3125
+
 // Upper faces of shapes are looked for so far inside of an edge, in radii.
 #define INWARD_SHARE 0.0625
 
-static bool rises_at(const tl_character_mover *m, const tl_mover_contact *edge, const tl_mover_item *other)
+static bool rises_at(const tl_character_mover *m, const tl_mover_contact *edge, tl_mover_item *other)
 {
     double meeting = MOVER_MEETING_SHARE * (tl_vec3d_size(edge->point) + m->core_length + m->radius);
     tl_mover_core point = { edge->point, 0.0, 0.0 };
@@ -39,7 +42,7 @@ static bool rises_at(const tl_character_mover *m, const tl_mover_contact *edge, 
     if (!may_rise) {
         return false;
     }
-    tl_mover_nearest_of(other, &point, &nearest);
+    tl_mover_nearest_of(other, &point, 2.0 * meeting, &nearest);
     bool rises = false;
     for (int k = 0; k < 3 && nearest.distance <= meeting; k++) {
         tl_vec3d to = tl_vec3d_sub(other->corners[k], nearest.point);
@@ -116,17 +119,17 @@ double tl_mover_find_contacts(tl_character_mover *m, tl_vec3d feet)
         return m->least_gap;
     }
     const tl_mover_core core = tl_mover_core_at(m, feet);
-    const double reach = m->radius + CONTACT_SHARE * m->gap;
+    const double reach = m->radius + CONTACT_SHARE * m->gap, beyond = m->radius + BEYOND_SHARE * m->gap;
     double least = (double)INFINITY;
     m->contact_count = 0;
     for (uint32_t i = 0; i < m->item_count; i++) {
-        const tl_mover_item *item = &m->items[i];
+        tl_mover_item *item = &m->items[i];
         if (item->instance == m->ignored_instance || tl_mover_is_far(item, &core, reach) ||
             is_off_plane(item, &core, reach)) {
             continue;
         }
         tl_mover_nearest nearest;
-        tl_mover_nearest_of(item, &core, &nearest);
+        tl_mover_nearest_of(item, &core, beyond, &nearest);
         if (nearest.distance > reach) {
             continue;
         }

@@ -17,10 +17,7 @@ static tl_mover_item item_of(const tl_vec3 corners[3])
     for (int k = 0; k < 3; k++) {
         item.corners[k] = tl_vec3d_from(corners[k]);
     }
-    tl_vec3d n =
-        tl_vec3d_cross(tl_vec3d_sub(item.corners[1], item.corners[0]), tl_vec3d_sub(item.corners[2], item.corners[0]));
-    double length = tl_vec3d_length(n);
-    item.normal = tl_vec3d_scale(n, length > 0.0 ? 1.0 / length : 0.0);
+    tl_mover_set_triangle(&item);
     return item;
 }
 
@@ -54,7 +51,7 @@ static void test_triangles(void **state)
         tl_vec3 at = test_random_point(&random, low, high);
         tl_mover_core core = { tl_vec3d_from(at), i % 8 < 6 ? 1.25 : 0.0, 0.25 };
         tl_mover_nearest nearest;
-        tl_mover_nearest_of(&item, &core, &nearest);
+        tl_mover_nearest_of(&item, &core, (double)INFINITY, &nearest);
         bool overlap;
         tl_convex shape = tl_convex_triangle(corners[0], corners[1], corners[2], 0.0f);
         double distance = gjk_distance(&shape, tl_transform_identity(), &core, &overlap);
@@ -66,7 +63,7 @@ static void test_triangles(void **state)
             tl_mover_core out = core;
             out.low = tl_vec3d_mul_add(core.low, nearest.normal, 1e-6 - nearest.distance);
             tl_mover_nearest after;
-            tl_mover_nearest_of(&item, &out, &after);
+            tl_mover_nearest_of(&item, &out, (double)INFINITY, &after);
             TEST_CHECK(after.distance >= 0.0 && (!after.face || after.distance < 2e-6));
         } else {
             TEST_CHECK(fabs(nearest.distance - distance) < 1e-6);
@@ -92,7 +89,7 @@ static void test_shapes(void **state)
         item.pose = &pose;
         tl_mover_core core = { tl_vec3d_from(at), 1.25, 0.25 };
         tl_mover_nearest nearest;
-        tl_mover_nearest_of(&item, &core, &nearest);
+        tl_mover_nearest_of(&item, &core, (double)INFINITY, &nearest);
         bool overlap;
         double distance = gjk_distance(&box, pose, &core, &overlap);
         TEST_CHECK(overlap ? nearest.distance <= 1e-6 : fabs(nearest.distance - distance) < 1e-5);
