@@ -171,8 +171,8 @@ static TL_ALWAYS_INLINE void settle_rays(ray_packet *p, const packet_leaf *leaf,
     uint32_t sure = maybe & met & clear & tl_f32x16_less(zero, low), better = sure & tl_f32x16_less(high, ahead);
     if (any) {
         p->found |= better;
-        p->alone |= maybe & ~better;
-        leave_packet(p, maybe);
+        p->alone |= maybe & ~better; // unless something else is surely hit
+        leave_packet(p, better);
         return;
     }
     uint32_t rivals = sure & ~better;
@@ -277,7 +277,7 @@ static TL_ALWAYS_INLINE void walk_packet(const tl_soup *soup, ray_packet *p, boo
 
 static TL_ALWAYS_INLINE void report_packet(const tl_ray_batch *batch, const ray_packet *p)
 {
-    uint32_t alone = p->alone & p->rays, pending = p->pending & p->rays & ~alone;
+    uint32_t alone = p->alone & p->rays & ~p->found, pending = p->pending & p->rays & ~alone;
     for (uint32_t rays = p->rays & ~alone & ~pending; rays != 0; rays &= rays - 1) {
         uint32_t lane = tl_lowest_bit(rays);
         tl_ray_report(batch, p->index[lane], (p->found >> lane & 1u) != 0);
