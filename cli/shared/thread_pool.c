@@ -2,7 +2,11 @@
 //
 // A loop is handed out item by item from one atomic counter, so uneven items (tiles of a level) balance themselves.
 // The caller works too; it returns when every thread that joined the loop has left it, so the loop's data may live on
-// its stack. Work stealing was rejected: items are milliseconds long, one counter is never contended.
+// its stack. Who wakes too late to join is not waited for. Work stealing was rejected: items are milliseconds long, one
+// counter is never contended.
+//
+// A bake hands out loops one after another, some of them shorter than the 50 us that waking a thread takes; so threads
+// look out for the next loop for a while before they sleep, and the caller does for the last of them to leave.
 
 #include "cli/shared/thread_pool.h"
 
@@ -16,7 +20,10 @@
 #include <unistd.h>
 #endif
 
-// One loop. Written under the mutex before `generation` is raised, read by the threads after they saw it raised.
+// Looks, with a pause each, before a thread sleeps: some 50 us.
+enum { PATIENCE = 1000 };
+
+// One loop. Written under the mutex while nobody is inside, read by the threads that joined it under the mutex.
 typedef struct loop {
     tl_task_fn *task;
     void *task_user;
@@ -35,8 +42,9 @@ struct tl_thread_pool {
     pthread_mutex_t mutex;
     pthread_cond_t work_came;
     pthread_cond_t all_left;
-    uint64_t generation; // number of loops begun
-    uint32_t inside;     // threads that have not finished the loop `generation`
+    atomic_uint_fast64_t generation; // number of loops begun; written under the mutex
+    atomic_uint inside;              // threads in the loop `generation`; written under the mutex
+    bool is_open;                    // it may be joined
     bool closing;
     loop current;
     worker workers[]; // worker 0 is the caller, and has no thread
@@ -53,6 +61,29 @@ static void work(loop *current, uint32_t index)
     }
 }
 
+static void pause_a_moment(void)
+{
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    __asm__ volatile("isb"); // 10 ns; a yield takes no time on most of them
+#endif
+}
+
+static void await_loop(const tl_thread_pool *pool, uint64_t seen)
+{
+    for (int i = 0; i < PATIENCE && atomic_load_explicit(&pool->generation, memory_order_relaxed) == seen; i++) {
+        pause_a_moment();
+    }
+}
+
+static void await_leaving(const tl_thread_pool *pool)
+{
+    for (int i = 0; i < PATIENCE && atomic_load_explicit(&pool->inside, memory_order_relaxed) != 0; i++) {
+        pause_a_moment();
+    }
+}
+
 static void *thread_main(void *user)
 {
     worker *self = user;
@@ -60,19 +91,23 @@ static void *thread_main(void *user)
     uint64_t seen = 0;
     pthread_mutex_lock(&pool->mutex);
     for (;;) {
-        while (pool->generation == seen && !pool->closing) {
+        while ((pool->generation == seen || !pool->is_open) && !pool->closing) {
             pthread_cond_wait(&pool->work_came, &pool->mutex);
         }
         if (pool->closing) {
             break;
         }
         seen = pool->generation;
+        pool->inside++;
         pthread_mutex_unlock(&pool->mutex);
         work(&pool->current, self->index);
         pthread_mutex_lock(&pool->mutex);
         if (--pool->inside == 0) {
             pthread_cond_signal(&pool->all_left);
         }
+        pthread_mutex_unlock(&pool->mutex);
+        await_loop(pool, seen);
+        pthread_mutex_lock(&pool->mutex);
     }
     pthread_mutex_unlock(&pool->mutex);
     return NULL;
@@ -92,13 +127,17 @@ static void run_tasks(tl_task_fn *task, uint32_t count, void *task_user, void *u
     pool->current.task_user = task_user;
     pool->current.count = count;
     atomic_store_explicit(&pool->current.next, 0, memory_order_relaxed);
-    pool->inside = pool->tasks.worker_count - 1;
+    pool->is_open = true;
     pool->generation++;
     pthread_cond_broadcast(&pool->work_came);
     pthread_mutex_unlock(&pool->mutex);
 
     work(&pool->current, 0);
 
+    pthread_mutex_lock(&pool->mutex);
+    pool->is_open = false;
+    pthread_mutex_unlock(&pool->mutex);
+    await_leaving(pool);
     pthread_mutex_lock(&pool->mutex);
     while (pool->inside != 0) {
         pthread_cond_wait(&pool->all_left, &pool->mutex);

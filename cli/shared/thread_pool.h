@@ -10,7 +10,8 @@
 typedef struct tl_thread_pool tl_thread_pool;
 
 /// A pool of `worker_count` workers (>= 1): the thread that runs a loop is worker 0, the others are threads of the pool
-/// that sleep in between. When the system refuses threads the pool has fewer. NULL when memory is out.
+/// that sleep in between, but for the first 50 us. When the system refuses threads the pool has fewer. NULL when memory
+/// is out.
 tl_thread_pool *tl_thread_pool_create(uint32_t worker_count);
 /// Ends the threads. No loop may be running. NULL is allowed.
 void tl_thread_pool_free(tl_thread_pool *pool);
