@@ -47,7 +47,8 @@ enum {
 #define CROWD_CORNER    128u ///< its corner is known, and how the path turns there:
 #define CROWD_LEFT      256u
 #define CROWD_RIGHT     512u
-#define CROWD_ALL_FLAGS 1023u
+#define CROWD_ASK_LATER 1024u ///< shut off from its goal, before and after an edit: asks anew when its turn comes
+#define CROWD_ALL_FLAGS 2047u
 
 // The upper half of the flags, and of what others see: where the agent travels, past its next corner. Two signed bytes,
 // x and z of a direction in parts of 127: enough to tell who comes the other way. Both 0: nowhere.
@@ -230,6 +231,7 @@ typedef struct crowd_step {
     float dt;
     uint32_t work_count;
     uint32_t tree_count, shared_count; ///< trees made, and paths by them
+    float preferred[2];                ///< unit: the direction that has the right of way now
 } crowd_step;
 
 /// Bytes of a state, or 0 when they do not fit a size_t.
@@ -297,6 +299,9 @@ void tl_crowd_deal_slots(const tl_nav_crowd *crowd, crowd_group *group);
 void tl_crowd_lead_groups(const crowd_step *step);
 /// Sends an agent that follows to its slot, and sets what it wants.
 void tl_crowd_follow(const crowd_step *step, uint32_t i, tl_nav_query *query);
+
+/// The direction that has the right of way at a time: the golden angle, again and again.
+void tl_crowd_preferred_direction(uint64_t milliseconds, float out[2]);
 
 /// Moves an agent that is on a link.
 void tl_crowd_follow_link(const crowd_step *step, uint32_t i);

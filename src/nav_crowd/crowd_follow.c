@@ -315,7 +315,7 @@ void tl_crowd_follow(const crowd_step *step, uint32_t i, tl_nav_query *query)
     if (take_straight_way(step, i, &slot.at)) {
         a->status[i] = TL_NAV_AGENT_WALKING;
         a->link[i] = TL_NAV_NO_REF;
-        a->flags[i] &= ~(CROWD_PARTIAL | CROWD_GAVE_UP | CROWD_NEED_PATH);
+        a->flags[i] &= ~(CROWD_PARTIAL | CROWD_GAVE_UP | CROWD_NEED_PATH | CROWD_ASK_LATER);
         a->member_flags[m] &= ~CROWD_TO_TRAIL;
         tl_crowd_walk_beside(step, i, slot.at.point, slot.velocity);
         return;

@@ -96,7 +96,7 @@ void tl_crowd_begin_path(tl_nav_crowd *crowd, uint32_t i, const tl_nav_corridor 
 {
     crowd_fields *a = &crowd->a;
     tl_crowd_keep_corridor(crowd, i, corridor);
-    a->flags[i] &= ~(CROWD_PARTIAL | CROWD_GAVE_UP | CROWD_NEED_PATH);
+    a->flags[i] &= ~(CROWD_PARTIAL | CROWD_GAVE_UP | CROWD_NEED_PATH | CROWD_ASK_LATER);
     a->flags[i] |= is_partial ? CROWD_PARTIAL : gave_up ? CROWD_GAVE_UP : 0;
     a->status[i] = TL_NAV_AGENT_WALKING;
     a->link[i] = TL_NAV_NO_REF;
@@ -109,7 +109,7 @@ void tl_crowd_search_path(const crowd_step *step, uint32_t i, tl_nav_query *quer
     crowd_fields *a = &crowd->a;
     const tl_nav_filter *filter = &crowd->filters[a->filter[i]];
     tl_nav_location goal = { a->goal_polygon[i], tl_crowd_get3(a->goal, i) };
-    a->flags[i] &= ~(CROWD_PARTIAL | CROWD_GAVE_UP | CROWD_NEED_PATH);
+    a->flags[i] &= ~(CROWD_PARTIAL | CROWD_GAVE_UP | CROWD_NEED_PATH | CROWD_ASK_LATER);
     if (tl_navmesh_resolve(step->navmesh, goal.polygon, NULL, NULL) != TL_OK &&
         tl_navmesh_find_nearest(step->navmesh, filter, goal.point, relocate_extents(crowd, i), &goal) != TL_OK) {
         // There is no goal now: it stands until there is.
@@ -156,6 +156,25 @@ static void cut_corridor(const crowd_step *step, uint32_t i, uint32_t left)
     }
 }
 
+// Whether no path led to the goal before an edit, and none does now: there is no goal, or it is on another island.
+static bool is_still_shut_off(const crowd_step *step, uint32_t i)
+{
+    const tl_nav_crowd *crowd = step->crowd;
+    const crowd_fields *a = &crowd->a;
+    tl_nav_location goal = { a->goal_polygon[i], tl_crowd_get3(a->goal, i) };
+    if ((a->flags[i] & CROWD_PARTIAL) == 0) {
+        return false;
+    }
+    if (tl_navmesh_resolve(step->navmesh, goal.polygon, NULL, NULL) != TL_OK &&
+        tl_navmesh_find_nearest(step->navmesh, &crowd->filters[a->filter[i]], goal.point, relocate_extents(crowd, i),
+                                &goal) != TL_OK) {
+        return true;
+    }
+    uint32_t from = 0, to = 0;
+    return tl_navmesh_island(step->navmesh, a->path[(size_t)i * crowd->def.max_path], &from) == TL_OK &&
+           tl_navmesh_island(step->navmesh, goal.polygon, &to) == TL_OK && from != to;
+}
+
 void tl_crowd_revalidate(const crowd_step *step, uint32_t i)
 {
     tl_nav_crowd *crowd = step->crowd;
@@ -195,12 +214,14 @@ void tl_crowd_revalidate(const crowd_step *step, uint32_t i)
     if ((a->flags[i] & CROWD_HAS_GOAL) == 0) {
         return;
     }
-    // Whoever has arrived stays; whoever could not get to its goal, or not whole, tries again.
+    // Whoever has arrived stays; whoever could not get to its goal, or not whole, tries again. Who is shut off as
+    // before may get nearer at most, and takes its time: else each edit would fill the queue with those.
     tl_nav_corridor corridor = tl_crowd_corridor(crowd, i);
     const uint32_t left = tl_nav_corridor_check(&corridor, step->navmesh, filter, UINT32_MAX);
     const bool is_broken = left < corridor.count;
-    if (status != TL_NAV_AGENT_ARRIVED && (is_broken || (a->flags[i] & (CROWD_PARTIAL | CROWD_GAVE_UP)) != 0)) {
-        a->flags[i] |= CROWD_NEED_PATH;
+    const bool is_short = (a->flags[i] & (CROWD_PARTIAL | CROWD_GAVE_UP)) != 0;
+    if (status != TL_NAV_AGENT_ARRIVED && (is_broken || is_short)) {
+        a->flags[i] |= !is_broken && is_still_shut_off(step, i) ? CROWD_ASK_LATER : CROWD_NEED_PATH;
     }
     if (status == TL_NAV_AGENT_WALKING && is_broken && left > 0) {
         cut_corridor(step, i, left);

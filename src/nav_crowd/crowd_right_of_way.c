@@ -51,8 +51,7 @@
 #define GOLDEN_COSINE (-0.7373688780783197)
 #define GOLDEN_SINE   0.6754902942615238
 
-// The direction that has the right of way now: the golden angle, again and again.
-static void preferred_direction(uint64_t milliseconds, float out[2])
+void tl_crowd_preferred_direction(uint64_t milliseconds, float out[2])
 {
     // Powers of a rotation, without a sine: squared and multiplied.
     double x = 1.0, z = 0.0;
@@ -92,10 +91,10 @@ static bool comes_against(const crowd_snapshot *seen, uint32_t other, const floa
     } else if (wanted[0] * wanted[0] + wanted[1] * wanted[1] < STANDING_SPEED * STANDING_SPEED) {
         return false;
     }
-    const float length = sqrtf(its[0] * its[0] + its[1] * its[1]);
-    if (!(length > 0.0f)) {
-        return false;
+    if (!(its[0] * travel[0] + its[1] * travel[1] < 0.0f)) {
+        return false; // most go elsewhere: without a root
     }
+    const float length = sqrtf(its[0] * its[0] + its[1] * its[1]);
     its[0] /= length;
     its[1] /= length;
     return its[0] * travel[0] + its[1] * travel[1] < AGAINST_COSINE;
@@ -109,14 +108,13 @@ static const crowd_group *led_by(const tl_nav_crowd *crowd, uint32_t i)
 }
 
 // `ahead`: where the agent heads now, `travel`: past its corner; both unit. `now`: as in comes_against.
-static crowd_traffic look_at_traffic(const tl_nav_crowd *crowd, uint32_t k, const float ahead[2], const float travel[2],
+static crowd_traffic look_at_traffic(const crowd_step *step, uint32_t k, const float ahead[2], const float travel[2],
                                      bool now, const crowd_neighbor *neighbors, uint32_t count)
 {
+    const tl_nav_crowd *crowd = step->crowd;
     const crowd_snapshot *seen = &crowd->seen;
     crowd_traffic traffic = { false, false, false };
     const crowd_group *led = led_by(crowd, seen->agent[k]);
-    float preferred[2];
-    preferred_direction(crowd->head->milliseconds, preferred);
     for (uint32_t n = 0; n < count; n++) {
         const uint32_t other = neighbors[n].snapshot;
         float dx = seen->x[other] - seen->x[k], dz = seen->z[other] - seen->z[k];
@@ -133,9 +131,9 @@ static crowd_traffic look_at_traffic(const tl_nav_crowd *crowd, uint32_t k, cons
             traffic.follows = traffic.follows || (is_before && !is_against && back < 0.0f);
         } else if (is_against) {
             traffic.meets = true;
-            float mine = travel[0] * preferred[0] + travel[1] * preferred[1];
+            float mine = travel[0] * step->preferred[0] + travel[1] * step->preferred[1];
             traffic.loses = traffic.loses || (seen->kind[other] & CROWD_SEEN_STALLED) == 0 ||
-                            its[0] * preferred[0] + its[1] * preferred[1] > mine;
+                            its[0] * step->preferred[0] + its[1] * step->preferred[1] > mine;
         }
     }
     return traffic;
@@ -254,7 +252,7 @@ void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor 
     const float far = sqrtf(travel[0] * travel[0] + travel[1] * travel[1]);
     travel[0] = far > 0.0f && !is_late ? travel[0] / far : ahead[0];
     travel[1] = far > 0.0f && !is_late ? travel[1] / far : ahead[1];
-    const crowd_traffic traffic = look_at_traffic(crowd, k, ahead, travel, is_late, neighbors, count);
+    const crowd_traffic traffic = look_at_traffic(step, k, ahead, travel, is_late, neighbors, count);
     // In the open they pass one another: only where walls leave little room somebody must go back.
     const bool is_narrow = a->wall_count[i] > 0;
     const bool loses = traffic.loses && is_narrow;

@@ -12,6 +12,9 @@
 #include <math.h>
 #include <string.h>
 
+// Who is shut off from its goal asks for a path once in so many steps, if there were edits: in turn.
+enum { ASK_STEPS = 64 };
+
 static void revalidate_block(uint32_t block, uint32_t worker, void *user)
 {
     (void)worker;
@@ -92,6 +95,9 @@ static void finish(const crowd_step *step, tl_nav_crowd_step_report *report)
     tl_nav_crowd *crowd = step->crowd;
     uint32_t counts[CROWD_FREE + 1] = { 0 };
     for (uint32_t i = 0; i < crowd->head->used; i++) {
+        if ((crowd->a.flags[i] & CROWD_ASK_LATER) != 0 && (crowd->head->step + i) % ASK_STEPS == 0) {
+            crowd->a.flags[i] = (crowd->a.flags[i] & ~CROWD_ASK_LATER) | CROWD_NEED_PATH;
+        }
         if ((crowd->a.flags[i] & CROWD_NEED_PATH) != 0 && crowd->a.status[i] != TL_NAV_AGENT_OFF_MESH) {
             tl_crowd_enqueue(crowd, i);
         }
@@ -125,7 +131,8 @@ tl_result tl_nav_crowd_step(tl_nav_crowd *crowd, const tl_navmesh *navmesh, floa
         return TL_ERR_ARGUMENT;
     }
     crowd_head *head = crowd->head;
-    crowd_step step = { crowd, navmesh, dt, 0, 0, 0 };
+    crowd_step step = { crowd, navmesh, dt, 0, 0, 0, { 0.0f, 0.0f } };
+    tl_crowd_preferred_direction(head->milliseconds, step.preferred);
     const uint64_t edits = tl_navmesh_edit_count(navmesh);
     if (head->edits != edits || head->filters_changed != 0) {
         tl_crowd_run_tasks(&step, revalidate_block, tl_block_count(head->used, CROWD_BLOCK));

@@ -265,6 +265,64 @@ static void test_edits(void **state)
     test_blob_free(copy);
 }
 
+// Who is shut off from its goal does not ask for a path after each edit that leaves it so, but once in a while; and at
+// once when a way is there.
+static void test_shut_off(void **state)
+{
+    (void)state;
+    enum { COUNT = 12, STEPS = 256 };
+    static test_level level;
+    memset(&level, 0, sizeof level);
+    audit_floor(&level, -12, -6, -1, 6, 0.0f);
+    audit_floor(&level, 1, -6, 12, 6, 0.0f);
+    tl_navmesh *navmesh = crowd_bake(&level, 30); // tiles of 3 m
+    tl_nav_crowd *crowd = crowd_make(COUNT);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        const float z = -5.0f + 0.9f * (float)i;
+        const tl_nav_location goal = crowd_place(navmesh, 4, 0, z);
+        crowd_send(crowd, navmesh, tl_default_nav_agent_def(), -6, 0, z, &goal);
+    }
+    tl_nav_crowd_step_report report;
+    for (uint32_t step = 0; step < 300; step++) {
+        TEST_RESULT(tl_nav_crowd_step(crowd, navmesh, 0.05f, &report), TL_OK);
+    }
+    TEST_CHECK(report.unreachable == COUNT);
+
+    // A tile in the far corner goes and comes back.
+    const tl_nav_tile *tile = NULL;
+    TEST_RESULT(tl_navmesh_resolve(navmesh, crowd_place(navmesh, -11, 0, -5).polygon, &tile, NULL), TL_OK);
+    const int32_t tile_x = tile->tile_x, tile_z = tile->tile_z;
+    const uint64_t size = tile->blob.size;
+    tl_nav_tile *copy = test_blob_alloc((size_t)size);
+    memcpy(copy, tile, (size_t)size);
+    uint32_t searched = 0;
+    for (uint32_t step = 0; step < STEPS; step++) {
+        if (step % 2 == 0) {
+            TEST_RESULT(tl_navmesh_remove_tile(navmesh, tile_x, tile_z), TL_OK);
+        } else {
+            TEST_RESULT(tl_navmesh_add_tile(navmesh, copy, TL_NAV_TILE_BORROWED), TL_OK);
+        }
+        TEST_RESULT(tl_nav_crowd_step(crowd, navmesh, 0.05f, &report), TL_OK);
+        searched += report.searched;
+    }
+    TEST_CHECK(searched >= COUNT && searched <= COUNT * (STEPS / 64 + 1));
+
+    tl_nav_offmesh jump = tl_default_nav_offmesh();
+    tl_nav_ref link;
+    jump.start = tl_vec3_make(-1.4f, 0.0f, 0.0f);
+    jump.end = tl_vec3_make(1.4f, 0.0f, 0.0f);
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &jump, &link, NULL), TL_OK);
+    TEST_RESULT(tl_nav_crowd_step(crowd, navmesh, 0.05f, &report), TL_OK);
+    TEST_CHECK(report.searched + report.waiting == COUNT);
+    for (uint32_t step = 0; step < 2000 && report.arrived < COUNT; step++) {
+        TEST_RESULT(tl_nav_crowd_step(crowd, navmesh, 0.05f, &report), TL_OK);
+    }
+    TEST_CHECK(report.arrived == COUNT);
+    tl_nav_crowd_destroy(crowd);
+    tl_navmesh_destroy(navmesh);
+    test_blob_free(copy);
+}
+
 // Goals so near to one another that not all can be stood on: those who come later stand beside the others, and all
 // stay arrived, instead of changing places for ever.
 static void test_near_goals(void **state)
@@ -363,6 +421,7 @@ int main(void)
                                         cmocka_unit_test(test_head_on),     cmocka_unit_test(test_floors),
                                         cmocka_unit_test(test_wide),        cmocka_unit_test(test_links),
                                         cmocka_unit_test(test_edits),       cmocka_unit_test(test_near_goals),
-                                        cmocka_unit_test(test_let_out),     cmocka_unit_test(test_fixed) };
+                                        cmocka_unit_test(test_let_out),     cmocka_unit_test(test_shut_off),
+                                        cmocka_unit_test(test_fixed) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -67,7 +67,7 @@ static void test_against_scan(void **state)
             tl_navmesh *unused = (tl_navmesh *)(void *)crowd; // a fixed agent needs none
             TEST_RESULT(tl_nav_crowd_add(crowd, unused, &def, &agent, NULL), TL_OK);
         }
-        const crowd_step step = { crowd, NULL, 0.05f, 0, 0, 0 };
+        const crowd_step step = { crowd, NULL, 0.05f, 0, 0, 0, { 1.0f, 0.0f } };
         tl_crowd_fill_grid(&step);
         TEST_CHECK(crowd->seen.count == count);
         for (uint32_t k = 0; k < count; k++) {
