@@ -21,8 +21,7 @@ enum { COLUMNS_PER_TASK = 16384, OPEN_TASKS_PER_WORKER = 4 };
 
 typedef struct open_worker {
     tl_open_scratch scratch;
-    tl_floors floors;    ///< of one run of rows, where there are several
-    uint64_t span_count; ///< of the rows that it opened
+    tl_floors floors; ///< of one run of rows, where there are several
 } open_worker;
 
 // The floors of one run of rows.
@@ -43,29 +42,15 @@ typedef struct open_job {
     const tl_allocator *allocator;
 } open_job;
 
-// Room for all floors that so many spans may have.
-static tl_result make_floor_room(tl_floors *floors, uint32_t spans, const tl_allocator *allocator)
-{
-    if (floors->floor == NULL || floors->capacity < spans) {
-        tl_floors_release(floors, allocator);
-        TL_TRY(tl_floors_allocate(floors, spans, allocator));
-    }
-    floors->count = 0;
-    return TL_OK;
-}
-
 // The floors of one run of rows. A piece that has to wait for others has as much room as it needs.
-static tl_result open_rows(open_job *job, const tl_span_rows *rows, uint32_t begin, uint32_t end, open_worker *worker,
+static tl_result open_rows(open_job *job, tl_row_source *source, uint32_t begin, uint32_t end, open_worker *worker,
                            tl_floors *piece)
 {
-    const uint32_t width = rows->width;
-    const uint32_t spans = tl_span_rows_at(rows, end - 1)[width] - tl_span_rows_at(rows, begin)[0];
     tl_floors *all = job->task_count == 1 ? piece : &worker->floors;
-    worker->span_count += spans;
+    all->count = 0;
     worker->scratch.allocator = job->allocator;
-    TL_TRY(make_floor_room(all, spans + 1, job->allocator));
-    TL_TRY(tl_open_rows(job->config, rows, begin, end, &worker->scratch, all,
-                        job->compact->first_span + (size_t)begin * width + 1));
+    TL_TRY(tl_open_rows(job->config, source, begin, end, &worker->scratch, all,
+                        job->compact->first_span + (size_t)begin * job->compact->width + 1));
     if (all != piece) {
         TL_TRY(tl_floors_allocate(piece, all->count, job->allocator));
         tl_floors_append(piece, all);
@@ -76,14 +61,16 @@ static tl_result open_rows(open_job *job, const tl_span_rows *rows, uint32_t beg
 static tl_result open_task(uint32_t index, uint32_t worker, void *user)
 {
     open_job *job = user;
-    const uint32_t begin = index * job->rows_per_task, height = job->compact->height;
-    const uint32_t end = height - begin < job->rows_per_task ? height : begin + job->rows_per_task;
-    tl_span_rows band;
-    if (job->rows == NULL) {
-        TL_TRY(tl_rasterizer_run(job->rasterizer, index, worker, &band));
+    const uint32_t begin = index * job->rows_per_task,
+                   end = tl_block_end(index, job->rows_per_task, job->compact->height);
+    tl_row_source source;
+    memset(&source, 0, sizeof source);
+    if (job->rows != NULL) {
+        source.rows = *job->rows;
+    } else {
+        TL_TRY(tl_rasterizer_run(job->rasterizer, index, worker, &source));
     }
-    return open_rows(job, job->rows != NULL ? job->rows : &band, begin, end, &job->workers[worker],
-                     &job->pieces[index].floors);
+    return open_rows(job, &source, begin, end, &job->workers[worker], &job->pieces[index].floors);
 }
 
 static tl_result allocate_job(open_job *job, const tl_host *host)
@@ -171,7 +158,7 @@ static tl_result open_all(open_job *job, const tl_host *host, uint64_t *span_cou
     TL_TRY(tl_run_batches(host, job->rows == NULL ? "rasterize" : "compact", open_task, job->task_count,
                           OPEN_TASKS_PER_WORKER, job));
     for (uint32_t w = 0; w < job->worker_count; w++) {
-        *span_count_out += job->workers[w].span_count;
+        *span_count_out += job->workers[w].scratch.span_count;
     }
     free_workers(job);
     if (job->rasterizer != NULL) {

@@ -23,7 +23,8 @@
 enum {
     BLOCK = 32,         // columns
     STRIDE = BLOCK + 2, // with those beside it
-    ROWS = 3            // the row at hand, and those beside it
+    ROWS = 3,           // the row at hand, and those beside it
+    MIN_FLOORS = 512    // that the first allocation has room for
 };
 
 // Heights of 0 .. 0xffff as signed 16 bits: SSE2 has no minimum of unsigned ones.
@@ -58,7 +59,8 @@ typedef struct tl_gap_block {
 
 typedef struct floor_sweep {
     const tl_nav_config *config;
-    const tl_span_rows *rows;
+    tl_row_source *source;
+    const tl_span_rows *rows; ///< of the source
     int32_t room, climb;
     uint32_t block_count;
     bool low_hanging, low_height;
@@ -84,6 +86,28 @@ void tl_floors_release(tl_floors *floors, const tl_allocator *allocator)
 {
     tl_release_array(allocator, floors->floor, floors->capacity, 2 * sizeof *floors->floor + sizeof *floors->area);
     memset(floors, 0, sizeof *floors);
+}
+
+// Room for `more` floors behind those that are there.
+static tl_result reserve_floors(tl_floors *floors, uint64_t more, const tl_allocator *allocator)
+{
+    const uint64_t needed = floors->count + more, half = (uint64_t)floors->capacity + floors->capacity / 2;
+    uint64_t wanted = needed > half ? needed : half;
+    wanted = wanted > MIN_FLOORS ? wanted : MIN_FLOORS;
+    if (needed <= floors->capacity) {
+        return TL_OK;
+    }
+    if (wanted >= UINT32_MAX) {
+        return TL_ERR_LIMIT;
+    }
+    tl_floors grown;
+    TL_TRY(tl_floors_allocate(&grown, (uint32_t)wanted, allocator));
+    if (floors->count > 0) {
+        tl_floors_append(&grown, floors);
+    }
+    tl_floors_release(floors, allocator);
+    *floors = grown;
+    return TL_OK;
 }
 
 void tl_floors_append(tl_floors *floors, const tl_floors *more)
@@ -249,8 +273,10 @@ static void finish_block(const floor_sweep *s, const tl_open_row *row, const blo
 
 static tl_result list_gaps(floor_sweep *s, uint32_t z)
 {
+    TL_TRY(tl_row_source_seek(s->source, z));
     const uint32_t width = s->rows->width, *first = tl_span_rows_at(s->rows, z);
     tl_open_row *row = &s->scratch->rows[z % ROWS];
+    row->span_count = first[width] - first[0];
     TL_TRY(lay_out_rows(s, first, row));
     for (uint32_t k = 0; k < s->block_count; k++) {
         block *b = &row->blocks[k];
@@ -389,10 +415,12 @@ static void drop_rim(tl_open_row *row, uint32_t begin, uint32_t end)
     }
 }
 
-static void append_row(floor_sweep *s, uint32_t z)
+static tl_result append_row(floor_sweep *s, uint32_t z)
 {
     const uint32_t width = s->rows->width;
     tl_open_row *row = &s->scratch->rows[z % ROWS];
+    s->scratch->span_count += row->span_count;
+    TL_TRY(reserve_floors(s->floors, (uint64_t)row->span_count + 1, s->scratch->allocator));
     if (s->config->filter_ledge_spans) {
         const bool end_row = z == 0 || z + 1 == s->rows->field_height;
         drop_rim(row, 0, end_row ? width : 1);
@@ -407,18 +435,20 @@ static void append_row(floor_sweep *s, uint32_t z)
         append_block(s->floors, b, row->layers + b->first_layer, columns, s->ends);
         s->ends += columns;
     }
+    return TL_OK;
 }
 
-tl_result tl_open_rows(const tl_nav_config *config, const tl_span_rows *rows, uint32_t begin, uint32_t end,
+tl_result tl_open_rows(const tl_nav_config *config, tl_row_source *source, uint32_t begin, uint32_t end,
                        tl_open_scratch *scratch, tl_floors *floors, uint32_t *ends_out)
 {
     floor_sweep s;
     memset(&s, 0, sizeof s);
     s.config = config;
-    s.rows = rows;
+    s.source = source;
+    s.rows = &source->rows;
     s.room = (int32_t)config->walkable_height;
     s.climb = (int32_t)config->walkable_climb;
-    s.block_count = (rows->width - 1) / BLOCK + 1;
+    s.block_count = (s.rows->width - 1) / BLOCK + 1;
     s.low_hanging = config->filter_low_hanging_obstacles;
     s.low_height = config->filter_walkable_low_height_spans;
     s.scratch = scratch;
@@ -426,15 +456,15 @@ tl_result tl_open_rows(const tl_nav_config *config, const tl_span_rows *rows, ui
     s.ends = ends_out;
     const bool ledges = config->filter_ledge_spans;
     const uint32_t first = ledges && begin > 0 ? begin - 1 : begin;
-    const uint32_t last = ledges && end < rows->field_height ? end : end - 1;
+    const uint32_t last = ledges && end < s.rows->field_height ? end : end - 1;
     for (uint32_t z = first; z <= last; z++) {
         TL_TRY(list_gaps(&s, z));
         if (z > begin) {
-            append_row(&s, z - 1);
+            TL_TRY(append_row(&s, z - 1));
         }
     }
     if (last < end) {
-        append_row(&s, last);
+        TL_TRY(append_row(&s, last));
     }
     return TL_OK;
 }

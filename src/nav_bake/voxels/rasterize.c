@@ -30,8 +30,7 @@ enum {
 struct tl_raster_worker {
     tl_span_buffer buffer;
     double *heights;      ///< [TL_VOXEL_HEIGHTS_PER_CELL * line]
-    uint32_t *first_span; ///< [first_capacity]
-    uint32_t first_capacity;
+    uint32_t *first_span; ///< [width + 1] of a row
 };
 
 static tl_result prepare_worker(const tl_rasterizer *r, tl_raster_worker *worker, uint32_t columns)
@@ -41,19 +40,12 @@ static tl_result prepare_worker(const tl_rasterizer *r, tl_raster_worker *worker
         worker->buffer.walkable_climb = r->config->walkable_climb;
         worker->heights =
             tl_allocate_array(r->allocator, TL_VOXEL_HEIGHTS_PER_CELL * (uint64_t)r->line, sizeof(double));
-        if (worker->heights == NULL) {
+        worker->first_span =
+            tl_allocate_array(r->allocator, (uint64_t)r->config->width + 1, sizeof *worker->first_span);
+        if (worker->heights == NULL || worker->first_span == NULL) {
             return TL_ERR_MEMORY;
         }
         tl_voxel_heights_init(worker->heights, r->line);
-    }
-    if (worker->first_capacity < columns + 1) {
-        tl_release_array(r->allocator, worker->first_span, worker->first_capacity, sizeof *worker->first_span);
-        worker->first_capacity = 0;
-        worker->first_span = tl_allocate_array(r->allocator, (uint64_t)columns + 1, sizeof *worker->first_span);
-        if (worker->first_span == NULL) {
-            return TL_ERR_MEMORY;
-        }
-        worker->first_capacity = columns + 1;
     }
     return tl_span_buffer_begin(&worker->buffer, columns);
 }
@@ -91,7 +83,7 @@ static tl_result voxelize_list(const tl_rasterizer *r, const tl_voxel_band *band
 }
 
 tl_result tl_rasterizer_run(tl_rasterizer *rasterizer, uint32_t band_index, uint32_t worker_index,
-                            tl_span_rows *rows_out)
+                            tl_row_source *rows_out)
 {
     const tl_rasterizer *r = rasterizer;
     const tl_nav_config *config = r->config;
@@ -108,14 +100,8 @@ tl_result tl_rasterizer_run(tl_rasterizer *rasterizer, uint32_t band_index, uint
     };
     tl_triangle_list list = r->band_count > 1 ? tl_triangle_bins_get(&r->bins, band_index) : r->list;
     TL_TRY(voxelize_list(r, &band, list));
-    const tl_nav_span *spans;
-    TL_TRY(tl_span_buffer_merge(&worker->buffer, worker->first_span, &spans));
-    if (r->band_count == 1) {
-        tl_span_buffer_free_lists(&worker->buffer); // of a small level they are a third of the peak
-        tl_release_array(r->allocator, worker->heights, TL_VOXEL_HEIGHTS_PER_CELL * (uint64_t)r->line, sizeof(double));
-        worker->heights = NULL;
-    }
-    *rows_out = (tl_span_rows){ spans, worker->first_span, config->width, config->height, begin };
+    const tl_span_rows rows = { NULL, NULL, config->width, config->height, begin };
+    *rows_out = (tl_row_source){ rows, &worker->buffer, begin, worker->first_span };
     return TL_OK;
 }
 
@@ -193,7 +179,7 @@ void tl_rasterizer_free(tl_rasterizer *rasterizer)
         tl_raster_worker *worker = &r->workers[w];
         tl_span_buffer_free(&worker->buffer);
         tl_release_array(r->allocator, worker->heights, TL_VOXEL_HEIGHTS_PER_CELL * (uint64_t)r->line, sizeof(double));
-        tl_release_array(r->allocator, worker->first_span, worker->first_capacity, sizeof *worker->first_span);
+        tl_release_array(r->allocator, worker->first_span, (uint64_t)r->config->width + 1, sizeof *worker->first_span);
     }
     tl_release_array(r->allocator, r->workers, r->worker_count, sizeof *r->workers);
     tl_triangle_bins_free(&r->bins);
@@ -213,24 +199,38 @@ typedef struct field_job {
     band_spans *bands; ///< [band_count]
 } field_job;
 
-static tl_result rasterize_band(uint32_t index, uint32_t worker, void *user)
+// The spans of all of the buffer's columns; `first_span` has room for one more than these.
+static tl_result keep_band(tl_span_buffer *buffer, uint32_t *first_span, const tl_allocator *allocator,
+                           band_spans *band)
 {
-    field_job *job = user;
-    tl_span_rows rows;
-    TL_TRY(tl_rasterizer_run(&job->rasterizer, index, worker, &rows));
-    const uint32_t left = rows.field_height - rows.first_row;
-    const uint32_t height = left < job->rasterizer.rows_per_band ? left : job->rasterizer.rows_per_band;
-    const uint32_t columns = rows.width * height;
-    band_spans *band = &job->bands[index];
-    band->count = rows.first_span[columns];
-    band->spans = tl_allocate_array(&job->field->allocator, band->count, sizeof *band->spans);
+    const tl_nav_span *spans;
+    TL_TRY(tl_span_buffer_merge(buffer, first_span, &spans));
+    band->count = first_span[buffer->column_count];
+    band->spans = tl_allocate_array(allocator, band->count, sizeof *band->spans);
     if (band->spans == NULL) {
         return TL_ERR_MEMORY;
     }
-    memcpy(band->spans, rows.spans, band->count * sizeof *band->spans);
-    memcpy(job->field->first_span + (size_t)rows.first_row * rows.width, rows.first_span,
-           columns * sizeof *rows.first_span);
+    memcpy(band->spans, spans, band->count * sizeof *band->spans);
     return TL_OK;
+}
+
+static tl_result rasterize_band(uint32_t index, uint32_t worker, void *user)
+{
+    field_job *job = user;
+    tl_nav_heightfield *field = job->field;
+    tl_row_source rows; // of the band alone: there is no margin
+    TL_TRY(tl_rasterizer_run(&job->rasterizer, index, worker, &rows));
+    const uint32_t columns = rows.buffer->column_count;
+    uint32_t *first_span = tl_allocate_array(&field->allocator, (uint64_t)columns + 1, sizeof *first_span);
+    if (first_span == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    const tl_result result = keep_band(rows.buffer, first_span, &field->allocator, &job->bands[index]);
+    if (result == TL_OK) {
+        memcpy(field->first_span + (size_t)rows.first_row * field->width, first_span, columns * sizeof *first_span);
+    }
+    tl_release_array(&field->allocator, first_span, (uint64_t)columns + 1, sizeof *first_span);
+    return result;
 }
 
 // One array of all spans, in the order of the bands; positions within a band become positions in the field.

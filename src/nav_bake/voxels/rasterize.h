@@ -6,7 +6,7 @@
 #define TALUS_SRC_NAV_BAKE_RASTERIZE_H
 
 #include "nav_bake/input/triangle_bins.h"
-#include "nav_bake/voxels/span_rows.h"
+#include "nav_bake/voxels/row_source.h"
 
 typedef struct tl_raster_worker tl_raster_worker;
 
@@ -32,8 +32,8 @@ tl_result tl_rasterizer_init(tl_rasterizer *rasterizer, const tl_nav_config *con
                              const uint8_t *areas, tl_triangle_list list, uint32_t margin, const tl_host *host);
 void tl_rasterizer_free(tl_rasterizer *rasterizer);
 
-/// Rasterizes a band. Its rows lie in the worker's memory, to be read and changed until the worker's next band.
-tl_result tl_rasterizer_run(tl_rasterizer *rasterizer, uint32_t band, uint32_t worker, tl_span_rows *rows_out);
+/// Rasterizes a band, whose rows are then to be asked for until the worker's next band.
+tl_result tl_rasterizer_run(tl_rasterizer *rasterizer, uint32_t band, uint32_t worker, tl_row_source *rows_out);
 
 tl_result tl_nav_rasterize_list(const tl_nav_config *config, const tl_mesh_view *mesh, const uint8_t *areas,
                                 tl_triangle_list list, const tl_host *host, tl_nav_heightfield *heightfield_out,

@@ -27,27 +27,19 @@
 enum {
     MIN_NODES = 256,
     MIN_LATE = 64,
+    MIN_SPANS = 64,
     MAX_NODES = 1 << 24, // links have so many bits
     INSERTION_SORT_MAX = 24,
     AREAS = 256
 };
 
-void tl_span_buffer_free_lists(tl_span_buffer *buffer)
+void tl_span_buffer_free(tl_span_buffer *buffer)
 {
     const tl_allocator *allocator = buffer->allocator;
     tl_release_array(allocator, buffer->lowest, buffer->lowest_capacity, sizeof *buffer->lowest);
     tl_release_array(allocator, buffer->nodes, buffer->node_capacity, sizeof *buffer->nodes);
     tl_release_array(allocator, buffer->late, buffer->late_capacity, sizeof *buffer->late);
     tl_release_array(allocator, buffer->column, buffer->column_capacity, sizeof *buffer->column);
-    buffer->lowest = buffer->nodes = buffer->late = buffer->column = NULL;
-    buffer->lowest_capacity = buffer->node_capacity = 0;
-    buffer->late_capacity = buffer->column_capacity = 0;
-}
-
-void tl_span_buffer_free(tl_span_buffer *buffer)
-{
-    const tl_allocator *allocator = buffer->allocator;
-    tl_span_buffer_free_lists(buffer);
     tl_release_array(allocator, buffer->spans, buffer->span_capacity, sizeof *buffer->spans);
     memset(buffer, 0, sizeof *buffer);
 }
@@ -302,11 +294,15 @@ tl_result tl_span_buffer_make_room(tl_span_buffer *buffer, uint32_t count)
     return buffer->late_capacity - buffer->late_count >= count ? TL_OK : make_late_room(buffer, count);
 }
 
+#define NO_ROOM UINT32_MAX
+
 // ---- The result --------------------------------------------------------------------------------------------
 
-// A column's list as spans; returns how many.
-static uint32_t list_spans(const tl_span_buffer *buffer, tl_span_node node, tl_nav_span *spans)
+// A column's list as spans, behind `used` others; returns how many, or NO_ROOM where there is none for all of them.
+static inline uint32_t list_spans(const tl_span_buffer *buffer, tl_span_node node, uint32_t used)
 {
+    tl_nav_span *spans = buffer->spans + used;
+    const uint64_t room = buffer->span_capacity - used;
     const uint32_t climb = buffer->walkable_climb;
     uint32_t count = 0;
     if (node == TL_NO_SPANS) {
@@ -323,6 +319,9 @@ static uint32_t list_spans(const tl_span_buffer *buffer, tl_span_node node, tl_n
                 next = tl_span_node_next(node);
                 node = buffer->nodes[next];
             }
+        }
+        if (count == room) {
+            return NO_ROOM;
         }
         spans[count++] = (tl_nav_span){ (uint16_t)min, (uint16_t)max, (uint16_t)area, 0 };
         if (next == 0) {
@@ -391,46 +390,85 @@ static tl_result join_late(tl_span_buffer *buffer, uint32_t column, const tl_spa
     return TL_OK;
 }
 
-static tl_result make_span_room(tl_span_buffer *buffer)
+// Room for `wanted` spans, the first `used` of which stay.
+static tl_result make_span_room(tl_span_buffer *buffer, uint64_t used, uint64_t wanted)
 {
-    const uint64_t most = (uint64_t)buffer->span_count + buffer->late_count;
-    if (buffer->spans != NULL && buffer->span_capacity >= most) {
+    if (buffer->spans != NULL && buffer->span_capacity >= wanted) {
         return TL_OK;
     }
-    tl_release_array(buffer->allocator, buffer->spans, buffer->span_capacity, sizeof *buffer->spans);
-    buffer->span_capacity = 0;
-    buffer->spans = tl_allocate_array(buffer->allocator, most, sizeof *buffer->spans);
-    if (buffer->spans == NULL) {
+    tl_nav_span *grown = tl_allocate_array(buffer->allocator, wanted, sizeof *grown);
+    if (grown == NULL) {
         return TL_ERR_MEMORY;
     }
-    buffer->span_capacity = most;
+    if (used > 0) {
+        memcpy(grown, buffer->spans, used * sizeof *grown);
+    }
+    tl_release_array(buffer->allocator, buffer->spans, buffer->span_capacity, sizeof *grown);
+    buffer->spans = grown;
+    buffer->span_capacity = wanted;
+    return TL_OK;
+}
+
+// A column's list joined with what came late, behind `used` other spans.
+static tl_result append_joined(tl_span_buffer *buffer, uint32_t column, const tl_span_item *late, uint64_t late_count,
+                               uint32_t used, uint32_t *count_out)
+{
+    TL_TRY(make_span_room(buffer, used, used + list_items(buffer, column, NULL) + late_count));
+    return join_late(buffer, column, late, late_count, buffer->spans + used, count_out);
+}
+
+// The first late item of a column or a later one; they are sorted.
+static uint64_t first_late_from(const tl_span_buffer *buffer, uint32_t column)
+{
+    uint64_t low = 0, high = buffer->late_count;
+    while (low < high) {
+        const uint64_t middle = low + (high - low) / 2;
+        if (tl_span_item_column(buffer->late[middle]) < column) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+tl_result tl_span_buffer_merge_columns(tl_span_buffer *buffer, uint32_t begin, uint32_t end, uint32_t *first_span_out,
+                                       const tl_nav_span **spans_out)
+{
+    if (buffer->late_count > buffer->late_sorted) {
+        reduce_late(buffer);
+    }
+    TL_TRY(make_span_room(buffer, 0, end - begin + MIN_SPANS));
+    uint32_t span_count = 0;
+    uint64_t late = first_late_from(buffer, begin);
+    for (uint32_t c = begin; c < end; c++) {
+        uint32_t in_column;
+        uint64_t late_end = late;
+        first_span_out[c - begin] = span_count;
+        while (late_end < buffer->late_count && tl_span_item_column(buffer->late[late_end]) == c) {
+            late_end++;
+        }
+        if (late_end > late) {
+            uint32_t joined = 0;
+            TL_TRY(append_joined(buffer, c, buffer->late + late, late_end - late, span_count, &joined));
+            in_column = joined;
+        } else {
+            in_column = list_spans(buffer, buffer->lowest[c], span_count);
+            for (; in_column == NO_ROOM; in_column = list_spans(buffer, buffer->lowest[c], span_count)) {
+                TL_TRY(make_span_room(buffer, span_count, 2 * buffer->span_capacity + MIN_SPANS));
+            }
+        }
+        span_count += in_column;
+        late = late_end;
+    }
+    first_span_out[end - begin] = span_count;
+    *spans_out = buffer->spans;
     return TL_OK;
 }
 
 tl_result tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *first_span_out, const tl_nav_span **spans_out)
 {
-    if (buffer->late_count > buffer->late_sorted) {
-        reduce_late(buffer);
-    }
-    TL_TRY(make_span_room(buffer));
-    uint32_t span_count = 0;
-    uint64_t late = 0;
-    for (uint32_t c = 0; c < buffer->column_count; c++) {
-        first_span_out[c] = span_count;
-        uint64_t late_end = late;
-        while (late_end < buffer->late_count && tl_span_item_column(buffer->late[late_end]) == c) {
-            late_end++;
-        }
-        uint32_t in_column = 0;
-        if (late_end > late) {
-            TL_TRY(join_late(buffer, c, buffer->late + late, late_end - late, buffer->spans + span_count, &in_column));
-        } else {
-            in_column = list_spans(buffer, buffer->lowest[c], buffer->spans + span_count);
-        }
-        span_count += in_column;
-        late = late_end;
-    }
-    first_span_out[buffer->column_count] = span_count;
-    *spans_out = buffer->spans;
-    return TL_OK;
+    const uint64_t most = (uint64_t)buffer->span_count + buffer->late_count;
+    TL_TRY(make_span_room(buffer, 0, most > 0 ? most : 1));
+    return tl_span_buffer_merge_columns(buffer, 0, buffer->column_count, first_span_out, spans_out);
 }

@@ -95,8 +95,6 @@ typedef struct tl_span_buffer {
 /// Empties the buffer for a band of column_count columns, 1 to TL_SPAN_ITEM_MAX_COLUMNS.
 tl_result tl_span_buffer_begin(tl_span_buffer *buffer, uint32_t column_count);
 void tl_span_buffer_free(tl_span_buffer *buffer);
-/// Frees all but the result, after the last merge.
-void tl_span_buffer_free_lists(tl_span_buffer *buffer);
 
 /// What tl_span_buffer_reserve does when there is no room.
 tl_result tl_span_buffer_make_room(tl_span_buffer *buffer, uint32_t count);
@@ -176,5 +174,10 @@ static inline void tl_span_buffer_add(tl_span_buffer *buffer, uint32_t column, u
 /// The canonical union of all items: those of column c begin at first_span_out[c] and end at first_span_out[c + 1]. The
 /// spans lie in the buffer and hold until its next use.
 tl_result tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *first_span_out, const tl_nav_span **spans_out);
+
+/// The same of the columns [begin, end) alone: the spans of column begin + k begin at first_span_out[k]. It may be
+/// asked of any columns, again and again, but nothing more is added then.
+tl_result tl_span_buffer_merge_columns(tl_span_buffer *buffer, uint32_t begin, uint32_t end, uint32_t *first_span_out,
+                                       const tl_nav_span **spans_out);
 
 #endif
