@@ -17,7 +17,7 @@
 #include <malloc.h>
 #endif
 
-enum { MIN_BLOCK_BYTES = 16 * 1024, LIVE_SHARE = 8, ARENA_ALIGNMENT = 64 };
+enum { MIN_BLOCK_BYTES = 4 * 1024, LIVE_SHARE = 8, ARENA_ALIGNMENT = 64 };
 
 struct tl_arena_block {
     tl_arena_block *older;
