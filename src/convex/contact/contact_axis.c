@@ -7,7 +7,7 @@
 // along the old normal bounds it from above. When both meet within the slack, no other normal is shallower by more: two
 // support queries instead of a search. Motion is counted from the proof, not from the last call, so it does not add up
 // unseen. The normal is tried as A carries it, and as B does, since either may own the face. What has moved by more
-// than the slack is left to the polytope that was kept (polytope_keep.c), where there is one.
+// than the slack is left to the polytope that was kept (polytope_keep.c), where there is one, and to the axes of boxes.
 
 #include "convex/contact/contact_axis.h"
 
@@ -76,8 +76,10 @@ bool tl_axis_holds(tl_minkowski *pair, const tl_contact_cache *cache, double sla
         return false;
     }
     const double motion = motion_since(pair, cache, middle, reach), least = (double)cache->proven_depth - motion;
-    if (!(least > 0.0) || (motion > slack && cache->polytope.point_count > 0)) {
-        return false; // a polytope proves more
+    // Once the pair has moved, a polytope or the axes of boxes take less than a trial, which would be mostly in vain.
+    const bool shorter_way = cache->polytope.point_count > 0 || cache->has_axis == TL_AXIS_OF_BOXES;
+    if (!(least > 0.0) || (motion > slack && shorter_way)) {
+        return false;
     }
     // As A carries it, and as B does.
     const tl_vec3d normals[2] = { unit(cache->axis_a), tl_frame_rotate(&pair->b_to_a, unit(cache->axis_b)) };

@@ -30,6 +30,8 @@ bool tl_box_of(const tl_convex *shape, tl_box *box_out);
 void tl_box_depth(tl_minkowski *pair, const tl_box *a, const tl_box *b, tl_deepest *deepest_out);
 
 // contact_axis.c
+// A cache's has_axis where tl_box_depth found the normal.
+#define TL_AXIS_OF_BOXES 2u
 // Whether the last normal is, to `slack` metres, still the one of least depth.
 bool tl_axis_holds(tl_minkowski *pair, const tl_contact_cache *cache, double slack, tl_deepest *deepest_out);
 void tl_axis_store(const tl_minkowski *pair, const tl_deepest *deepest, tl_contact_cache *cache);

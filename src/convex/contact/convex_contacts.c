@@ -292,6 +292,9 @@ static void find_manifold(contact_search *s)
         if (near_enough) {
             tl_axis_store(&s->pair, &deepest, s->cache);
         }
+        if (done && s->cache->has_axis != 0) {
+            s->cache->has_axis = TL_AXIS_OF_BOXES;
+        }
     }
 }
 
