@@ -98,7 +98,7 @@ static tl_exit run_decompose(tl_cli *cli)
         { "max-vertices", 0, TL_OPTION_COUNT, &def.max_vertices, "N", "most vertices of a part, from 4; 0: no limit",
           NULL, 0, 0, 0, 0 },
         { "thickness", 0, TL_OPTION_FLOAT, &def.thickness, "M",
-          "metres, of flat parts; 0: a sixteenth of the tolerance", NULL, 0, 1e6f, 0, 0 },
+          "metres, of flat parts, at most the tolerance; 0: a sixteenth of it", NULL, 0, 1e6f, 0, 0 },
         { "surface", 0, TL_OPTION_FLAG, &surface, NULL, "what the mesh encloses is open, not solid", NULL, 0, 0, 0, 0 },
         { "max-cells", 0, TL_OPTION_COUNT, &def.max_cells, "N", "most cells of the grid that guides the cuts", NULL, 0,
           0, 4096, 67108864 },

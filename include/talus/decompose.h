@@ -41,7 +41,8 @@ typedef struct tl_decompose_def {
     float relative_tolerance; ///< (0, 1]: of the longest side of the mesh's box. Read where `tolerance` is 0
     uint32_t max_parts;       ///< 0: no limit; else parts are merged beyond the tolerance until there are no more
     uint32_t max_vertices;    ///< of a part's hull: 0: no limit; else >= 4. The mesh may then reach out of the hulls
-    float thickness;          ///< metres, >= 0, of the hull of a flat part. 0: a sixteenth of the tolerance
+    /// Metres, >= 0 and at most the tolerance, of the hull of a flat part. 0: a sixteenth of the tolerance.
+    float thickness;
     tl_solid_rule solid;
     /// 4,096 to 67,108,864: cells of the grid that guides the cuts, 8 bytes each. Fewer than the tolerance asks for
     /// (half of it is a cell's side) cost more parts, and more time for the proof, but no truth.
@@ -54,7 +55,7 @@ typedef struct tl_decompose_def {
 typedef struct tl_convex_part {
     tl_hull *hull;
     /// Metres: no point of the hull is farther from the body. A proven bound, no more than the tolerance but where
-    /// `max_parts` or `thickness` asked for it; some tenths of the tolerance may be the proof's own.
+    /// `max_parts` asked for it; some tenths of the tolerance may be the proof's own.
     double concavity;
     /// Metres: no point of the mesh that this part covers is farther outside of its hull.
     double max_outside;

@@ -91,7 +91,10 @@ static tl_result choose_tolerance(tl_decomposer *d, const tl_soup *soup)
     d->tolerance = (double)tolerance;
     d->thickness = d->def->thickness > 0.0f ? d->def->thickness : tolerance / (float)THICKNESS_SHARE;
     d->report->tolerance = tolerance;
-    return TL_OK;
+    // Flat parts thicker than the tolerance would be cut again and again, and never keep it.
+    return d->thickness <= tolerance
+               ? TL_OK
+               : tl_report_field(&d->report->base, TL_ERR_ARGUMENT, "thickness", "make it at most the tolerance");
 }
 
 // The whole mesh, in the pieces that hang together, where they are few.

@@ -280,6 +280,10 @@ static void what_cannot_be_done_is_named(void **state)
     tl_decomposition d;
     TEST_RESULT(tl_decomposition_bake(&view, &def, &d, &report), TL_ERR_RANGE);
     assert_string_equal(report.base.field, "tolerance");
+    def.tolerance = 10.0f;
+    def.thickness = 10.5f;
+    TEST_RESULT(tl_decomposition_bake(&view, &def, &d, &report), TL_ERR_ARGUMENT);
+    assert_string_equal(report.base.field, "thickness");
     view.triangle_count = 0;
     TEST_RESULT(tl_decomposition_bake(&view, &def, &d, &report), TL_ERR_EMPTY);
     view.triangle_count = 1;
