@@ -93,6 +93,24 @@ PyObject *binding_end_items(binding_items *items, bool answered)
     return answered ? Py_NewRef(Py_None) : NULL;
 }
 
+bool binding_mesh_view(const Py_buffer *vertices, const Py_buffer *indices, const Py_buffer *materials,
+                       tl_mesh_view *view)
+{
+    Py_ssize_t vertex_count = binding_count(vertices, sizeof(tl_vec3), "vertices");
+    Py_ssize_t triangle_count = binding_count(indices, 3 * sizeof(uint32_t), "faces");
+    if (vertex_count < 0 || triangle_count < 0 ||
+        !binding_has(materials, sizeof(uint16_t), triangle_count, true, "materials")) {
+        return false;
+    }
+    if (vertex_count > TL_MAX_MESH_VERTICES || triangle_count > TL_MAX_MESH_TRIANGLES) {
+        PyErr_SetString(PyExc_ValueError, "the mesh has more vertices or triangles than a talus mesh may have");
+        return false;
+    }
+    *view =
+        (tl_mesh_view){ vertices->buf, (uint32_t)vertex_count, indices->buf, (uint32_t)triangle_count, materials->buf };
+    return true;
+}
+
 static void free_blob_capsule(PyObject *capsule)
 {
     binding_blob *held = PyCapsule_GetPointer(capsule, PyCapsule_GetName(capsule));

@@ -32,6 +32,10 @@ Py_ssize_t binding_count(const Py_buffer *buffer, size_t size, const char *name)
 /// `optional`.
 bool binding_has(const Py_buffer *buffer, size_t size, Py_ssize_t count, bool optional, const char *name);
 
+/// A view of a mesh's buffers; those of `materials` may be absent. False: a ValueError is set.
+bool binding_mesh_view(const Py_buffer *vertices, const Py_buffer *indices, const Py_buffer *materials,
+                       tl_mesh_view *view);
+
 /// Releases what PyArg_ParseTuple filled; buffers that it did not reach are zero.
 void binding_release(Py_buffer *buffers, size_t count);
 
@@ -185,6 +189,7 @@ bool binding_filter(PyObject *object, tl_nav_filter *filter);
 extern PyMethodDef binding_soup_methods[];
 extern PyMethodDef binding_ray_methods[];
 extern PyMethodDef binding_hull_methods[];
+extern PyMethodDef binding_decompose_methods[];
 extern PyMethodDef binding_convex_methods[];
 extern PyMethodDef binding_bake_methods[];
 extern PyMethodDef binding_navmesh_methods[];

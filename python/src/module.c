@@ -17,7 +17,7 @@ static int fill_module(PyObject *module)
         binding_navmesh_methods, binding_edit_methods,        binding_path_methods,
         binding_audit_methods,   binding_pack_methods,        binding_crowd_methods,
         binding_group_methods,   binding_character_methods,   binding_versions_methods,
-        binding_world_methods,   binding_world_query_methods,
+        binding_world_methods,   binding_world_query_methods, binding_decompose_methods,
     };
     for (size_t i = 0; i < sizeof(tables) / sizeof(tables[0]); i++) {
         if (PyModule_AddFunctions(module, tables[i]) != 0) {

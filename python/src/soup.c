@@ -14,23 +14,6 @@ static const tl_soup *soup_of(PyObject *capsule)
     return binding_blob_of(capsule, BINDING_SOUP);
 }
 
-static bool view_of(const Py_buffer *vertices, const Py_buffer *indices, const Py_buffer *materials, tl_mesh_view *view)
-{
-    Py_ssize_t vertex_count = binding_count(vertices, sizeof(tl_vec3), "vertices");
-    Py_ssize_t triangle_count = binding_count(indices, 3 * sizeof(uint32_t), "faces");
-    if (vertex_count < 0 || triangle_count < 0 ||
-        !binding_has(materials, sizeof(uint16_t), triangle_count, true, "materials")) {
-        return false;
-    }
-    if (vertex_count > TL_MAX_MESH_VERTICES || triangle_count > TL_MAX_MESH_TRIANGLES) {
-        PyErr_SetString(PyExc_ValueError, "the mesh has more vertices or triangles than a talus mesh may have");
-        return false;
-    }
-    *view =
-        (tl_mesh_view){ vertices->buf, (uint32_t)vertex_count, indices->buf, (uint32_t)triangle_count, materials->buf };
-    return true;
-}
-
 // soup_bake(vertices, indices, materials, layout, split_budget, pair, threads, progress) -> (capsule, degenerate)
 static PyObject *soup_bake(PyObject *self, PyObject *args)
 {
@@ -50,7 +33,7 @@ static PyObject *soup_bake(PyObject *self, PyObject *args)
     tl_soup *soup = NULL;
     tl_soup_report report;
     tl_result result = TL_ERR_ARGUMENT;
-    if (view_of(&buffers[0], &buffers[1], &buffers[2], &view)) {
+    if (binding_mesh_view(&buffers[0], &buffers[1], &buffers[2], &view)) {
         binding_host host;
         def.layout = (tl_soup_layout)layout;
         def.pair_triangles = pair != 0;
@@ -83,7 +66,7 @@ static PyObject *soup_refit(PyObject *self, PyObject *args)
     tl_soup *soup = binding_blob_of(capsule, BINDING_SOUP);
     tl_mesh_view view;
     tl_result result = TL_ERR_ARGUMENT;
-    if (soup != NULL && view_of(&buffers[0], &buffers[1], &buffers[2], &view)) {
+    if (soup != NULL && binding_mesh_view(&buffers[0], &buffers[1], &buffers[2], &view)) {
         tl_report report;
         result = tl_soup_refit(soup, &view, &report);
         if (result != TL_OK) {

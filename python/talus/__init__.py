@@ -12,6 +12,7 @@ Takes a level's loose triangles as numpy arrays, in metres with y up.
 from . import _talus
 from .characters import CHARACTER, CHARACTER_HIT, Characters, Moves
 from .crowd import AgentStates, Crowd, CrowdReport, GroupState
+from .decomposition import Decomposition, decompose
 from .errors import Error
 from .hull import Hull
 from .level import Level, load
@@ -82,6 +83,7 @@ __all__ = [
     "Crowd",
     "CrowdReport",
     "Cylinder",
+    "Decomposition",
     "Error",
     "Filter",
     "Finding",
@@ -130,6 +132,7 @@ __all__ = [
     "contacts",
     "convex",
     "cylinder",
+    "decompose",
     "default_settings",
     "distance",
     "load",
