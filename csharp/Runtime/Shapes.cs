@@ -81,6 +81,57 @@ namespace Talus
             }
         }
 
+        /// <summary>A copy of the corners, in the order of the points that they are.</summary>
+        public Vec3[] Vertices()
+        {
+            using (Lease held = Blob.Hold())
+            {
+                var hull = (tl_hull*)held.At;
+                var vertices = new Vec3[hull->vertex_count];
+                for (int i = 0; i < vertices.Length; i++)
+                {
+                    vertices[i] = VerticesOf(hull)[i];
+                }
+                return vertices;
+            }
+        }
+
+        /// <summary>The faces as fans of triangles, three indices each, counter-clockwise seen from outside: for drawing, or a
+        /// MeshCollider.</summary>
+        public int[] Triangles()
+        {
+            using (Lease held = Blob.Hold())
+            {
+                var hull = (tl_hull*)held.At;
+                uint edges = hull->half_edge_count, faces = hull->face_count;
+                var triangles = new int[3 * (edges - 2 * faces)];
+                int at = 0;
+                for (uint face = 0; face < faces; face++)
+                {
+                    uint first = Word(hull, 3 * edges + face), end = Word(hull, 3 * edges + face + 1);
+                    for (uint k = first + 2; k < end; k++)
+                    {
+                        triangles[at++] = (int)Word(hull, 3 * first);
+                        triangles[at++] = (int)Word(hull, 3 * (k - 1));
+                        triangles[at++] = (int)Word(hull, 3 * k);
+                    }
+                }
+                return triangles;
+            }
+        }
+
+        private static tl_vec3* VerticesOf(tl_hull* hull)
+        {
+            return (tl_vec3*)((byte*)hull + hull->vertices);
+        }
+
+        // Word of the topology behind the vertices, as tl_hull_word in talus/hull.h.
+        private static uint Word(tl_hull* hull, uint at)
+        {
+            void* words = VerticesOf(hull) + hull->vertex_count;
+            return hull->index_bytes == 1 ? ((byte*)words)[at] : hull->index_bytes == 2 ? ((ushort*)words)[at] : ((uint*)words)[at];
+        }
+
         /// <summary>Cubic metres.</summary>
         public double Volume
         {

@@ -6,6 +6,7 @@
 //   tests FOLDER [COMMAND]      FOLDER for files; COMMAND: the talus command, whose files are read then
 
 using System;
+using System.Collections.Generic;
 using System.Linq;
 using System.Diagnostics;
 using System.IO;
@@ -195,6 +196,56 @@ static class Tests
         Test.That(Test.Throws(() => Hull.Bake(cube, new HullSettings { MaxVertices = 3 })).Field == "max_vertices", "three corners");
         TalusException flat = Test.Throws(() => Hull.Bake(new[] { new Vec3(0, 0, 0), new Vec3(1, 0, 0), new Vec3(0, 1, 0), new Vec3(1, 1, 0) }));
         Test.That(flat.Result == tl_result.TL_ERR_COPLANAR, "a plane is no hull");
+    }
+
+    private static void MeshesBecomeConvexParts()
+    {
+        var both = new Vec3[2 * cube.Length];
+        var sides = new int[2 * cubeSides.Length];
+        for (int i = 0; i < cube.Length; i++)
+        {
+            both[i] = cube[i];
+            both[cube.Length + i] = new Vec3(cube[i].X + 6, cube[i].Y, cube[i].Z);
+        }
+        for (int i = 0; i < cubeSides.Length; i++)
+        {
+            sides[i] = cubeSides[i];
+            sides[cubeSides.Length + i] = cubeSides[i] + cube.Length;
+        }
+        var stages = new List<string>();
+        BakeProgress note = (stage, done, total) =>
+        {
+            stages.Add(stage);
+            return true;
+        };
+        using (Decomposition two = Decomposition.Bake(both, sides, null, note))
+        using (Decomposition one = Decomposition.Bake(both, sides, new DecomposeSettings { MaxParts = 1, Threads = 2 }))
+        {
+            Test.Equal(2, two.Parts.Count, "two cubes");
+            Test.That(two.Concavity <= 0.2 && two.MaxOutside < 1e-5 && stages.Contains("proof"), "close to the cubes");
+            foreach (ConvexPart part in two.Parts)
+            {
+                Hull hull = part.Hull;
+                Test.That(Math.Abs(hull.Volume - 8) < 1e-6 && part.Concavity <= two.Concavity, "a cube's volume");
+                Test.That(hull.Vertices().Length == 8 && Math.Abs(VolumeOf(hull) - 8) < 1e-6, "its triangles enclose it");
+            }
+            Test.That(one.Parts.Count == 1 && one.Concavity > 1 && one.Parts[0].Hull.Contains(new Vec3(3, 0, 0)), "one for both");
+        }
+        TalusException error = Test.Throws(() => Decomposition.Bake(cube, cubeSides, new DecomposeSettings { MaxVertices = 3 }));
+        Test.That(error.Field == "max_vertices", "three corners");
+    }
+
+    private static double VolumeOf(Hull hull)
+    {
+        Vec3[] points = hull.Vertices();
+        int[] corners = hull.Triangles();
+        double sixfold = 0;
+        for (int i = 0; i < corners.Length; i += 3)
+        {
+            Vec3 a = points[corners[i]], b = points[corners[i + 1]], c = points[corners[i + 2]];
+            sixfold += a.X * (b.Y * c.Z - b.Z * c.Y) + a.Y * (b.Z * c.X - b.X * c.Z) + a.Z * (b.X * c.Y - b.Y * c.X);
+        }
+        return sixfold / 6;
     }
 
     private static void PathsLeadAroundTheWall()
@@ -551,7 +602,7 @@ static class Tests
         command = arguments.Length > 1 ? arguments[1] : null;
         Action[] all =
         {
-            StructsAreThoseOfC, EveryFunctionIsThere, RaysHitWhatTheyShould, BatchesAreTheirRays, HullsKeepTheirDistance, PathsLeadAroundTheWall,
+            StructsAreThoseOfC, EveryFunctionIsThere, RaysHitWhatTheyShould, BatchesAreTheirRays, HullsKeepTheirDistance, MeshesBecomeConvexParts, PathsLeadAroundTheWall,
             ThreadsGiveTheSameBytes, FilesHoldAllOfIt, TheCommandsFilesAreRead, ErrorsNameTheCulprit, BakesTellTheirProgress, CharactersWalk,
             CrowdsArriveWithoutLeavingTheFloor, GroupsFollowTheirLeader, NothingIsUsedAfterItsEnd,
         };
