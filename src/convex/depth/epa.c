@@ -217,7 +217,8 @@ static bool grow_kept(tl_minkowski *pair, tl_polytope_cache *cache, tl_core_dept
 
 bool tl_epa_resume(tl_minkowski *pair, tl_polytope_cache *cache, tl_core_depth *depth)
 {
-    if (cache->point_count < 4 || cache->point_count > TL_KEPT_POINTS || cache->face_count > TL_KEPT_FACES) {
+    if (cache->point_count < 4 || cache->point_count > TL_KEPT_POINTS || cache->face_count < 4 ||
+        cache->face_count > TL_KEPT_FACES) {
         return false;
     }
     return tl_polytope_holds(pair, cache, depth) || grow_kept(pair, cache, depth);

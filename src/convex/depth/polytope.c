@@ -175,7 +175,9 @@ bool tl_polytope_add(tl_polytope *p, uint32_t face, const tl_minkowski_point *po
     }
     const double error = TL_POLYTOPE_ERROR * scale;
     find_visible(p, face, point->w, error * error, &v);
-    if (!is_loop(p, &v)) {
+    // Euler leaves space enough, but for what a caller's broken cache was resumed from.
+    const uint32_t slots = p->face_count - p->free_count + v.rim_count;
+    if (!is_loop(p, &v) || slots > TL_POLYTOPE_FACES + v.seen_count) {
         for (uint32_t i = 0; i < v.seen_count; i++) {
             p->seen[v.seen[i]] = false;
         }

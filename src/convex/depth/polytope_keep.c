@@ -158,17 +158,30 @@ bool tl_polytope_resume(tl_minkowski *pair, const tl_polytope_cache *cache, tl_p
     return true;
 }
 
+// Half-edges are 4 f + 0, 1 and 2.
+static uint32_t kept_edge_after(uint32_t edge)
+{
+    return (edge & 3u) == 2 ? edge + 2 : edge + 1;
+}
+
+static uint8_t end_of(const tl_polytope *p, uint32_t edge)
+{
+    return p->origins[(edge & 3u) == 2 ? edge - 2 : edge + 1];
+}
+
 bool tl_polytope_link(tl_polytope *p)
 {
     uint8_t edges[TL_KEPT_POINTS][TL_KEPT_POINTS];
     memset(edges, NO_EDGE, sizeof edges);
-    for (uint32_t edge = 0; edge < 4 * p->face_count; edge += (edge & 3u) == 2 ? 2 : 1) {
-        const uint32_t next = (edge & 3u) == 2 ? edge - 2 : edge + 1;
-        edges[p->origins[edge]][p->origins[next]] = (uint8_t)edge;
+    for (uint32_t edge = 0; edge < 4 * p->face_count; edge = kept_edge_after(edge)) {
+        uint8_t *at = &edges[p->origins[edge]][end_of(p, edge)];
+        if (*at != NO_EDGE) {
+            return false;
+        }
+        *at = (uint8_t)edge;
     }
-    for (uint32_t edge = 0; edge < 4 * p->face_count; edge += (edge & 3u) == 2 ? 2 : 1) {
-        const uint32_t next = (edge & 3u) == 2 ? edge - 2 : edge + 1;
-        p->twins[edge] = edges[p->origins[next]][p->origins[edge]];
+    for (uint32_t edge = 0; edge < 4 * p->face_count; edge = kept_edge_after(edge)) {
+        p->twins[edge] = edges[end_of(p, edge)][p->origins[edge]];
         if (p->twins[edge] == NO_EDGE) {
             return false;
         }
