@@ -2327,6 +2327,7 @@ namespace Talus.Interop
         public tl_nav_prepared_kind kind;
         public uint corner_vertex_count;
         public uint edge_count;
+        public uint renewed_count;
         public ulong bytes;
         public ulong table_bytes;
     }

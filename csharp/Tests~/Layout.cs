@@ -1269,6 +1269,7 @@ static unsafe class Layout
         Test.Equal(48, (byte*)&((tl_nav_prepared*)at)->kind - at, "tl_nav_prepared.kind");
         Test.Equal(52, (byte*)&((tl_nav_prepared*)at)->corner_vertex_count - at, "tl_nav_prepared.corner_vertex_count");
         Test.Equal(56, (byte*)&((tl_nav_prepared*)at)->edge_count - at, "tl_nav_prepared.edge_count");
+        Test.Equal(60, (byte*)&((tl_nav_prepared*)at)->renewed_count - at, "tl_nav_prepared.renewed_count");
         Test.Equal(64, (byte*)&((tl_nav_prepared*)at)->bytes - at, "tl_nav_prepared.bytes");
         Test.Equal(72, (byte*)&((tl_nav_prepared*)at)->table_bytes - at, "tl_nav_prepared.table_bytes");
         Test.Equal(24, sizeof(tl_pack_item), "tl_pack_item");

@@ -285,6 +285,88 @@ static void test_links(void **state)
     tl_navmesh_destroy(navmesh);
 }
 
+// Opens or closes a random cell of the level, and puts its tile into both.
+static void change_tile(fixture_level *level, tl_navmesh *const both[2], test_random *random)
+{
+    const uint32_t x = test_random_below(random, level->width), z = test_random_below(random, level->height);
+    const int32_t tile_x = (int32_t)(x / level->tile_cells), tile_z = (int32_t)(z / level->tile_cells);
+    level->cells[z][x] = level->cells[z][x] == '#' ? '0' : '#';
+    for (int i = 0; i < 2; i++) {
+        tl_nav_tile *tile = fixture_build_tile(level, tile_x, tile_z, NULL);
+        TEST_CHECK(!tl_is_error(tl_navmesh_remove_tile(both[i], tile_x, tile_z)));
+        if (tile != NULL) {
+            TEST_RESULT(tl_navmesh_add_tile(both[i], tile, TL_NAV_TILE_OWNED), TL_OK);
+        }
+    }
+}
+
+// A graph that is mended after edits has the vertices and edges of one that is baked at once.
+static void test_mended(void **state)
+{
+    (void)state;
+    test_random random = { 11 };
+    const tl_nav_prepare_def def = { 0, NULL, TL_DEF_COOKIE };
+    uint32_t turning = 0, mended = 0, renewed = 0, vertices = 0;
+    for (uint32_t round = 0; round < 12; round++) {
+        fixture_level level = fixture_random(&random, round % 4, 20);
+        level.tile_cells = 4;
+        tl_navmesh *const both[2] = { fixture_build(&level, NULL), fixture_build(&level, NULL) };
+        tl_nav_prepared made, anew;
+        TEST_RESULT(tl_navmesh_prepare(both[0], &def, &made), TL_OK);
+        TEST_CHECK(made.renewed_count == made.corner_vertex_count);
+        for (uint32_t edit = 0; edit < 60; edit++) {
+            for (uint32_t i = 0; i < 1 + edit % 3; i++) {
+                change_tile(&level, both, &random);
+            }
+            TEST_RESULT(tl_navmesh_prepare(both[0], &def, &made), TL_OK);
+            turning += compare(both[0], both[1], &random, 6);
+            tl_navmesh *fresh = fixture_build(&level, NULL);
+            TEST_RESULT(tl_navmesh_prepare(fresh, &def, &anew), TL_OK);
+            TEST_CHECK(made.kind == anew.kind && made.corner_vertex_count == anew.corner_vertex_count);
+            TEST_CHECK(made.edge_count == anew.edge_count);
+            tl_navmesh_destroy(fresh);
+            mended += made.renewed_count < made.corner_vertex_count;
+            renewed += made.renewed_count;
+            vertices += made.corner_vertex_count;
+            TEST_RESULT(tl_navmesh_prepare(both[0], &def, &made), TL_OK);
+            TEST_CHECK(made.renewed_count == 0);
+        }
+        tl_navmesh_destroy(both[0]);
+        tl_navmesh_destroy(both[1]);
+    }
+    TEST_CHECK(turning > 1000 && mended > 500 && renewed < vertices / 3 * 2);
+}
+
+// Memory that fails while a graph is mended.
+static void test_mending_memory(void **state)
+{
+    (void)state;
+    test_random random = { 8 };
+    fixture_level level = fixture_random(&random, 1, 12);
+    level.tile_cells = 4;
+    const tl_nav_prepare_def def = { 0, NULL, TL_DEF_COOKIE };
+    tl_result result = TL_ERR_MEMORY;
+    uint32_t failures = 0;
+    for (uint64_t k = 1; result != TL_OK; k++) {
+        test_allocator failing;
+        test_allocator_init(&failing, 0);
+        tl_navmesh *navmesh = fixture_build(&level, &failing.allocator);
+        TEST_RESULT(tl_navmesh_prepare(navmesh, &def, NULL), TL_OK);
+        tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, &failing.allocator);
+        TEST_RESULT(tl_navmesh_remove_tile(navmesh, 0, 0), TL_OK);
+        TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
+        failing.calls = 0;
+        failing.fail_at = k;
+        result = tl_navmesh_prepare(navmesh, &def, NULL);
+        TEST_CHECK(result == TL_OK || result == TL_ERR_MEMORY);
+        TEST_CHECK(tl_navmesh_is_prepared(navmesh) == (result == TL_OK));
+        failures += result != TL_OK;
+        tl_navmesh_destroy(navmesh);
+        TEST_CHECK(failing.live_blocks == 0);
+    }
+    TEST_CHECK(failures > 20);
+}
+
 static void test_memory(void **state)
 {
     (void)state;
@@ -333,7 +415,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_edits),     cmocka_unit_test(test_nodes),  cmocka_unit_test(test_budgets),
         cmocka_unit_test(test_kept_legs), cmocka_unit_test(test_slices), cmocka_unit_test(test_links),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_mended),    cmocka_unit_test(test_memory), cmocka_unit_test(test_mending_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2023,6 +2023,7 @@ pub struct tl_nav_prepared {
     pub kind: tl_nav_prepared_kind,
     pub corner_vertex_count: u32,
     pub edge_count: u32,
+    pub renewed_count: u32,
     pub bytes: u64,
     pub table_bytes: u64,
 }
@@ -5596,6 +5597,7 @@ mod layout {
             52
         );
         assert_eq!(core::mem::offset_of!(tl_nav_prepared, edge_count), 56);
+        assert_eq!(core::mem::offset_of!(tl_nav_prepared, renewed_count), 60);
         assert_eq!(core::mem::offset_of!(tl_nav_prepared, bytes), 64);
         assert_eq!(core::mem::offset_of!(tl_nav_prepared, table_bytes), 72);
         assert_eq!(core::mem::size_of::<tl_pack_item>(), 24);

@@ -15,7 +15,7 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "nav_query/exact/wedge_sight.h"
-#include "nav_query/prepared/visibility_graph.h"
+#include "nav_query/prepared/graph_reuse.h"
 
 #include <math.h>
 #include <string.h>
@@ -163,44 +163,136 @@ static bool allocate_cones(const tl_allocator *allocator, tl_nav_corner_cones *c
     return true;
 }
 
+// The cones of the list by polygon, joined: those of polygon p at [first[p], first[p + 1]).
+static void sort_cones(const tl_nav_cone_list *list, const tl_nav_visibility_graph *graph, uint32_t *first,
+                       tl_nav_corner_cone *grouped)
+{
+    memset(first, 0, ((size_t)graph->polygon_count + 1) * sizeof *first);
+    for (uint64_t i = 0; i < list->count; i++) {
+        first[graph->slot_first[list->cones[i].slot] + list->cones[i].polygon]++;
+    }
+    for (uint32_t p = 1; p <= graph->polygon_count; p++) {
+        first[p] += first[p - 1];
+    }
+    for (uint64_t i = list->count; i > 0; i--) {
+        const tl_nav_corner_cone *last = &list->cones[i - 1];
+        grouped[--first[graph->slot_first[last->slot] + last->polygon]] = *last;
+    }
+    uint32_t total = 0;
+    for (uint32_t p = 0; p < graph->polygon_count; p++) {
+        const uint32_t count = join_cones(grouped + first[p], first[p + 1] - first[p]);
+        memmove(grouped + total, grouped + first[p], count * sizeof *grouped);
+        first[p] = total;
+        total += count;
+    }
+    first[graph->polygon_count] = total;
+}
+
+// A polygon's cones in the graph before, from first[0] to first[1]; NULL: there are none to reuse.
+static const uint32_t *old_cones(const tl_navmesh *navmesh, const tl_nav_graph_reuse *reuse, uint32_t slot,
+                                 uint32_t polygon)
+{
+    return tl_nav_is_tile_reused(navmesh, reuse, slot)
+               ? reuse->old->cones.first + reuse->old->slot_first[slot] + polygon
+               : NULL;
+}
+
+// Copies the cones of a polygon that are reused to the graph's from `at` on; UINT32_MAX: they are only counted. Returns
+// their number.
+static uint32_t copy_cones(const tl_nav_graph_reuse *reuse, const uint32_t *range, const tl_nav_corner_cones *to,
+                           uint32_t at)
+{
+    const tl_nav_corner_cones *from = &reuse->old->cones;
+    uint32_t count = 0;
+    for (uint32_t i = range[0]; i < range[1]; i++) {
+        const uint32_t vertex = reuse->now[from->vertex[i]];
+        if (vertex == TL_NAV_NO_VERTEX) {
+            continue;
+        }
+        if (at != UINT32_MAX) {
+            const uint32_t k = at + count;
+            to->left_x[k] = from->left_x[i];
+            to->left_z[k] = from->left_z[i];
+            to->left_min[k] = from->left_min[i];
+            to->right_x[k] = from->right_x[i];
+            to->right_z[k] = from->right_z[i];
+            to->right_min[k] = from->right_min[i];
+            to->vertex[k] = vertex;
+        }
+        count++;
+    }
+    return count;
+}
+
+// What lay_cones puts into a graph.
+typedef struct cone_layout {
+    const tl_navmesh *navmesh;
+    const tl_nav_visibility_graph *graph;
+    const tl_nav_graph_reuse *reuse;
+    const uint32_t *first;             // by polygon, of the new ones
+    const tl_nav_corner_cone *grouped; // those
+    tl_stage *stage;
+} cone_layout;
+
+// The cones of one polygon, from `at` on; returns their number. `p`: its number in the graph.
+static uint32_t lay_polygon(const cone_layout *l, uint32_t slot, uint32_t polygon, uint32_t p, uint32_t at, bool writes)
+{
+    const uint32_t *range = old_cones(l->navmesh, l->reuse, slot, polygon);
+    uint32_t count = range != NULL ? copy_cones(l->reuse, range, &l->graph->cones, writes ? at : UINT32_MAX) : 0;
+    for (uint32_t i = l->first[p]; i < l->first[p + 1]; i++, count++) {
+        if (writes) {
+            write_cone(l->navmesh, l->graph, &l->grouped[i], at + count);
+        }
+    }
+    return count;
+}
+
+// Goes through all polygons and says where their cones stand; `writes`: writes them there.
+static tl_result lay_cones(const cone_layout *l, bool writes, uint32_t *count_out)
+{
+    uint64_t count = 0;
+    uint32_t p = 0;
+    for (uint32_t slot = 0; slot < l->graph->slot_count; slot++) {
+        const tl_nav_slot *in = &l->navmesh->slots[slot];
+        for (uint32_t polygon = 0; in->tile != NULL && polygon < in->rings.polygon_count; polygon++, p++) {
+            l->graph->cones.first[p] = (uint32_t)count;
+            count += lay_polygon(l, slot, polygon, p, (uint32_t)count, writes);
+            if (count > UINT32_MAX - TL_NAV_CONES_AT_ONCE) {
+                return TL_ERR_LIMIT;
+            }
+            TL_TRY(tl_stage_tick(l->stage, p));
+        }
+    }
+    l->graph->cones.first[p] = (uint32_t)count;
+    *count_out = (uint32_t)count;
+    return TL_OK;
+}
+
 tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, tl_nav_visibility_graph *graph,
-                             tl_stage *stage)
+                             const tl_nav_graph_reuse *reuse, tl_stage *stage)
 {
     tl_nav_corner_cones *cones = &graph->cones;
     if (list->count > UINT32_MAX - TL_NAV_CONES_AT_ONCE) {
         return TL_ERR_LIMIT;
     }
-    uint32_t *first = tl_allocate_array(list->allocator, (uint64_t)graph->polygon_count + 1, sizeof *first);
+    const uint64_t places = (uint64_t)graph->polygon_count + 1;
+    uint32_t *first = tl_allocate_array(list->allocator, places, sizeof *first);
     tl_nav_corner_cone *grouped = tl_allocate_array(list->allocator, list->count, sizeof *grouped);
-    cones->first = first;
-    bool fits = first != NULL && grouped != NULL;
-    if (fits) {
-        memset(first, 0, ((size_t)graph->polygon_count + 1) * sizeof *first);
-        for (uint64_t i = 0; i < list->count; i++) {
-            first[graph->slot_first[list->cones[i].slot] + list->cones[i].polygon]++;
-        }
-        for (uint32_t p = 1; p <= graph->polygon_count; p++) {
-            first[p] += first[p - 1];
-        }
-        for (uint64_t i = list->count; i > 0; i--) {
-            const tl_nav_corner_cone *last = &list->cones[i - 1];
-            grouped[--first[graph->slot_first[last->slot] + last->polygon]] = *last;
-        }
-        for (uint32_t p = 0; p < graph->polygon_count; p++) {
-            uint32_t count = join_cones(grouped + first[p], first[p + 1] - first[p]);
-            memmove(grouped + cones->count, grouped + first[p], count * sizeof *grouped);
-            first[p] = cones->count;
-            cones->count += count;
-        }
-        first[graph->polygon_count] = cones->count;
-        fits = allocate_cones(list->allocator, cones);
+    cones->first = tl_allocate_array(list->allocator, places, sizeof *cones->first);
+    tl_result result = first != NULL && grouped != NULL && cones->first != NULL ? TL_OK : TL_ERR_MEMORY;
+    const cone_layout layout = { navmesh, graph, reuse, first, grouped, stage };
+    if (result == TL_OK) {
+        sort_cones(list, graph, first, grouped);
+        result = lay_cones(&layout, false, &cones->count);
     }
-    tl_result result = fits ? TL_OK : TL_ERR_MEMORY;
-    for (uint32_t i = 0; i < cones->count && result == TL_OK; i++) {
-        write_cone(navmesh, graph, &grouped[i], i);
-        result = tl_stage_tick(stage, i);
+    if (result == TL_OK) {
+        result = allocate_cones(list->allocator, cones) ? TL_OK : TL_ERR_MEMORY;
+    }
+    if (result == TL_OK) {
+        result = lay_cones(&layout, true, &cones->count);
     }
     tl_release_array(list->allocator, grouped, list->count, sizeof *grouped);
+    tl_release_array(list->allocator, first, places, sizeof *first);
     return result;
 }
 

@@ -9,6 +9,8 @@
 #include "nav_query/prepared/path_ends.h"
 #include "nav_query/search/wedge.h"
 
+typedef struct tl_nav_graph_reuse tl_nav_graph_reuse; // graph_reuse.h
+
 /// So many cones are tested at once.
 enum { TL_NAV_CONES_AT_ONCE = 8 };
 
@@ -42,10 +44,10 @@ typedef struct tl_nav_cone_list {
 /// Adds the cones of a wedge that is seen from a corner vertex. TL_ERR_MEMORY.
 tl_result tl_nav_add_cones(tl_nav_cone_list *list, const tl_nav_visibility_graph *graph, uint32_t vertex,
                            const tl_nav_wedge *wedge);
-/// Puts the cones into the graph, by polygon. TL_ERR_MEMORY, TL_ERR_LIMIT; the graph keeps what tl_nav_free_cones
-/// frees.
+/// Puts the cones into the graph, by polygon, behind those that are reused. TL_ERR_MEMORY, TL_ERR_LIMIT; the graph
+/// keeps what tl_nav_free_cones frees.
 tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, tl_nav_visibility_graph *graph,
-                             tl_stage *stage);
+                             const tl_nav_graph_reuse *reuse, tl_stage *stage);
 void tl_nav_free_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph);
 
 /// The corner vertices whose cones hold the start, and those whose cones hold the goal. False: the query is too small.

@@ -25,12 +25,6 @@ static bool is_nearer(tl_nav_open_vertex a, tl_nav_open_vertex b)
 #define TL_HEAP_BEFORE(context, a, b) is_nearer(a, b)
 #include "base/heap.inl"
 
-static void open_vertex(tl_nav_dijkstra *s, double length, uint32_t vertex)
-{
-    const tl_nav_open_vertex item = { length, vertex };
-    open_vertex_push(s->heap, &s->heap_count, item, NULL);
-}
-
 tl_result tl_nav_dijkstra_init(const tl_allocator *allocator, const tl_nav_visibility_graph *graph, tl_stage *stage,
                                tl_nav_dijkstra *lengths_out)
 {
@@ -57,17 +51,28 @@ void tl_nav_dijkstra_free(const tl_allocator *allocator, tl_nav_dijkstra *length
                      sizeof *lengths->heap);
 }
 
+void tl_nav_dijkstra_open(tl_nav_dijkstra *lengths, uint32_t vertex)
+{
+    const tl_nav_open_vertex item = { lengths->length[vertex], vertex };
+    open_vertex_push(lengths->heap, &lengths->heap_count, item, NULL);
+}
+
 tl_result tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint32_t source_count)
 {
-    const tl_nav_visibility_graph *graph = lengths->graph;
-    for (uint32_t i = 0; i < graph->vertex_count; i++) {
+    for (uint32_t i = 0; i < lengths->graph->vertex_count; i++) {
         lengths->length[i] = (double)INFINITY;
     }
     for (uint32_t i = 0; i < source_count; i++) {
         lengths->length[sources[i]] = 0.0;
         lengths->before[sources[i]] = sources[i];
-        open_vertex(lengths, 0.0, sources[i]);
+        tl_nav_dijkstra_open(lengths, sources[i]);
     }
+    return tl_nav_dijkstra_spread(lengths);
+}
+
+tl_result tl_nav_dijkstra_spread(tl_nav_dijkstra *lengths)
+{
+    const tl_nav_visibility_graph *graph = lengths->graph;
     uint32_t settled = 0;
     while (lengths->heap_count > 0) {
         const tl_nav_open_vertex next = open_vertex_pop(lengths->heap, &lengths->heap_count, NULL);
@@ -84,7 +89,7 @@ tl_result tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources,
             if (length < lengths->length[edge->to]) {
                 lengths->length[edge->to] = length;
                 lengths->before[edge->to] = next.vertex;
-                open_vertex(lengths, length, edge->to);
+                tl_nav_dijkstra_open(lengths, edge->to);
             }
         }
     }

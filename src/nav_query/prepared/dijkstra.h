@@ -38,4 +38,9 @@ void tl_nav_dijkstra_free(const tl_allocator *allocator, tl_nav_dijkstra *length
 /// it: TL_ERR_CANCELLED, after which only tl_nav_dijkstra_free may be called.
 tl_result tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint32_t source_count);
 
+/// Opens a corner vertex at the length that it has.
+void tl_nav_dijkstra_open(tl_nav_dijkstra *lengths, uint32_t vertex);
+/// Lowers the lengths of all to what leads over corner vertices that are open. Errors as above.
+tl_result tl_nav_dijkstra_spread(tl_nav_dijkstra *lengths);
+
 #endif

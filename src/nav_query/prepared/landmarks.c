@@ -7,7 +7,12 @@
 // for the path between them. On a city the largest of 16 bounds is 5% below the truth where the straight line is 11%
 // below, and a search looks at a third of the vertices. A set has one place in each connected component, each as far as
 // possible from those of earlier sets.
-// Source: Goldberg and Harrelson, Computing the Shortest Path: A* Search Meets Graph Theory, 2005.
+//
+// After an edit distances are mended, not measured anew. A bound needs no distances: any numbers serve that differ
+// along no edge by more than it is long. Old ones break that only at edges that are new; from there they are lowered as
+// in Dijkstra's algorithm, until none does. Nothing raises them again where a way has closed: bounds stay right, and
+// are worth a little less after each edit; so now and then all are measured. Source: Goldberg and Harrelson, Computing
+// the Shortest Path: A* Search Meets Graph Theory, 2005.
 
 #include "nav_query/prepared/landmarks.h"
 
@@ -19,6 +24,9 @@
 
 #include <math.h>
 #include <string.h>
+
+// Mends after which all distances are measured: their rounding has grown by then to some thousandths of a percent.
+enum { MAX_MENDS = 64 };
 
 typedef struct landmark_spread {
     const tl_nav_visibility_graph *graph;
@@ -85,7 +93,53 @@ static tl_result measure_landmarks(landmark_spread *s, tl_nav_visibility_graph *
     return tl_stage_end(s->lengths.stage);
 }
 
-tl_result tl_nav_find_landmarks(const tl_allocator *allocator, const tl_host *host, tl_nav_visibility_graph *graph)
+// Takes one landmark's distances over, and lowers them where edges that are new ask for it.
+static tl_result mend_landmark(tl_nav_dijkstra *lengths, const tl_nav_graph_reuse *reuse, uint32_t landmark)
+{
+    const tl_nav_visibility_graph *graph = lengths->graph;
+    for (uint32_t i = 0; i < graph->vertex_count; i++) {
+        const uint32_t before = reuse->before[i];
+        lengths->length[i] =
+            before != TL_NAV_NO_VERTEX ? (double)reuse->old->landmarks[before][landmark] : (double)INFINITY;
+    }
+    for (uint32_t i = 0; i < graph->vertex_count; i++) {
+        const tl_nav_corner_vertex *vertex = &graph->vertices[i];
+        if (tl_nav_is_reused(reuse, i)) {
+            continue;
+        }
+        for (uint32_t k = vertex[0].first_edge; k < vertex[1].first_edge; k++) {
+            const tl_nav_visibility_edge *edge = &graph->edges[k];
+            const double length = lengths->length[edge->to] + tl_nav_visibility_edge_length(vertex, edge);
+            lengths->length[i] = tl_min_f64(lengths->length[i], length);
+        }
+        if (lengths->length[i] < (double)INFINITY) {
+            tl_nav_dijkstra_open(lengths, i);
+        }
+    }
+    return tl_nav_dijkstra_spread(lengths);
+}
+
+static tl_result mend_landmarks(tl_nav_dijkstra *lengths, const tl_nav_graph_reuse *reuse,
+                                tl_nav_visibility_graph *graph)
+{
+    double longest = 0.0;
+    for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
+        TL_TRY(mend_landmark(lengths, reuse, k));
+        TL_TRY(tl_stage_add(lengths->stage, 1));
+        for (uint32_t i = 0; i < graph->vertex_count; i++) {
+            // A component of new vertices alone has no place of the set: all of them are as far from it.
+            const double length = lengths->length[i] < (double)INFINITY ? lengths->length[i] : 0.0;
+            graph->landmarks[i][k] = (float)length;
+            longest = tl_max_f64(longest, length);
+        }
+    }
+    graph->mends = reuse->old->mends + 1;
+    graph->landmark_error = reuse->old->landmark_error + TL_FLOAT_GAMMA(4) * (float)longest;
+    return tl_stage_end(lengths->stage);
+}
+
+tl_result tl_nav_find_landmarks(const tl_allocator *allocator, const tl_host *host, const tl_nav_graph_reuse *reuse,
+                                tl_nav_visibility_graph *graph)
 {
     landmark_spread s;
     tl_stage stage;
@@ -93,6 +147,11 @@ tl_result tl_nav_find_landmarks(const tl_allocator *allocator, const tl_host *ho
     s.graph = graph;
     TL_TRY(tl_stage_begin(&stage, host, "landmarks", TL_NAV_LANDMARKS));
     TL_TRY(tl_nav_dijkstra_init(allocator, graph, &stage, &s.lengths));
+    if (reuse->old != NULL && reuse->old->mends < MAX_MENDS) {
+        const tl_result mended = mend_landmarks(&s.lengths, reuse, graph);
+        tl_nav_dijkstra_free(allocator, &s.lengths);
+        return mended;
+    }
     uint32_t *stack = tl_allocate_array(allocator, graph->vertex_count, sizeof *stack);
     s.component = tl_allocate_array(allocator, graph->vertex_count, sizeof *s.component);
     s.source = tl_allocate_array(allocator, graph->vertex_count, sizeof *s.source);

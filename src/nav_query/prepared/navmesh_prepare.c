@@ -63,18 +63,24 @@ static tl_result own_graph(tl_navmesh *navmesh)
     return TL_OK;
 }
 
-static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *def)
+static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *def, uint32_t *renewed_out)
 {
     static const tl_nav_derived derived = { NULL, free_graph, outlive_state };
     const tl_host host = { NULL, NULL, def->progress };
     navmesh->derived[TL_NAV_DERIVED_GRAPH] = &derived;
     if (!tl_nav_has_current_graph(navmesh)) {
+        tl_nav_visibility_graph *fresh = NULL;
+        const bool has_graph = !floors_fork(navmesh);
+        if (has_graph) {
+            TL_TRY(tl_nav_bake_visibility_graph(navmesh, &host, &fresh));
+            *renewed_out = fresh->looked;
+        }
         free_graph(navmesh);
-        if (floors_fork(navmesh)) {
+        navmesh->graph = fresh;
+        navmesh->graph_edit = navmesh->edit.number;
+        if (!has_graph) {
             return TL_OK;
         }
-        TL_TRY(tl_nav_bake_visibility_graph(navmesh, &host, &navmesh->graph));
-        navmesh->graph_edit = navmesh->edit.number;
     }
     TL_TRY(own_graph(navmesh));
     const tl_allocator *allocator = &navmesh->allocator;
@@ -113,7 +119,7 @@ tl_result tl_navmesh_prepare(tl_navmesh *navmesh, const tl_nav_prepare_def *def,
         return tl_report_field(&made->base, TL_ERR_ARGUMENT, "navmesh", "pass a navmesh");
     }
     TL_TRY(tl_def_check(used.cookie, "begin with tl_default_nav_prepare_def()", &made->base));
-    const tl_result result = prepare_graph(navmesh, &used);
+    const tl_result result = prepare_graph(navmesh, &used, &made->renewed_count);
     if (result != TL_OK) {
         free_graph(navmesh);
     } else if (navmesh->graph != NULL) {

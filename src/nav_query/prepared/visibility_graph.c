@@ -17,6 +17,7 @@
 #include "base/assert.h"
 #include "nav_query/exact/wedge_sight.h"
 #include "nav_query/prepared/corner_distances.h"
+#include "nav_query/prepared/graph_reuse.h"
 #include "nav_query/prepared/landmarks.h"
 #include "nav_query/search/query_memory.h"
 
@@ -32,12 +33,13 @@ typedef struct pair_list {
 } pair_list;
 
 typedef struct graph_baker {
-    tl_navmesh *navmesh;
+    const tl_navmesh *navmesh;
     tl_allocator allocator;
     tl_stage stage; // corner vertices that have looked around
     tl_nav_visibility_graph *graph;
     uint32_t *vertex_of; // [last_fan + 1], by number; UINT32_MAX: none
     uint32_t fan_count;
+    tl_nav_graph_reuse reuse;
     tl_nav_query *query;
     pair_list sights; // corner vertex and corner vertex
     tl_nav_cone_list cones;
@@ -90,9 +92,6 @@ static void fill_corner_vertex(graph_baker *b, tl_nav_ring_place place)
     };
     tl_nav_find_fan(b->navmesh, NULL, &vertex.place);
     b->graph->vertices[b->vertex_of[ring_vertex->turn]] = vertex;
-    double x = fabs((double)ring_vertex->x);
-    double z = fabs((double)ring_vertex->z);
-    b->graph->rounding = fmax(b->graph->rounding, TL_NAV_ON_LINE * fmax(x, z));
 }
 
 static void fill_corner_vertices(graph_baker *b)
@@ -100,6 +99,7 @@ static void fill_corner_vertices(graph_baker *b)
     for (uint32_t slot = 0; slot < b->navmesh->slot_count; slot++) {
         const tl_nav_rings *rings = &b->navmesh->slots[slot].rings;
         b->graph->slot_first[slot] = b->graph->polygon_count;
+        b->graph->slot_salt[slot] = b->navmesh->slots[slot].tile != NULL ? b->navmesh->slots[slot].salt : 0;
         for (uint32_t p = 0; b->navmesh->slots[slot].tile != NULL && p < rings->polygon_count; p++) {
             b->graph->polygon_count++;
             for (uint32_t i = 0; i < rings->cells[p + 1].first - rings->cells[p].first; i++) {
@@ -123,6 +123,21 @@ static void note_sight(void *user, uint32_t turn)
         // Each end may have missed the other by rounding.
         add_pair(b, b->vertex, seen);
         add_pair(b, seen, b->vertex);
+    }
+}
+
+// The edges that a corner vertex had before, where it sees what it saw. Those that look around anew may miss it by
+// rounding, and so both ends are told.
+static void keep_sights(graph_baker *b, uint32_t vertex)
+{
+    const tl_nav_visibility_graph *old = b->reuse.old;
+    const tl_nav_corner_vertex *from = &old->vertices[b->reuse.before[vertex]];
+    for (uint32_t k = from[0].first_edge; k < from[1].first_edge; k++) {
+        const uint32_t turn = old->vertices[old->edges[k].to].turn, to = b->vertex_of[turn];
+        add_pair(b, vertex, to);
+        if (!tl_nav_is_reused(&b->reuse, to)) {
+            add_pair(b, to, vertex);
+        }
     }
 }
 
@@ -184,6 +199,13 @@ static void group(const pair_list *list, uint32_t key_count, uint32_t *first, ui
 // others.
 static uint32_t sort_unique(uint32_t *values, uint32_t count)
 {
+    uint32_t ascending = 1;
+    while (ascending < count && values[ascending - 1] < values[ascending]) {
+        ascending++;
+    }
+    if (ascending >= count) {
+        return count; // as edges that were kept are
+    }
     for (uint32_t i = count / 2; i-- > 0;) {
         largest_sift_down(values, count, i, values[i], NULL);
     }
@@ -246,10 +268,13 @@ static tl_result find_vertices(graph_baker *b)
     graph->vertices = tl_allocate_array(&b->allocator, (uint64_t)graph->vertex_count + 1, sizeof *graph->vertices);
     graph->landmarks = tl_allocate_array(&b->allocator, graph->vertex_count, sizeof *graph->landmarks);
     graph->slot_first = tl_allocate_array(&b->allocator, graph->slot_count, sizeof *graph->slot_first);
-    if (graph->vertices == NULL || graph->landmarks == NULL || graph->slot_first == NULL) {
+    graph->slot_salt = tl_allocate_array(&b->allocator, graph->slot_count, sizeof *graph->slot_salt);
+    if (graph->vertices == NULL || graph->landmarks == NULL || graph->slot_first == NULL || graph->slot_salt == NULL) {
         return TL_ERR_MEMORY;
     }
     memset(graph->vertices, 0, ((size_t)graph->vertex_count + 1) * sizeof *graph->vertices);
+    // Of all tiles so far: it grows where the world does, and not with an edit inside.
+    graph->rounding = TL_NAV_ON_LINE * (double)b->navmesh->extent;
     fill_corner_vertices(b);
     return TL_OK;
 }
@@ -258,18 +283,25 @@ static tl_result bake_graph(graph_baker *b)
 {
     TL_TRY(find_vertices(b));
     TL_TRY(make_look_query(b, FIRST_Wedges));
+    TL_TRY(tl_nav_find_reuse(b->navmesh, b->graph, b->vertex_of, b->fan_count, &b->reuse));
     b->stage.total = b->graph->vertex_count;
     for (uint32_t i = 0; i < b->graph->vertex_count; i++) {
-        TL_TRY(look_from(b, i));
+        if (tl_nav_is_reused(&b->reuse, i)) {
+            keep_sights(b, i);
+            TL_TRY(b->result);
+        } else {
+            TL_TRY(look_from(b, i));
+            b->graph->looked++;
+        }
         TL_TRY(tl_stage_add(&b->stage, 1));
     }
     if (b->sights.count > UINT32_MAX) {
         return TL_ERR_LIMIT;
     }
     TL_TRY(make_edges(b));
-    TL_TRY(tl_nav_group_cones(&b->cones, b->navmesh, b->graph, &b->stage));
+    TL_TRY(tl_nav_group_cones(&b->cones, b->navmesh, b->graph, &b->reuse, &b->stage));
     TL_TRY(tl_stage_end(&b->stage));
-    return tl_nav_find_landmarks(&b->allocator, b->stage.host, b->graph);
+    return tl_nav_find_landmarks(&b->allocator, b->stage.host, &b->reuse, b->graph);
 }
 
 uint64_t tl_nav_visibility_graph_size(const tl_nav_visibility_graph *graph)
@@ -277,7 +309,7 @@ uint64_t tl_nav_visibility_graph_size(const tl_nav_visibility_graph *graph)
     const uint64_t vertex_size = sizeof *graph->vertices + sizeof *graph->landmarks;
     return sizeof *graph + (uint64_t)graph->vertex_count * vertex_size + sizeof *graph->vertices +
            (uint64_t)graph->edge_count * sizeof *graph->edges +
-           (uint64_t)graph->slot_count * sizeof *graph->slot_first +
+           (uint64_t)graph->slot_count * (sizeof *graph->slot_first + sizeof *graph->slot_salt) +
            ((uint64_t)graph->polygon_count + 1) * sizeof *graph->cones.first +
            graph->cones.size * sizeof *graph->cones.block;
 }
@@ -289,6 +321,7 @@ void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibili
         tl_release_array(allocator, graph->landmarks, graph->vertex_count, sizeof *graph->landmarks);
         tl_release_array(allocator, graph->edges, graph->edge_count, sizeof *graph->edges);
         tl_release_array(allocator, graph->slot_first, graph->slot_count, sizeof *graph->slot_first);
+        tl_release_array(allocator, graph->slot_salt, graph->slot_count, sizeof *graph->slot_salt);
         tl_nav_free_cones(allocator, graph);
         tl_nav_free_corner_distances(allocator, graph);
         tl_nav_free_legs(allocator, graph);
@@ -296,7 +329,8 @@ void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibili
     }
 }
 
-tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, const tl_host *host, tl_nav_visibility_graph **graph_out)
+tl_result tl_nav_bake_visibility_graph(const tl_navmesh *navmesh, const tl_host *host,
+                                       tl_nav_visibility_graph **graph_out)
 {
     graph_baker b;
     memset(&b, 0, sizeof b);
@@ -314,6 +348,7 @@ tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, const tl_host *host,
     tl_release_array(&b.allocator, b.sights.pairs, b.sights.capacity, sizeof *b.sights.pairs);
     tl_release_array(&b.allocator, b.cones.cones, b.cones.capacity, sizeof *b.cones.cones);
     tl_release_array(&b.allocator, b.vertex_of, b.fan_count, sizeof *b.vertex_of);
+    tl_nav_free_reuse(&b.allocator, b.graph, &b.reuse);
     if (result != TL_OK) {
         tl_nav_free_visibility_graph(&b.allocator, b.graph);
         return result;

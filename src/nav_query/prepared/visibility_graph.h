@@ -44,6 +44,7 @@ struct tl_nav_visibility_graph {
     tl_nav_visibility_edge *edges;
     float (*landmarks)[TL_NAV_LANDMARKS]; ///< metres by corner vertex, from each landmark
     uint32_t *slot_first;                 ///< by slot: where its polygons begin in the cones
+    uint32_t *slot_salt;                  ///< by slot: that of its tile (tl_nav_slot); 0: it has none
     uint32_t vertex_count, edge_count, polygon_count, slot_count;
     tl_nav_corner_cones cones;
     float *table;          ///< metres by corner vertex and corner vertex, or NULL (corner_distances.c)
@@ -51,6 +52,8 @@ struct tl_nav_visibility_graph {
     tl_nav_kept_legs kept; ///< where there is a table
     double rounding;       ///< metres within which a point is on a line
     float landmark_error;  ///< metres by which a difference of two landmark distances may be wrong
+    uint32_t mends;        ///< of its landmark distances since they were measured
+    uint32_t looked;       ///< corner vertices that have looked around when it was baked
 };
 
 /// The sides to which a path that comes along (x, z) to a corner vertex may turn there: those on which its walls are.
@@ -67,8 +70,10 @@ static inline uint32_t tl_nav_turns_at(const tl_nav_corner_vertex *vertex, doubl
     return (left ? TL_NAV_TURN_LEFT : 0u) | (right ? TL_NAV_TURN_RIGHT : 0u);
 }
 
-/// Bakes the visibility graph of a navmesh without forks at seams. TL_ERR_MEMORY, TL_ERR_LIMIT.
-tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, const tl_host *host, tl_nav_visibility_graph **graph_out);
+/// Bakes the visibility graph of a navmesh without forks at seams. What the navmesh's graph knows that edits since then
+/// have not changed is taken over. TL_ERR_MEMORY, TL_ERR_LIMIT.
+tl_result tl_nav_bake_visibility_graph(const tl_navmesh *navmesh, const tl_host *host,
+                                       tl_nav_visibility_graph **graph_out);
 /// Bytes that the graph takes, without its table.
 uint64_t tl_nav_visibility_graph_size(const tl_nav_visibility_graph *graph);
 void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibility_graph *graph);
