@@ -2,6 +2,7 @@
 //
 // What changes a navmesh: off-mesh links, obstacles, tiles that are baked again.
 
+#include "js_convex.h"
 #include "js_navmesh.h"
 
 #include <string.h>
@@ -67,7 +68,10 @@ int32_t TL_JS_EXPORT(js_offmesh_next)(const tl_js_navmesh *self, uint32_t cursor
 }
 
 // ---------------------------------------------------------------------------------------------------------
-// Obstacles. In the slot: shape, area, base, height, radius, half extents, cosine, sine, points.
+// Obstacles. In the slot: shape, area, base, height, radius, half extents, cosine, sine, points; of a convex one the
+// shape and its pose behind them.
+
+enum { OBSTACLE_CONVEX = 12 + 2 * TL_NAV_MAX_OBSTACLE_POINTS };
 
 static tl_nav_obstacle obstacle_at(uint32_t at)
 {
@@ -85,6 +89,10 @@ static tl_nav_obstacle obstacle_at(uint32_t at)
     obstacle.point_count = tl_js_u32(at + 11);
     for (uint32_t i = 0; i < obstacle.point_count && i < TL_NAV_MAX_OBSTACLE_POINTS; i++) {
         obstacle.points[i] = tl_vec3_make(tl_js_f32(at + 12 + 2 * i), 0.0f, tl_js_f32(at + 13 + 2 * i));
+    }
+    if (obstacle.shape == TL_NAV_OBSTACLE_CONVEX) {
+        obstacle.convex = tl_js_shape(at + OBSTACLE_CONVEX);
+        obstacle.pose = tl_js_pose(at + OBSTACLE_CONVEX + TL_JS_SHAPE_NUMBERS);
     }
     return obstacle;
 }

@@ -187,3 +187,6 @@ export class Hull extends Handle {
     return wasm.js_hull_contains(this._address, point[0], point[1], point[2]) !== 0;
   }
 }
+
+/** Takes over a hull that the module made. */
+export const hullAt = (address) => new Hull(PRIVATE, address >>> 0, 'js_blob_free', null);

@@ -6,7 +6,8 @@ import { argumentError, TalusError } from './error.js';
 import { withInput } from './mesh.js';
 import { Navmesh } from './navmesh.js';
 import { readLocation } from './nav_query.js';
-import { F64, SLOT, U64, check, putAabb, putVec3, slotVec3, wasm, watched } from './module.js';
+import { F64, SLOT, U64, check, putAabb, putPose, putVec3, slotVec3, wasm, watched } from './module.js';
+import { SHAPE_NUMBERS, hullOf, withShapes } from './shape.js';
 
 /** Writes a link in the order of tl_js_offmesh (wasm/js_nav_change.c). */
 export function putOffMeshLink(link) {
@@ -29,7 +30,8 @@ export function readOffMeshLink(at) {
            flags: U64[s + 9], user: U64[s + 10], area: F64[s + 11], bothWays: F64[s + 12] !== 0 };
 }
 
-const SHAPES = ['cylinder', 'box', 'prism'];
+const SHAPES = ['cylinder', 'box', 'prism', 'convex'];
+const CONVEX = 44; // where the slot has a convex obstacle's shape, behind the points of a prism
 
 /** Writes an obstacle in the order of obstacle_at. */
 function putObstacle(at, obstacle) {
@@ -39,8 +41,8 @@ function putObstacle(at, obstacle) {
   const turned = obstacle.angle !== undefined && obstacle.angle !== 0;
   F64[s] = shape;
   F64[s + 1] = obstacle.area ?? 0;
-  putVec3(at + 2, obstacle.base);
-  F64[s + 5] = obstacle.height;
+  putVec3(at + 2, obstacle.base ?? [0, 0, 0]);
+  F64[s + 5] = obstacle.height ?? 0;
   F64[s + 6] = obstacle.radius ?? 0;
   F64[s + 7] = obstacle.halfX ?? 0;
   F64[s + 8] = obstacle.halfZ ?? 0;
@@ -48,6 +50,15 @@ function putObstacle(at, obstacle) {
   F64[s + 10] = turned ? Math.sin(obstacle.angle) : 0;
   F64[s + 11] = Math.floor(outline.length / 2);
   for (let i = 0; i < outline.length; i++) F64[s + 12 + i] = outline[i];
+}
+
+/** Runs a call with an obstacle in the slot. */
+function withObstacle(at, obstacle, run) {
+  putObstacle(at, obstacle);
+  if (obstacle.type !== 'convex') return run();
+  if (obstacle.shape?.type === 'points') throw argumentError('shape', 'give a Hull of the points: an obstacle keeps its shape');
+  putPose(at + CONVEX + SHAPE_NUMBERS, obstacle.pose);
+  return withShapes([[at + CONVEX, obstacle.shape]], run);
 }
 
 function needObstacles(navmesh) {
@@ -82,22 +93,24 @@ const methods = {
 
   addObstacle(obstacle) {
     needObstacles(this);
-    putObstacle(0, obstacle);
-    check(wasm.js_obstacle_add(this._address));
-    return U64[SLOT];
+    check(withObstacle(0, obstacle, () => wasm.js_obstacle_add(this._address)));
+    const id = U64[SLOT];
+    this._keepHull(id, obstacle.type === 'convex' ? hullOf(obstacle.shape) : null);
+    return id;
   },
 
   moveObstacle(id, obstacle) {
     needObstacles(this);
     U64[SLOT] = id;
-    putObstacle(1, obstacle);
-    check(wasm.js_obstacle_move(this._address));
+    check(withObstacle(1, obstacle, () => wasm.js_obstacle_move(this._address)));
+    this._keepHull(id, obstacle.type === 'convex' ? hullOf(obstacle.shape) : null);
   },
 
   removeObstacle(id) {
     needObstacles(this);
     U64[SLOT] = id;
     check(wasm.js_obstacle_remove(this._address));
+    this._keepHull(id, null);
   },
 
   updateObstacles(maxTiles = 0xffffffff) {

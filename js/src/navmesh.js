@@ -31,6 +31,7 @@ function stopwatch() {
 export class Navmesh extends Handle {
   #maxNodes = 2 ** 30; // memory grows with need: no search is too large
   #options = null;
+  #hulls = new Map(); // that obstacles are made of, by their ids
 
   constructor(key, address, report) {
     refuseNew(key, 'Navmesh');
@@ -80,6 +81,21 @@ export class Navmesh extends Handle {
       throw error;
     }
     return navmesh;
+  }
+
+  free() {
+    if (this.freed) return;
+    super.free();
+    this.#hulls.forEach((hull) => hull._leave());
+    this.#hulls.clear();
+  }
+
+  /** An obstacle is made of this hull now, which stays until the obstacle is gone or made of another one. */
+  _keepHull(id, hull) {
+    hull?._use();
+    this.#hulls.get(id)?._leave();
+    if (hull === null) this.#hulls.delete(id);
+    else this.#hulls.set(id, hull);
   }
 
   /** What it was baked with. */

@@ -6,7 +6,7 @@
 import { argumentError } from './error.js';
 import { Handle, PRIVATE, refuseNew } from './handle.js';
 import { F64, SLOT, TL_ERR_MEMORY, U32, check, fail, putPose, putVec3, ready, slotVec3, wasm } from './module.js';
-import { SHAPE_NUMBERS, withShapes } from './shape.js';
+import { SHAPE_NUMBERS, hullOf, withShapes } from './shape.js';
 import { Soup, filtered } from './soup.js';
 
 const NO_TRIANGLE = 0xffffffff;
@@ -37,10 +37,6 @@ export function sceneFiltered(filter, run) {
   if (!filter) return run(0);
   const [first, count] = filter.ignored ?? [0, 0];
   return filtered(filter.triangles, (triangles) => run(wasm.js_set_scene_filter(filter.ignoredMask ?? 0, first, count, triangles)));
-}
-
-function isHull(shape) {
-  return shape.supportClimb !== undefined ? shape : shape.type === 'hull' ? shape.hull : null;
 }
 
 export class Scene extends Handle {
@@ -89,7 +85,7 @@ export class Scene extends Handle {
     else if (shape) withShapes([[0, shape]], () => wasm.js_scene_set(scene, index, 0, 1));
     else if (soup === null || shape === null) wasm.js_scene_set(scene, index, 0, 0);
     // Only now: what the instance pointed to may be let go.
-    if (soup !== undefined || shape !== undefined) this.#use(index, soup ?? (shape ? isHull(shape) : null));
+    if (soup !== undefined || shape !== undefined) this.#use(index, soup ?? (shape ? hullOf(shape) : null));
     if (change.pose !== undefined) {
       putPose(0, change.pose);
       wasm.js_scene_place(scene, index);

@@ -22,6 +22,11 @@ const VECTORS = {
 };
 const KINDS = Object.keys(VECTORS);
 
+/** The hull of a shape that is one; null for others. */
+export function hullOf(shape) {
+  return shape.supportClimb !== undefined ? shape : shape.type === 'hull' ? shape.hull : null;
+}
+
 /** Runs a call with shapes written to the slot: pairs of where and what. */
 export function withShapes(shapes, run) {
   ready();

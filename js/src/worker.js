@@ -160,6 +160,11 @@ export class TalusWorker {
     return hull;
   }
 
+  async decompose(mesh, options) {
+    const { parts, ...rest } = await this.#queue('decompose', { mesh: plainMesh(mesh) }, options);
+    return { parts: parts.map(({ bytes, ...part }) => ({ hull: Hull.fromBytes(bytes), ...part })), ...rest };
+  }
+
   async bakeNavmesh(mesh, options = {}) {
     if (options.obstacles) {
       throw new TalusError('TL_ERR_UNSUPPORTED', 'obstacles keep what a worker cannot hand over: bake on this thread', { field: 'obstacles' });

@@ -2,6 +2,7 @@
 //
 // What runs in a TalusWorker: one task a message, its arguments and results plain data.
 
+import { decompose } from './decompose.js';
 import { Hull } from './hull.js';
 import { Mesh } from './mesh.js';
 import { Navmesh } from './navmesh.js';
@@ -27,6 +28,10 @@ const tasks = {
   },
   soup: ({ mesh }, options) => using(Soup.bake(meshOf(mesh), options), (soup) => soup.toBytes()),
   hull: ({ points }, options) => using(Hull.bake(points, options), (hull) => ({ bytes: hull.toBytes(), report: hull.report })),
+  decompose({ mesh }, options) {
+    const { parts, ...rest } = decompose(meshOf(mesh), options);
+    return { parts: parts.map(({ hull, ...part }) => ({ ...part, bytes: using(hull, () => hull.toBytes()) })), ...rest };
+  },
   navmesh: ({ mesh }, options) => using(Navmesh.bake(meshOf(mesh), options), (navmesh) => ({
     tiles: navmesh.tiles().map((_, i) => navmesh.tileBytes(i)), options: navmesh.options, report: navmesh.report,
   })),

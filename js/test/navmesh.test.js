@@ -2,8 +2,8 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { Mesh, Navmesh, Sight, bakeStages, defaultNavOptions, jumpLinkPoint, polygonSteps, tileGrid } from '../src/index.js';
-import { courtyard, errorOf, floor } from './support.js';
+import { Hull, Mesh, Navmesh, Sight, bakeStages, defaultNavOptions, jumpLinkPoint, navmeshFromDetour, navmeshToDetour, polygonSteps, tileGrid } from '../src/index.js';
+import { courtyard, cube, errorOf, floor } from './support.js';
 
 const START = [2, 0, 20], GOAL = [20, 5, 20];
 
@@ -129,6 +129,58 @@ test('obstacles come and go', () => {
   assert.equal(errorOf(() => navmesh.removeObstacle(id)).result, 'TL_ERR_STALE');
   assert.equal(errorOf(() => courtyard().navmesh.addObstacle({ type: 'cylinder', base: START, height: 1, radius: 1 })).field, 'obstacles');
   assert.equal(errorOf(() => Navmesh.bake(mesh, { obstacles: true })).field, 'tileSize');
+});
+
+test('obstacles of any convex shape at any pose', () => {
+  const { mesh } = courtyard(), navmesh = Navmesh.bake(mesh, { tileSize: 48, obstacles: true });
+  const bytes = () => navmesh.tiles().map((_, i) => navmesh.tileBytes(i)), put = (obstacle) => {
+    const id = navmesh.addObstacle(obstacle);
+    navmesh.updateObstacles();
+    const baked = bytes();
+    navmesh.removeObstacle(id);
+    navmesh.updateObstacles();
+    return baked;
+  };
+  const empty = bytes(), crate = { type: 'box', halfExtents: [2.5, 1, 0.5] }, pose = { position: [2, 1, 18] };
+  const corners = cube().vertices.map((x, i) => x * crate.halfExtents[i % 3]), hull = Hull.bake(corners);
+  const upright = put({ type: 'box', base: [2, 0, 18], height: 2, halfX: 2.5, halfZ: 0.5 });
+  assert.deepEqual(put({ type: 'convex', shape: crate, pose }), upright);
+  assert.deepEqual(put({ type: 'convex', shape: hull, pose }), upright);
+  const log = put({ type: 'convex', shape: { type: 'capsule', a: [0, 0.3, 16], b: [4, 0.3, 20], radius: 0.3 } });
+  assert.notDeepEqual(log, empty);
+  assert.notDeepEqual(put({ type: 'convex', shape: crate, pose, area: 5 }), upright);
+  assert.deepEqual(bytes(), empty);
+  assert.equal(errorOf(() => put({ type: 'convex', shape: { type: 'points', points: corners }, pose })).field, 'shape');
+  assert.equal(errorOf(() => put({ type: 'convex', pose })).field, 'shape');
+  // A hull that is freed stays until its obstacle is gone.
+  const id = navmesh.addObstacle({ type: 'convex', shape: hull, pose });
+  hull.free();
+  navmesh.updateObstacles();
+  assert.deepEqual(bytes(), upright);
+  navmesh.moveObstacle(id, { type: 'convex', shape: crate, pose });
+  navmesh.updateObstacles();
+  assert.deepEqual(bytes(), upright);
+  navmesh.free();
+});
+
+test('to Detour and back', () => {
+  const { mesh } = courtyard(), navmesh = Navmesh.bake(mesh, { maxVertsPerPoly: 6, tileSize: 64 });
+  navmesh.addOffMeshLink({ start: [2, 0, 20], end: [4, 0, 20], radius: 1, user: 7n, flags: 3n, area: 5, bothWays: true });
+  for (const refBits of [32, 64]) {
+    const { bytes, report } = navmeshToDetour(navmesh, { refBits });
+    assert.equal(String.fromCharCode(...bytes.subarray(0, 4)), 'TESM'); // MSET, little-endian
+    assert.deepEqual([report.tileCount, report.polygonCount, report.offMeshLinks], [navmesh.tileCount, navmesh.polygonCount, 1]);
+    const { navmesh: back, report: read } = navmeshFromDetour(bytes);
+    assert.deepEqual([back.polygonCount, read.droppedPolygons, read.offMeshLinks], [navmesh.polygonCount, 0, 1]);
+    assert.ok(Math.abs(back.findPath(START, GOAL).length - navmesh.findPath(START, GOAL).length) < 0.05);
+    const [link] = back.offMeshLinks();
+    assert.deepEqual([link.user, link.flags, link.area, link.bothWays, link.anchored], [7n, 3n, 5, true, true]);
+    for (const size of [0, 3, 40, bytes.length - 1]) assert.match(errorOf(() => navmeshFromDetour(bytes.subarray(0, size))).result, /^TL_ERR/);
+  }
+  assert.equal(errorOf(() => navmeshToDetour(navmesh, { refBits: 16 })).field, 'refBits');
+  navmesh.addOffMeshLink({ start: [2, 0, 20], end: [4, 0, 20], flags: 1n << 20n });
+  const error = errorOf(() => navmeshToDetour(navmesh));
+  assert.deepEqual([error.result, error.element, error.elementIndex], ['TL_ERR_LIMIT', 'off_mesh', 1]);
 });
 
 test('off-mesh links, jump links, audit, why, sight', () => {

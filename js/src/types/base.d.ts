@@ -38,7 +38,7 @@ export interface InitOptions {
   /**
    * 'queries': the small module, `dist/talus-queries.wasm`, half the bytes to be downloaded. It loads what was baked
    * and queries it: `loadPack`, `Soup`, `Navmesh` with paths, off-mesh links and sight. What bakes, changes tiles or
-   * finds links, `Crowd`, `Scene`, `CharacterMover`, `Hull`, the functions on two shapes, `savePack`, `audit` and `why` throw a `TalusError`
+   * finds links, `Crowd`, `Scene`, `CharacterMover`, `Hull`, `decompose`, the functions on two shapes, `savePack`, `audit`, `why`, `navmeshFromDetour` and `navmeshToDetour` throw a `TalusError`
    * ("TL_ERR_UNSUPPORTED"); a `TalusWorker` still bakes, with the full module that it loads for itself. Engines
    * without SIMD get the full module. Default 'full'. Ignored where `wasm` is given.
    */

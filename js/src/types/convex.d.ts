@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 import type { Aabb, BakeHooks, Freeable, Pose, Vec3, Vec3Like } from './base.js';
+import type { Mesh } from './mesh.js';
 
 /** How far an answer can be trusted. */
 export type ConvexStatus = 'converged' | 'iterations' | 'degenerate' | 'not finite';
@@ -77,7 +78,7 @@ export class Hull implements Freeable {
   free(): void;
   [Symbol.dispose](): void;
 
-  /** Null for a hull that came from bytes. */
+  /** Null for a hull that came from bytes, or from `decompose`. */
   report: HullReport | null;
   /** A copy of the hull's bytes: the same as natively. */
   toBytes(): Uint8Array;
@@ -176,3 +177,59 @@ export function castRayAtShape(shape: Shape, pose: Pose | null, origin: Vec3Like
                                maxT?: number): ConvexHit | null;
 /** The box of a shape in the world. */
 export function shapeBounds(shape: Shape, pose?: Pose | null): Aabb;
+
+export interface DecomposeOptions extends BakeHooks {
+  /** Metres, >= 0: the concavity that a part may have. Default 0: as `relativeTolerance` says. */
+  tolerance?: number;
+  /** Above 0, up to 1: share of the longest side of the mesh's box. Default 0.025. */
+  relativeTolerance?: number;
+  /** 0: no limit; else parts are merged beyond the tolerance until there are no more. Default 0. */
+  maxParts?: number;
+  /** Of a part's hull: 0, no limit, or >= 4. The mesh may then reach out of the hulls. Default 256. */
+  maxVertices?: number;
+  /** Metres, >= 0 and at most the tolerance, of the hull of a flat part. Default 0: a sixteenth of the tolerance. */
+  thickness?: number;
+  /** 'enclosed': what cannot be reached from outside is solid; 'surface': rooms of a level stay open. Default 'enclosed'. */
+  solid?: 'enclosed' | 'surface';
+  /** 4,096 to 67,108,864 cells of the grid that guides the cuts, 8 bytes each. Fewer cost more parts, but no truth. Default 1,048,576. */
+  maxCells?: number;
+}
+
+export interface ConvexPart {
+  /** To be freed, like every hull. */
+  hull: Hull;
+  /** Metres: no point of the hull is farther from the body. Proven, not sampled. */
+  concavity: number;
+  /** Metres: no point of the mesh that this part covers is farther outside of its hull. */
+  maxOutside: number;
+}
+
+/** Convex parts of a mesh, which may overlap; those of largest volume come first. */
+export interface Decomposition {
+  parts: ConvexPart[];
+  /** Metres, the largest of the parts. */
+  concavity: number;
+  /** Metres, the largest of the parts. */
+  maxOutside: number;
+  report: {
+    /** Metres, that was asked for. */
+    tolerance: number;
+    /** Metres, side of the grid's cells. */
+    cell: number;
+    /** Without area: left out. */
+    degenerateTriangles: number;
+    cutCount: number;
+    partsBeforeMerging: number;
+    /** Because of `maxParts`, or because they could not be cut any finer. */
+    partsOverTolerance: number;
+  };
+}
+
+/**
+ * Divides a mesh into convex parts, none of which reaches farther from the body than a tolerance. The mesh may be open,
+ * intersect itself, or be loose triangles. It takes from a tenth of a second to some seconds: `TalusWorker` has it too.
+ * @throws TalusError TL_ERR_ARGUMENT (a field), TL_ERR_EMPTY, TL_ERR_DEGENERATE (no triangle has area), TL_ERR_INDEX,
+ * TL_ERR_NOT_FINITE, TL_ERR_RANGE (the tolerance is below the coordinates' rounding, or one is beyond 1e9),
+ * TL_ERR_LIMIT (more than 65,536 parts), TL_ERR_MEMORY, TL_ERR_CANCELLED
+ */
+export function decompose(mesh: Mesh, options?: DecomposeOptions): Decomposition;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-import type { Aabb, BakeHooks, Freeable, Vec3, Vec3Like } from './base.js';
+import type { Aabb, BakeHooks, Freeable, Pose, Vec3, Vec3Like } from './base.js';
+import type { Shape } from './convex.js';
 import type { Mesh } from './mesh.js';
 import type { Soup } from './soup.js';
 import type { NavBakeOptions, NavBakeReport, NavInput, NavOptions } from './nav_bake.js';
@@ -174,12 +175,17 @@ export interface OffMeshLinkState extends Required<OffMeshLink> {
 }
 
 /** A temporary obstacle. `area` 0 (the default) is a solid body, another one gives floors inside that area. */
-export type Obstacle = { area?: number; base: Vec3Like; height: number } & (
-  | { type: 'cylinder'; radius: number }
-  /** Turned about y by `angle` radians, from +x towards -z. */
-  | { type: 'box'; halfX: number; halfZ: number; angle?: number }
-  /** A convex outline around `base`, x and z of each point, at most 16. */
-  | { type: 'prism'; outline: ArrayLike<number>; angle?: number }
+export type Obstacle = { area?: number } & (
+  | ({ base: Vec3Like; height: number } & (
+      | { type: 'cylinder'; radius: number }
+      /** Turned about y by `angle` radians, from +x towards -z. */
+      | { type: 'box'; halfX: number; halfZ: number; angle?: number }
+      /** A convex outline around `base`, x and z of each point, at most 16. */
+      | { type: 'prism'; outline: ArrayLike<number>; angle?: number }
+    ))
+  /** Any shape but 'points' at any pose, null or none for the identity: a hull, a tilted box, a fallen log. A hull that is
+   * freed meanwhile gives its memory back when the obstacle is gone. */
+  | { type: 'convex'; shape: Exclude<Shape, { type: 'points' }>; pose?: Pose | null }
 );
 
 /** How much a navmesh is prepared. */
@@ -326,3 +332,39 @@ export class Navmesh implements Freeable {
   /** Why a point is not walkable, and the setting that would make it so. `mesh`: what was baked. */
   why(mesh: Mesh, point: Vec3Like, options?: NavInput & BakeHooks): WhyAnswer;
 }
+
+/** What a conversion from or to Detour found. */
+export interface DetourReport {
+  tileCount: number;
+  polygonCount: number;
+  /** Writing: polygons whose height detail is beyond Detour's limits; written flat. Reading: with unusable detail. */
+  plainPatches: number;
+  /** Reading: without area or not convex; left out, their links walls. */
+  droppedPolygons: number;
+  /** Reading: links to a polygon that does not link back; made walls. */
+  oneWayLinks: number;
+  /** Off-mesh connections, read or written. */
+  offMeshLinks: number;
+  /** Writing: left out, since they start in no tile. */
+  offMeshOutside: number;
+  /** Writing: that lead farther than into the next tile; they are written, but Detour does not connect them. */
+  offMeshFar: number;
+  /** Reading: polygons of area 0, which became area 63. */
+  areaZeros: number;
+}
+
+/**
+ * Reads a navmesh of Detour, with its off-mesh connections: a set, as RecastDemo and recast-navigation's `exportNavMesh`
+ * write it, or the data of one tile, with references of 32 or 64 bits. Safe on any bytes.
+ * `cellHeight`: metres, heights are rounded to it, for Detour does not keep its own. Default 1/1024.
+ * @throws TalusError TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_TRUNCATED, TL_ERR_CORRUPT, TL_ERR_EMPTY, TL_ERR_NOT_FINITE,
+ * TL_ERR_RANGE (a vertex is on no lattice), TL_ERR_LIMIT, TL_ERR_ARGUMENT, TL_ERR_MEMORY
+ */
+export function navmeshFromDetour(bytes: Uint8Array, options?: { cellHeight?: number }): { navmesh: Navmesh; report: DetourReport };
+/**
+ * A navmesh as a set of Detour's tiles, with its off-mesh links. `refBits`: 64 for a Detour that was compiled with
+ * DT_POLYREF64. Default 32.
+ * @throws TalusError TL_ERR_LIMIT: a polygon of more than 6 corners (bake with `maxVertsPerPoly: 6`), flags above the
+ * lowest 16, an area above 63, a link's `user` above 32 bits; TL_ERR_ARGUMENT, TL_ERR_MEMORY
+ */
+export function navmeshToDetour(navmesh: Navmesh, options?: { refBits?: 32 | 64 }): { bytes: Uint8Array; report: DetourReport };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 import type { BakeHooks, InitOptions, Threads } from './base.js';
-import type { Hull, HullOptions } from './convex.js';
+import type { DecomposeOptions, Decomposition, Hull, HullOptions } from './convex.js';
 import type { Mesh, WeldOptions } from './mesh.js';
 import type { NavBakeOptions, NavInput, NavOptions } from './nav_bake.js';
 import type { Audit, AuditOptions, JumpLink, LinkOptions, LinksReport, WhyAnswer } from './nav_tools.js';
@@ -33,6 +33,7 @@ export class TalusWorker {
   weld(mesh: Mesh, options?: WeldOptions): Promise<ReturnType<Mesh['weld']>>;
   bakeSoup(mesh: Mesh, options?: SoupOptions): Promise<Soup>;
   bakeHull(points: ArrayLike<number>, options?: HullOptions): Promise<Hull>;
+  decompose(mesh: Mesh, options?: DecomposeOptions): Promise<Decomposition>;
   bakeNavmesh(mesh: Mesh, options?: NavBakeOptions): Promise<Navmesh>;
   bakeStages(mesh: Mesh, options?: StageOptions): Promise<BakeStages>;
   polygonSteps(mesh: Mesh, options?: StageOptions & { contour?: number }): Promise<PolygonSteps>;
