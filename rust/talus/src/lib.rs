@@ -3,6 +3,7 @@
 
 mod character;
 mod crowd;
+mod decompose;
 mod error;
 mod groups;
 mod level;
@@ -20,6 +21,7 @@ pub use character::{
     Character, CharacterHit, CharacterMover, CharacterReport, CharacterSettings, CharacterStep, Surface,
 };
 pub use crowd::{Agent, AgentSettings, AgentState, AgentStatus, Crowd, CrowdReport, CrowdSettings};
+pub use decompose::{decompose, ConvexPart, DecomposeSettings, Solid};
 pub use error::{Error, ErrorKind};
 pub use groups::{Formation, Group, GroupSettings, GroupState};
 pub use level::Level;

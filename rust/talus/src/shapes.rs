@@ -84,6 +84,49 @@ impl Hull {
         unsafe { (*self.blob.get()).vertex_count }
     }
 
+    /// The corners, in the order of the points that they are.
+    pub fn vertices(&self) -> &[Point] {
+        // SAFETY: the hull is whole; its vertices are three floats each, behind its head by the bytes that it says.
+        unsafe {
+            let hull = self.blob.get();
+            let first = hull.cast::<u8>().add((*hull).vertices as usize).cast::<Point>();
+            std::slice::from_raw_parts(first, (*hull).vertex_count as usize)
+        }
+    }
+
+    /// The faces as fans of triangles, counter-clockwise seen from outside: for drawing.
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        // SAFETY: the hull is whole.
+        let hull = unsafe { &*self.blob.get() };
+        let (edges, faces) = (hull.half_edge_count as usize, hull.face_count as usize);
+        let mut triangles = Vec::with_capacity(edges - 2 * faces);
+        for face in 0..faces {
+            let [first, end] = [0, 1].map(|next| self.word(3 * edges + face + next) as usize);
+            let corner = |half_edge: usize| self.word(3 * half_edge);
+            triangles.extend((first + 2..end).map(|k| [corner(first), corner(k - 1), corner(k)]));
+        }
+        triangles
+    }
+
+    // Word of the topology behind the vertices, as tl_hull_word in talus/hull.h.
+    fn word(&self, at: usize) -> u32 {
+        let end = self.vertices().as_ptr_range().end;
+        // SAFETY: the hull is whole, and callers ask for words that it has, of the width that it says.
+        unsafe {
+            match (*self.blob.get()).index_bytes {
+                1 => u32::from(*end.cast::<u8>().add(at)),
+                2 => u32::from(*end.cast::<u16>().add(at)),
+                _ => *end.cast::<u32>().add(at),
+            }
+        }
+    }
+
+    /// Cubic metres.
+    pub fn volume(&self) -> f64 {
+        // SAFETY: the hull is whole.
+        unsafe { (*self.blob.get()).mass.volume }
+    }
+
     /// Whether a point lies in the hull or on it.
     pub fn contains(&self, point: Point) -> bool {
         // SAFETY: the hull is whole.

@@ -2,8 +2,8 @@
 //! A level with a wall: rays, shapes, paths, files, errors and threads through the safe interface.
 
 use talus::{
-    cast, distance, penetration, Cull, ErrorKind, Hull, HullSettings, Level, Navmesh, NavmeshSettings, Pose, Ray,
-    Shape, Side, Soup,
+    cast, decompose, distance, penetration, Cull, DecomposeSettings, ErrorKind, Hull, HullSettings, Level, Navmesh,
+    NavmeshSettings, Pose, Ray, Shape, Side, Soup,
 };
 
 // A floor 20 m square, and a wall 3 m high with a passage around its end at z = 6.
@@ -138,6 +138,51 @@ fn points_are_inside_or_outside() {
     assert_eq!(cube.locate([1.3, 0.2, -0.1]).unwrap(), Side::Outside);
     assert_eq!(cube.locate([1.0, 0.2, -0.1]).unwrap(), Side::OnSurface);
     assert_eq!(cube.locate([f32::NAN, 0.0, 0.0]).unwrap_err().kind(), ErrorKind::NotFinite);
+}
+
+// Two cubes whose middles are 6 m apart.
+fn two_cubes() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
+    let far = CUBE.map(|[x, y, z]| [x + 6.0, y, z]);
+    let far_sides = CUBE_SIDES.map(|side| side.map(|corner| corner + 8));
+    ([CUBE, far].concat(), [CUBE_SIDES, far_sides].concat())
+}
+
+#[test]
+fn meshes_become_convex_parts() {
+    let (vertices, triangles) = two_cubes();
+    let parts = decompose(&vertices, &triangles, &DecomposeSettings::default()).unwrap();
+    assert_eq!(parts.len(), 2);
+    for part in &parts {
+        assert!(part.concavity <= 0.025 * 8.0 && part.max_outside < 1e-5);
+        assert!((part.hull.volume() - 8.0).abs() < 1e-6 && part.hull.vertices().len() == 8);
+        assert_eq!(part.hull.triangles().len(), 12);
+    }
+    let middles = parts.iter().filter(|part| part.hull.contains([6.0, 0.0, 0.0])).count();
+    assert_eq!(middles, 1);
+    let settings = DecomposeSettings { max_parts: 1, threads: 2, ..DecomposeSettings::default() };
+    let one = decompose(&vertices, &triangles, &settings).unwrap();
+    assert!(one.len() == 1 && one[0].concavity > 1.0 && one[0].hull.contains([3.0, 0.0, 0.0]));
+    let error = decompose(&CUBE, &CUBE_SIDES, &DecomposeSettings { max_vertices: 3, ..settings }).err().unwrap();
+    assert_eq!((error.kind(), error.field()), (ErrorKind::Argument, Some("max_vertices")));
+}
+
+#[test]
+fn triangles_of_a_hull_enclose_its_volume() {
+    let points: Vec<[f32; 3]> = (0..200)
+        .map(|i| (i as f32 * 0.7, i as f32 * 1.3))
+        .map(|(a, b)| [a.sin() * b.cos(), a.cos(), a.sin() * b.sin()])
+        .collect();
+    let hull = Hull::bake(&points).unwrap();
+    let corner = |index: u32| hull.vertices()[index as usize].map(f64::from);
+    let sixfold: f64 = hull
+        .triangles()
+        .iter()
+        .map(|&[a, b, c]| {
+            let ([ax, ay, az], [bx, by, bz], [cx, cy, cz]) = (corner(a), corner(b), corner(c));
+            ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+        })
+        .sum();
+    assert!((sixfold / 6.0 - hull.volume()).abs() < 1e-6 && hull.volume() > 3.0);
 }
 
 #[test]
