@@ -77,6 +77,7 @@ static void every_point_grows_the_hull(void **state)
             volume = tl_vec3d_dot(tl_vec3d_cross(tl_vec3d_sub(seed[0].w, d), tl_vec3d_sub(seed[1].w, d)),
                                   tl_vec3d_sub(seed[2].w, d));
         }
+        polytope.ids = NULL;
         tl_polytope_init(&polytope, seed, SCALE);
         check_polytope(&polytope);
         for (int k = 0; k < 600 && full < 20; k++) {
@@ -135,10 +136,12 @@ static void noise_never_proves_too_much(void **state)
         const double length = pow(10.0, -8.0 * (double)test_random_unit(&random));
         points[1].w = tl_vec3d_mul_add(points[0].w, random_point(&random).w, length);
         static tl_polytope polytope, noisy;
+        polytope.ids = NULL;
         tl_polytope_init(&polytope, points, 0.0);
         for (int i = 0; i < 4; i++) {
             points[i].w = tl_vec3d_mul_add(points[i].w, random_point(&random).w, 0.5 * noise / RADIUS);
         }
+        noisy.ids = NULL;
         tl_polytope_init(&noisy, points, SCALE);
         for (uint32_t f = 0; f < 4 && memcmp(polytope.origins, noisy.origins, 4 * 4) == 0; f++) {
             const tl_polytope_plane plane = tl_polytope_plane_of(&noisy, f);

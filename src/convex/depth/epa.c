@@ -10,6 +10,8 @@
 
 #include "convex/depth/epa.h"
 
+#include "base/compiler.h"
+
 #include "convex/depth/polytope.h"
 #include "math/tolerance.h"
 
@@ -201,7 +203,9 @@ static void expand_polytope(epa_search *s, tl_polytope *p)
 
 static bool grow_kept(tl_minkowski *pair, tl_polytope_cache *cache, tl_core_depth *depth)
 {
+    uint16_t ids[TL_POLYTOPE_VERTICES][2];
     tl_polytope polytope;
+    polytope.ids = ids;
     if (!tl_polytope_resume(pair, cache, &polytope)) {
         return false;
     }
@@ -224,7 +228,9 @@ bool tl_epa_resume(tl_minkowski *pair, tl_polytope_cache *cache, tl_core_depth *
     return tl_polytope_holds(pair, cache, depth) || grow_kept(pair, cache, depth);
 }
 
-void tl_epa_run(tl_minkowski *pair, const tl_gjk *gjk, tl_polytope_cache *cache, tl_core_depth *depth)
+// `ids` is NULL where `cache` is.
+static TL_NOINLINE void run_epa(tl_minkowski *pair, const tl_gjk *gjk, tl_polytope_cache *cache, uint16_t (*ids)[2],
+                                tl_core_depth *depth)
 {
     tl_minkowski_point points[4];
     epa_search s = { pair, 0.0, depth, cache };
@@ -245,7 +251,25 @@ void tl_epa_run(tl_minkowski *pair, const tl_gjk *gjk, tl_polytope_cache *cache,
     }
     if (solid) {
         tl_polytope polytope;
+        polytope.ids = ids;
         tl_polytope_init(&polytope, points, pair->scale);
         expand_polytope(&s, &polytope);
+    }
+}
+
+// Deep in a cast there is no stack for what only a cache asks for.
+static TL_NOINLINE void run_and_keep(tl_minkowski *pair, const tl_gjk *gjk, tl_polytope_cache *cache,
+                                     tl_core_depth *depth)
+{
+    uint16_t ids[TL_POLYTOPE_VERTICES][2];
+    run_epa(pair, gjk, cache, ids, depth);
+}
+
+void tl_epa_run(tl_minkowski *pair, const tl_gjk *gjk, tl_polytope_cache *cache, tl_core_depth *depth)
+{
+    if (cache != NULL) {
+        run_and_keep(pair, gjk, cache, depth);
+    } else {
+        run_epa(pair, gjk, NULL, NULL, depth);
     }
 }

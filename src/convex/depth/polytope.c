@@ -14,22 +14,31 @@
 
 #include "base/assert.h"
 
+enum { SEEN = 3 }; // among a face's half-edges
+
 // The corners of a thin face are off by as much as those of others, so its plane may be turned: no edge is longer than
 // twice the scale and no corner farther away than that, so the offset along the normal is off by four times the error
 // times the square of the scale.
 void tl_polytope_set_key(tl_polytope *p, uint32_t f, tl_polytope_plane plane)
 {
     const double error = TL_POLYTOPE_ERROR * p->scale, turned = 4.0 * error * p->scale * p->scale;
-    p->seen[f] = false;
+    p->origins[4 * f + SEEN] = false;
     p->keys[f] = plane.normal_sq > 0.0 ? (plane.offset - turned) / sqrt(plane.normal_sq) - error : (double)INFINITY;
+}
+
+static uint16_t polytope_id(uint32_t vertex)
+{
+    return (uint16_t)(vertex < TL_POLYTOPE_NO_ID ? vertex : TL_POLYTOPE_NO_ID);
 }
 
 static uint8_t add_polytope_vertex(tl_polytope *p, const tl_minkowski_point *point)
 {
     p->vertices[p->vertex_count].w = point->w;
     p->vertices[p->vertex_count].a = point->a;
-    p->ids[p->vertex_count][0] = (uint16_t)(point->vertex_a < TL_POLYTOPE_NO_ID ? point->vertex_a : TL_POLYTOPE_NO_ID);
-    p->ids[p->vertex_count][1] = (uint16_t)(point->vertex_b < TL_POLYTOPE_NO_ID ? point->vertex_b : TL_POLYTOPE_NO_ID);
+    if (p->ids != NULL) {
+        p->ids[p->vertex_count][0] = polytope_id(point->vertex_a);
+        p->ids[p->vertex_count][1] = polytope_id(point->vertex_b);
+    }
     return (uint8_t)p->vertex_count++;
 }
 
@@ -98,17 +107,17 @@ static void find_visible(tl_polytope *p, uint32_t first, tl_vec3d point, double 
     uint16_t stack[TL_POLYTOPE_FACES + 2]; // each face seen takes one half-edge off and puts two on
     uint32_t depth = 3, seen_count = 1, rim_count = 0;
     v->seen[0] = (uint8_t)first;
-    p->seen[first] = true;
+    p->origins[4 * first + SEEN] = true;
     stack[0] = p->twins[4 * first + 2];
     stack[1] = p->twins[4 * first + 1];
     stack[2] = p->twins[4 * first];
     while (depth > 0) {
         uint32_t across = stack[--depth];
-        if (p->seen[across >> 2]) {
+        if (p->origins[across | SEEN]) {
             continue;
         }
         if (point_sees(p, across >> 2, point, coplanar_sq)) {
-            p->seen[across >> 2] = true;
+            p->origins[across | SEEN] = true;
             v->seen[seen_count++] = (uint8_t)(across >> 2);
             stack[depth++] = p->twins[previous_of(across)];
             stack[depth++] = p->twins[next_of(across)];
@@ -179,7 +188,7 @@ bool tl_polytope_add(tl_polytope *p, uint32_t face, const tl_minkowski_point *po
     const uint32_t slots = p->face_count - p->free_count + v.rim_count;
     if (!is_loop(p, &v) || slots > TL_POLYTOPE_FACES + v.seen_count) {
         for (uint32_t i = 0; i < v.seen_count; i++) {
-            p->seen[v.seen[i]] = false;
+            p->origins[4 * v.seen[i] + SEEN] = false;
         }
         return false;
     }
@@ -187,7 +196,7 @@ bool tl_polytope_add(tl_polytope *p, uint32_t face, const tl_minkowski_point *po
     fan_to_apex(p, &v, add_polytope_vertex(p, point));
     for (uint32_t i = v.rim_count; i < v.seen_count; i++) {
         p->keys[v.seen[i]] = (double)INFINITY;
-        p->seen[v.seen[i]] = false;
+        p->origins[4 * v.seen[i] + SEEN] = false;
         p->free_faces[p->free_count++] = v.seen[i];
     }
     TL_ASSERT(p->face_count <= TL_POLYTOPE_FACES);

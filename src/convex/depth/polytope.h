@@ -32,16 +32,18 @@ typedef struct tl_polytope_plane {
 // Half-edge 4 f + i leads from corner i of face f to the next, counter-clockwise from outside; i is 0, 1 or 2.
 typedef struct tl_polytope {
     tl_polytope_vertex vertices[TL_POLYTOPE_VERTICES];
-    uint16_t ids[TL_POLYTOPE_VERTICES][2]; // the vertices of A and B, or TL_POLYTOPE_NO_ID
+    // The vertices of A and B that each vertex is made of, or TL_POLYTOPE_NO_ID: [TL_POLYTOPE_VERTICES]. NULL where no
+    // cache keeps the polytope. Set before tl_polytope_init.
+    uint16_t (*ids)[2];
     // Metres that the face's plane is surely away from the origin, negative where the origin is outside; infinite for a
     // free slot and for a face without an area, whose points belong to its neighbours too. The polytope lies in A - B,
     // so the least of them bounds the depth.
     double keys[TL_POLYTOPE_FACES];
-    double scale;                           // of the pair, when the last point was found
-    uint16_t twins[4 * TL_POLYTOPE_FACES];  // the same edge in the other direction
-    uint8_t origins[4 * TL_POLYTOPE_FACES]; // the vertex that a half-edge starts at
+    double scale;                          // of the pair, when the last point was found
+    uint16_t twins[4 * TL_POLYTOPE_FACES]; // the same edge in the other direction
+    // The vertex that a half-edge starts at; and 4 f + 3: whether the point that is being added sees face f.
+    uint8_t origins[4 * TL_POLYTOPE_FACES];
     uint8_t free_faces[TL_POLYTOPE_FACES];
-    bool seen[TL_POLYTOPE_FACES];                  // by the point that is being added
     uint32_t vertex_count, face_count, free_count; // slots in use; a dead face's slot is taken again
     bool linked;                                   // twins are set
 } tl_polytope;
