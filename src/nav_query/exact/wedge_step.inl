@@ -147,9 +147,17 @@ static inline bool may_turn_on(wedge_search *s, const step_from *from, uint32_t 
     return (is_walled && s->in->filter == NULL) || is_first_root(s, TURNING_NUMBER | corner_number(from, vertex), cost);
 }
 
-static inline void note_corner(const wedge_search *s, uint64_t turn)
+// Notes a vertex that the start sees. `to_vertex` leads there from the root, which is the start, or where the way bent
+// for the root's rounding (is_on_wall_to_limit): there only what lies in line is seen by the start itself.
+static inline void note_corner(const wedge_search *s, const step_from *from, uint32_t vertex, uint64_t turn,
+                               tl_nav_direction to_vertex)
 {
-    if (turn != 0) {
+    const double x = (double)from->ring[vertex].x, z = (double)from->ring[vertex].z;
+    const tl_nav_direction to_root = { x - to_vertex.x - (double)s->in->start.x,
+                                       z - to_vertex.z - (double)s->in->start.z };
+    const double size = fabs(to_root.x) + fabs(to_root.z) + fabs(to_vertex.x) + fabs(to_vertex.z);
+    const double rounding = fmax(s->rounding, TL_NAV_ON_LINE * fmax(fabs(x), fabs(z)));
+    if (turn != 0 && fabs(wedge_cross(to_root, to_vertex)) <= 2.0 * rounding * size) {
         s->sight->note(s->sight->user, (uint32_t)turn);
     }
 }
@@ -195,7 +203,7 @@ static inline void turn_into(wedge_search *s, const step_from *from, uint32_t i,
     const tl_nav_direction open = { 0.0, 0.0 };
     uint64_t turn = turn_of(s, from, vertex);
     if (s->sight != NULL) {
-        note_corner(s, turn);
+        note_corner(s, from, vertex, turn, to_vertex);
         return;
     }
     cost += length_of(to_vertex);
@@ -311,7 +319,7 @@ static TL_ALWAYS_INLINE void turn_at_limit(wedge_search *s, const step_from *fro
         return;
     }
     if (s->sight != NULL && (turn & CORNER_NUMBER) == 0) {
-        note_corner(s, turn);
+        note_corner(s, from, vertex, turn, limit);
         return;
     }
     float x = from->ring[vertex].x;
