@@ -125,7 +125,7 @@ class Characters:
             step_height: metres: the highest step that they climb, and follow down.
             max_slope: degrees, 0 to 85: steeper ground is a wall.
             gap: metres, > 0, at most radius / 4: kept free around the capsule.
-            max_triangles: near a character at one time, 16 or more; each takes 250 bytes, for each thread.
+            max_triangles: near a character at one time, 16 or more; each takes 340 bytes, for each thread.
             ignored_materials: of the soup, as in `Soup.cast`.
             threads: of `move`; None is all.
 

@@ -20,7 +20,7 @@ pub struct CharacterSettings {
     pub max_slope: f32,
     /// Kept free around the capsule, > 0, at most a quarter of the radius.
     pub gap: f32,
-    /// Triangles near a character at one time, >= 16; each takes 250 bytes.
+    /// Triangles near a character at one time, >= 16; each takes 340 bytes.
     pub max_triangles: u32,
 }
 
