@@ -9,6 +9,7 @@
 #include "nav_query/navmesh/area_table.h"
 #include "nav_query/navmesh/ring_step.h"
 
+#include <math.h>
 #include <talus/nav_around.h>
 
 static void seams_know_their_twins(void **state)
@@ -325,12 +326,45 @@ static void collapsed_vertices_have_walls(void **state)
     TEST_CHECK(astray > 1000);
 }
 
+// A ramp leads up along a tile's border to an upper floor, beside flat floor: the ramp is linked with that over the
+// border, the upper floor is not. So a slit begins where the ramp ends, with floor all around its end, which lies in
+// the middle of an edge on the flat side. The shortest path from the upper floor to the flat one beside it turns there.
+static void slits_end_in_corners(void **state)
+{
+    (void)state;
+    static const char *const ROWS[8] = { "###", "###", "###", "0r1", "000", "###", "###", "###" };
+    tl_nav_query *query = fixture_query(256);
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        fixture_level level = fixture_make(ROWS, 8);
+        level.tile_cells = 4;
+        level.shake = 3;
+        level.seed = seed;
+        tl_navmesh *navmesh = fixture_build(&level, NULL);
+        const float cell = (float)FIXTURE_STEP * level.cell_size, border = 4.0f * cell, x = 2.5f * cell;
+        tl_nav_path_request request = { NULL, { TL_NAV_NO_REF, { 0, 0, 0 } }, { TL_NAV_NO_REF, { 0, 0, 0 } } };
+        const tl_vec3 upper = tl_vec3_make(x, 2.5f, border - 1.0f), flat = tl_vec3_make(x, 0.0f, border + 1.0f);
+        const tl_vec3 extents = { 0.1f, 0.5f, 0.1f };
+        TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, upper, extents, &request.start), TL_OK);
+        TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, flat, extents, &request.goal), TL_OK);
+        tl_nav_corner corners[4];
+        const tl_nav_path_buffers buffers = { NULL, 0, corners, 4 };
+        tl_nav_shortest_path path;
+        TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &request, &buffers, &path), TL_OK);
+        TEST_CHECK(path.status == TL_NAV_PATH_COMPLETE && path.corner_count == 3);
+        TEST_CHECK(corners[1].point.z == border && corners[1].point.x > 0.0f && corners[1].point.x < 2.25f * cell);
+        const double aside = (double)x - (double)corners[1].point.x;
+        TEST_CHECK(fabs(path.length - 2.0 * sqrt(aside * aside + 1.0)) < 1e-5);
+        tl_navmesh_destroy(navmesh);
+    }
+    tl_nav_query_destroy(query);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(seams_know_their_twins),
-                                        cmocka_unit_test(rings_have_no_room_to_spare),
-                                        cmocka_unit_test(far_twins_are_found),
-                                        cmocka_unit_test(large_tiles_have_wide_numbers),
-                                        cmocka_unit_test(collapsed_vertices_have_walls) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(seams_know_their_twins),        cmocka_unit_test(rings_have_no_room_to_spare),
+        cmocka_unit_test(far_twins_are_found),           cmocka_unit_test(large_tiles_have_wide_numbers),
+        cmocka_unit_test(collapsed_vertices_have_walls), cmocka_unit_test(slits_end_in_corners)
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
