@@ -359,12 +359,44 @@ static void slits_end_in_corners(void **state)
     tl_nav_query_destroy(query);
 }
 
+// Where floors fork, over one another or at ramps along tiles' borders, the exact search reaches what find_path does.
+static void forks_are_passed(void **state)
+{
+    (void)state;
+    test_random random = { 11 };
+    tl_nav_query *query = fixture_query(1 << 16);
+    uint32_t reached = 0;
+    for (uint32_t round = 0; round < 200; round++) {
+        fixture_level level = fixture_random(&random, 5, 24);
+        level.tile_cells = round % 2 == 0 ? 24 : 4;
+        tl_navmesh *navmesh = fixture_build(&level, NULL);
+        const fixture_refs all = fixture_all_refs(navmesh);
+        for (uint32_t i = 0; i < 20; i++) {
+            const tl_nav_path_request request = { NULL, fixture_random_location(navmesh, &all, &random),
+                                                  fixture_random_location(navmesh, &all, &random) };
+            tl_nav_path path;
+            tl_nav_ref polygons[1024];
+            tl_nav_shortest_path shortest;
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &request, polygons, 1024, &path), TL_OK);
+            TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &request, NULL, &shortest), TL_OK);
+            TEST_CHECK(path.status == shortest.status);
+            reached += path.status == TL_NAV_PATH_COMPLETE;
+        }
+        free(all.refs);
+        tl_navmesh_destroy(navmesh);
+    }
+    TEST_CHECK(reached > 1000);
+    tl_nav_query_destroy(query);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(seams_know_their_twins),        cmocka_unit_test(rings_have_no_room_to_spare),
-        cmocka_unit_test(far_twins_are_found),           cmocka_unit_test(large_tiles_have_wide_numbers),
-        cmocka_unit_test(collapsed_vertices_have_walls), cmocka_unit_test(slits_end_in_corners)
-    };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(seams_know_their_twins),
+                                        cmocka_unit_test(rings_have_no_room_to_spare),
+                                        cmocka_unit_test(far_twins_are_found),
+                                        cmocka_unit_test(large_tiles_have_wide_numbers),
+                                        cmocka_unit_test(collapsed_vertices_have_walls),
+                                        cmocka_unit_test(slits_end_in_corners),
+                                        cmocka_unit_test(forks_are_passed) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -139,12 +139,14 @@ static inline uint64_t turn_of(const wedge_search *s, const step_from *from, uin
 }
 
 // Whether a wedge that turns around a vertex of edge i may go on over the edge: where there is no wall to end it, only
-// once.
-static inline bool may_turn_on(wedge_search *s, const step_from *from, uint32_t vertex, double cost)
+// once. Where links run back and forth a polygon has more than one way on from there, and each counts for itself.
+static inline bool may_turn_on(wedge_search *s, const step_from *from, uint32_t i, uint32_t vertex, double cost)
 {
     const tl_nav_ring_walls *walls = tl_nav_walls_of(from->rings, &from->ring[vertex]);
     bool is_walled = walls->first_x != 0.0f || walls->first_z != 0.0f;
-    return (is_walled && s->in->filter == NULL) || is_first_root(s, TURNING_NUMBER | corner_number(from, vertex), cost);
+    const uint64_t end = from->rings->has_back && vertex != i ? TURNING_NUMBER >> 3 : 0;
+    const uint64_t number = TURNING_NUMBER | end | corner_number(from, from->rings->has_back ? i : vertex);
+    return (is_walled && s->in->filter == NULL) || is_first_root(s, number, cost);
 }
 
 // Notes a vertex that the start sees. `to_vertex` leads there from the root, which is the start, or where the way bent
@@ -222,7 +224,7 @@ static inline void add_edge_on(wedge_search *s, const step_from *from, uint32_t 
     uint32_t next = i + 1 < from->count ? i + 1 : 0;
     if (is_open_direction(edge->left) || is_open_direction(edge->right)) {
         const tl_nav_direction open = { 0.0, 0.0 };
-        if (!may_turn_on(s, from, is_open_direction(edge->left) ? next : i, root.cost)) {
+        if (!may_turn_on(s, from, i, is_open_direction(edge->left) ? next : i, root.cost)) {
             return;
         }
         add_wedge(s, from, i, root, edge, open, open);
