@@ -12,13 +12,10 @@
 
 enum { MAX_AGENTS = 24, MAX_LINKS = 4, MAX_STEPS = 400, MAX_TILES = 16, GROUP_AGENTS = 6 };
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 static tl_nav_tiles tiles;
 
 typedef struct scene_under_fuzz {
-    const uint8_t *data;
-    size_t size;
+    fuzz_bytes bytes;
     tl_navmesh *navmesh;
     bool has_tile[MAX_TILES];
     tl_nav_ref links[MAX_LINKS];
@@ -29,15 +26,6 @@ typedef struct scene_under_fuzz {
     uint32_t agent_count, steps;
     void *saved;
 } scene_under_fuzz;
-
-static uint8_t next_byte(scene_under_fuzz *f)
-{
-    if (f->size == 0) {
-        return 0;
-    }
-    f->size--;
-    return *f->data++;
-}
 
 // 3 x 3 tiles.
 static void bake_floor(void)
@@ -52,15 +40,15 @@ static void bake_floor(void)
 
 static bool place_from(scene_under_fuzz *f, tl_nav_location *place)
 {
-    const float x = (float)next_byte(f) * 0.08f, z = (float)next_byte(f) * 0.08f;
+    const float x = (float)next_byte(&f->bytes) * 0.08f, z = (float)next_byte(&f->bytes) * 0.08f;
     return tl_navmesh_find_nearest(f->navmesh, NULL, tl_vec3_make(x, 0, z), tl_vec3_make(3, 2, 3), place) == TL_OK;
 }
 
 static void add_agent(scene_under_fuzz *f)
 {
-    const uint8_t kind = next_byte(f);
+    const uint8_t kind = next_byte(&f->bytes);
     tl_nav_agent_def def = tl_default_nav_agent_def();
-    def.position = tl_vec3_make((float)next_byte(f) * 0.08f, 0.0f, (float)next_byte(f) * 0.08f);
+    def.position = tl_vec3_make((float)next_byte(&f->bytes) * 0.08f, 0.0f, (float)next_byte(&f->bytes) * 0.08f);
     def.radius = kind % 4 == 0 ? 0.5f : 0.25f;
     def.max_speed = 0.5f * (float)(kind / 4 % 8);
     def.is_fixed = kind >= 224;
@@ -85,7 +73,7 @@ static void send_agent(scene_under_fuzz *f, uint32_t i)
 {
     tl_nav_location goal;
     if (f->is_fixed[i]) {
-        const tl_vec3 at = tl_vec3_make((float)next_byte(f) * 0.08f, 0.0f, (float)next_byte(f) * 0.08f);
+        const tl_vec3 at = tl_vec3_make((float)next_byte(&f->bytes) * 0.08f, 0.0f, (float)next_byte(&f->bytes) * 0.08f);
         require(tl_nav_crowd_set_motion(f->crowd, f->agents[i], at, tl_vec3_make(1, 0, 0)) == TL_OK);
     } else if (place_from(f, &goal)) {
         const tl_result result = tl_nav_crowd_set_goal(f->crowd, f->agents[i], &goal);
@@ -96,14 +84,14 @@ static void send_agent(scene_under_fuzz *f, uint32_t i)
 static void change_group(scene_under_fuzz *f, uint32_t i)
 {
     tl_nav_group_def def = tl_default_nav_group_def();
-    def.formation = (tl_nav_formation)(next_byte(f) % TL_NAV_FORMATION_SLOTS);
+    def.formation = (tl_nav_formation)(next_byte(&f->bytes) % TL_NAV_FORMATION_SLOTS);
     tl_nav_group group = tl_nav_crowd_group_of(f->crowd, f->agents[i]);
     if (group == TL_NAV_NO_GROUP) {
         const uint32_t rest = f->agent_count - i;
-        const uint32_t count = 1 + next_byte(f) % (rest < GROUP_AGENTS ? rest : GROUP_AGENTS);
+        const uint32_t count = 1 + next_byte(&f->bytes) % (rest < GROUP_AGENTS ? rest : GROUP_AGENTS);
         const tl_result result = tl_nav_crowd_add_group(f->crowd, &def, f->agents + i, count, &group, NULL);
         require(result == TL_OK || result == TL_ERR_ARGUMENT || result == TL_ERR_LIMIT);
-    } else if (next_byte(f) % 2 == 0) {
+    } else if (next_byte(&f->bytes) % 2 == 0) {
         require(tl_nav_crowd_set_formation(f->crowd, group, &def, NULL) == TL_OK);
     } else {
         require(tl_nav_crowd_remove_group(f->crowd, group) == TL_OK);
@@ -132,7 +120,7 @@ static void change_links(scene_under_fuzz *f)
         tl_nav_offmesh link = tl_default_nav_offmesh();
         link.start = ends[0].point;
         link.end = ends[1].point;
-        link.both_ways = next_byte(f) % 2 == 0;
+        link.both_ways = next_byte(&f->bytes) % 2 == 0;
         require(tl_navmesh_add_offmesh(f->navmesh, &link, &f->links[f->link_count], NULL) == TL_OK);
         f->link_count++;
     }
@@ -165,7 +153,7 @@ static void check_agents(const scene_under_fuzz *f)
 static void step_crowd(scene_under_fuzz *f)
 {
     if (f->steps++ < MAX_STEPS) {
-        const float dt = 0.01f * (float)(1 + next_byte(f) % 100);
+        const float dt = 0.01f * (float)(1 + next_byte(&f->bytes) % 100);
         require(tl_nav_crowd_step(f->crowd, f->navmesh, dt, NULL) == TL_OK);
         check_agents(f);
     }
@@ -187,12 +175,12 @@ static void restore_damaged(scene_under_fuzz *f)
 {
     const size_t size = tl_nav_crowd_state_size(f->crowd);
     require(tl_nav_crowd_save(f->crowd, f->saved, size) == TL_OK);
-    const uint8_t count = (uint8_t)(1 + next_byte(f) % 4);
+    const uint8_t count = (uint8_t)(1 + next_byte(&f->bytes) % 4);
     for (uint8_t i = 0; i < count; i++) {
-        const size_t word = ((size_t)next_byte(f) | (size_t)next_byte(f) << 8) % (size / 4);
+        const size_t word = ((size_t)next_byte(&f->bytes) | (size_t)next_byte(&f->bytes) << 8) % (size / 4);
         uint32_t value;
         memcpy(&value, (const uint8_t *)f->saved + 4 * word, sizeof value);
-        value ^= (uint32_t)next_byte(f) << 8 * (next_byte(f) % 4);
+        value ^= (uint32_t)next_byte(&f->bytes) << 8 * (next_byte(&f->bytes) % 4);
         memcpy((uint8_t *)f->saved + 4 * word, &value, sizeof value);
     }
     const uint64_t before = tl_nav_crowd_hash(f->twin);
@@ -207,7 +195,7 @@ static void restore_damaged(scene_under_fuzz *f)
 
 static void run_op(scene_under_fuzz *f)
 {
-    const uint8_t op = next_byte(f);
+    const uint8_t op = next_byte(&f->bytes);
     const uint32_t agent = f->agent_count > 0 ? op / 12u % f->agent_count : 0;
     switch (op % 12) {
     case 0:
@@ -255,8 +243,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     scene_under_fuzz f;
     memset(&f, 0, sizeof f);
-    f.data = data;
-    f.size = size;
+    f.bytes = (fuzz_bytes){ data, size };
     require(tl_navmesh_create(NULL, &f.navmesh) == TL_OK);
     for (uint32_t i = 0; i < tiles.tile_count; i++) {
         toggle_tile(&f, i);
@@ -271,7 +258,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     require(tl_nav_crowd_create(&def, &f.crowd, NULL) == TL_OK && tl_nav_crowd_create(&def, &f.twin, NULL) == TL_OK);
     f.saved = aligned_alloc(64, (tl_nav_crowd_state_size(f.crowd) + 63) / 64 * 64);
     require(f.saved != NULL);
-    while (f.size > 0) {
+    while (f.bytes.size > 0) {
         run_op(&f);
     }
     tl_nav_crowd_destroy(f.crowd);

@@ -4,20 +4,17 @@
 // hulls, no corner of the mesh farther outside of all of them than it says, no point of them farther from the surface
 // where only that is solid, no more parts than allowed; and the same bytes when tasks run backwards.
 
+#include "fuzz/fuzz_input.h"
+
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 #include <talus/decompose.h>
 #include <talus/soup.h>
 
 enum { MAX_VERTICES = 24, MAX_TRIANGLES = 24, SAMPLES = 24 };
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 typedef struct body {
-    const uint8_t *data;
-    size_t size;
+    fuzz_bytes bytes;
     tl_vec3 vertices[MAX_VERTICES];
     uint32_t indices[3 * MAX_TRIANGLES];
     tl_mesh_view view;
@@ -29,42 +26,16 @@ typedef struct body {
     double noise; // metres, of the distances measured here
 } body;
 
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
-
-static uint8_t next_byte(body *b)
-{
-    if (b->size == 0) {
-        return 0;
-    }
-    b->size--;
-    return *b->data++;
-}
-
-// Metres from 0 to 16, most often multiples of an eighth, seldom anything.
-static float next_coordinate(body *b)
-{
-    const uint8_t value = next_byte(b);
-    if (value < 0xf8) {
-        return 0.125f * (float)(value % 128);
-    }
-    const uint8_t exponent = next_byte(b);
-    return value == 0xff ? NAN : ldexpf((float)value - 250.0f, (int)(exponent % 64) - 32);
-}
-
 static void read_triangles(body *b)
 {
-    const uint32_t vertex_count = 3 + next_byte(b) % (MAX_VERTICES - 2), count = 1 + next_byte(b) % MAX_TRIANGLES;
+    const uint32_t vertex_count = 3 + next_byte(&b->bytes) % (MAX_VERTICES - 2),
+                   count = 1 + next_byte(&b->bytes) % MAX_TRIANGLES;
     for (uint32_t i = 0; i < vertex_count; i++) {
-        const float x = next_coordinate(b), y = next_coordinate(b);
-        b->vertices[i] = tl_vec3_make(x, y, next_coordinate(b));
+        const float x = next_grid_coordinate(&b->bytes), y = next_grid_coordinate(&b->bytes);
+        b->vertices[i] = tl_vec3_make(x, y, next_grid_coordinate(&b->bytes));
     }
     for (uint32_t i = 0; i < 3 * count; i++) {
-        b->indices[i] = next_byte(b) % vertex_count;
+        b->indices[i] = next_byte(&b->bytes) % vertex_count;
     }
     const tl_mesh_view view = { b->vertices, vertex_count, b->indices, count, NULL };
     b->view = view;
@@ -74,15 +45,15 @@ static void read_triangles(body *b)
 static void read_def(body *b)
 {
     b->def = tl_default_decompose_def();
-    const uint8_t tolerance = next_byte(b), limits = next_byte(b);
+    const uint8_t tolerance = next_byte(&b->bytes), limits = next_byte(&b->bytes);
     b->def.tolerance = tolerance % 2 == 0 ? 0.0f : 0.125f * (float)(8 + tolerance);
     b->def.relative_tolerance = 0.03125f * (float)(2 + tolerance % 16);
     b->def.max_parts = limits % 8;
     b->def.max_vertices = limits / 8 % 4 == 0 ? 0 : 4u + limits / 8;
-    b->def.thickness = 0.25f * (float)(next_byte(b) % 5);
+    b->def.thickness = 0.25f * (float)(next_byte(&b->bytes) % 5);
     b->def.solid = (tl_solid_rule)(limits / 64 % 2);
-    b->def.max_cells = 4096u << next_byte(b) % 2;
-    b->backwards = next_byte(b) % 4 == 1;
+    b->def.max_cells = 4096u << next_byte(&b->bytes) % 2;
+    b->backwards = next_byte(&b->bytes) % 4 == 1;
 }
 
 static void run_backwards(tl_task_fn *task, uint32_t count, void *task_user, void *user)
@@ -178,8 +149,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static body b;
     memset(&b, 0, sizeof b);
-    b.data = data;
-    b.size = size;
+    b.bytes = (fuzz_bytes){ data, size };
     read_def(&b);
     read_triangles(&b);
     const tl_result result = tl_decomposition_bake(&b.view, &b.def, &b.parts, &b.report);

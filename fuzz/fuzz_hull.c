@@ -4,21 +4,14 @@
 // check and is proven convex, with all points inside and exact support; and so is its image under any map that keeps
 // it solid. The same bytes are also read as a baked hull: what the check accepts must be safe to use.
 
+#include "fuzz/fuzz_input.h"
 #include "math/predicates.h"
 
 #include <talus/hull.h>
 
-#include <stdlib.h>
 #include <string.h>
 
 enum { MAX_POINTS = 64 };
-
-static void require(int condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
 
 static void use(const tl_hull *hull, tl_vec3 direction)
 {

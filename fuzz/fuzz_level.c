@@ -4,9 +4,9 @@
 // reasons, obstacles. A bake fails by name or its tiles are sound; the order of the triangles does not change a byte;
 // obstacles that are gone again leave the bytes of the first bake.
 
+#include "fuzz/fuzz_input.h"
+
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 #include <talus/nav_audit.h>
 #include <talus/nav_bake.h>
@@ -17,11 +17,8 @@
 
 enum { MAX_VERTICES = 32, MAX_TRIANGLES = 40, MAX_AUDIT_STEPS = 1 << 13, MAX_OBSTACLES = 4 };
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 typedef struct level {
-    const uint8_t *data;
-    size_t size;
+    fuzz_bytes bytes;
     tl_vec3 vertices[MAX_VERTICES];
     uint32_t indices[3 * MAX_TRIANGLES], reversed[3 * MAX_TRIANGLES];
     uint8_t areas[MAX_TRIANGLES], reversed_areas[MAX_TRIANGLES];
@@ -32,53 +29,27 @@ typedef struct level {
     tl_soup *soup;
 } level;
 
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
-
-static uint8_t next_byte(level *l)
-{
-    if (l->size == 0) {
-        return 0;
-    }
-    l->size--;
-    return *l->data++;
-}
-
-// Metres from 0 to 16, most often multiples of an eighth, seldom anything.
-static float next_coordinate(level *l)
-{
-    const uint8_t value = next_byte(l);
-    if (value < 0xf8) {
-        return 0.125f * (float)(value % 128);
-    }
-    const uint8_t exponent = next_byte(l);
-    return value == 0xff ? NAN : ldexpf((float)value - 250.0f, (int)(exponent % 64) - 32);
-}
-
 static tl_vec3 next_point(level *l)
 {
-    const float x = next_coordinate(l), y = 0.25f * next_coordinate(l);
-    return tl_vec3_make(x, y, next_coordinate(l));
+    const float x = next_grid_coordinate(&l->bytes), y = 0.25f * next_grid_coordinate(&l->bytes);
+    return tl_vec3_make(x, y, next_grid_coordinate(&l->bytes));
 }
 
 // The same triangles in reverse order too.
 static void read_triangles(level *l)
 {
-    const uint32_t vertex_count = 3 + next_byte(l) % (MAX_VERTICES - 2), count = 1 + next_byte(l) % MAX_TRIANGLES;
+    const uint32_t vertex_count = 3 + next_byte(&l->bytes) % (MAX_VERTICES - 2),
+                   count = 1 + next_byte(&l->bytes) % MAX_TRIANGLES;
     for (uint32_t i = 0; i < vertex_count; i++) {
         l->vertices[i] = next_point(l);
     }
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t other = count - 1 - i;
         for (uint32_t k = 0; k < 3; k++) {
-            l->indices[3 * i + k] = next_byte(l) % vertex_count;
+            l->indices[3 * i + k] = next_byte(&l->bytes) % vertex_count;
             l->reversed[3 * other + k] = l->indices[3 * i + k];
         }
-        l->areas[i] = (uint8_t)(next_byte(l) % 8 == 0 ? i : TL_NAV_WALKABLE_AREA);
+        l->areas[i] = (uint8_t)(next_byte(&l->bytes) % 8 == 0 ? i : TL_NAV_WALKABLE_AREA);
         l->reversed_areas[other] = l->areas[i];
     }
     const tl_mesh_view forwards = { l->vertices, vertex_count, l->indices, count, NULL };
@@ -93,21 +64,21 @@ static void read_triangles(level *l)
 static void read_def(level *l)
 {
     l->def = tl_default_nav_def();
-    l->def.cell_size = 0.125f * (float)(1 + next_byte(l) % 8);
-    l->def.cell_height = 0.0625f * (float)(1 + next_byte(l) % 8);
-    l->def.agent_height = 0.25f * (float)(1 + next_byte(l) % 10);
-    l->def.agent_radius = 0.125f * (float)(next_byte(l) % 8);
-    l->def.agent_max_climb = 0.125f * (float)(next_byte(l) % 12);
-    l->def.agent_max_slope = (float)(next_byte(l) % 90);
-    l->def.region_min_size = (float)(next_byte(l) % 8);
-    l->def.region_merge_size = (float)(next_byte(l) % 24);
-    l->def.edge_max_len = (float)(next_byte(l) % 16);
-    l->def.edge_max_error = 0.25f * (float)(next_byte(l) % 16);
-    l->def.max_verts_per_poly = 3 + next_byte(l) % 10;
-    l->def.detail_sample_dist = (float)(next_byte(l) % 8);
-    l->def.partition = (tl_nav_partition)(next_byte(l) % 3);
-    l->def.polygon_method = (tl_partition_method)(next_byte(l) % 2);
-    const uint8_t filters = next_byte(l);
+    l->def.cell_size = 0.125f * (float)(1 + next_byte(&l->bytes) % 8);
+    l->def.cell_height = 0.0625f * (float)(1 + next_byte(&l->bytes) % 8);
+    l->def.agent_height = 0.25f * (float)(1 + next_byte(&l->bytes) % 10);
+    l->def.agent_radius = 0.125f * (float)(next_byte(&l->bytes) % 8);
+    l->def.agent_max_climb = 0.125f * (float)(next_byte(&l->bytes) % 12);
+    l->def.agent_max_slope = (float)(next_byte(&l->bytes) % 90);
+    l->def.region_min_size = (float)(next_byte(&l->bytes) % 8);
+    l->def.region_merge_size = (float)(next_byte(&l->bytes) % 24);
+    l->def.edge_max_len = (float)(next_byte(&l->bytes) % 16);
+    l->def.edge_max_error = 0.25f * (float)(next_byte(&l->bytes) % 16);
+    l->def.max_verts_per_poly = 3 + next_byte(&l->bytes) % 10;
+    l->def.detail_sample_dist = (float)(next_byte(&l->bytes) % 8);
+    l->def.partition = (tl_nav_partition)(next_byte(&l->bytes) % 3);
+    l->def.polygon_method = (tl_partition_method)(next_byte(&l->bytes) % 2);
+    const uint8_t filters = next_byte(&l->bytes);
     l->def.filter_low_hanging_obstacles = filters % 2 == 0;
     l->def.filter_ledge_spans = filters / 2 % 2 == 0;
     l->def.filter_walkable_low_height_spans = filters / 4 % 2 == 0;
@@ -198,15 +169,15 @@ static tl_nav_obstacle next_obstacle(level *l)
 {
     tl_nav_obstacle obstacle;
     memset(&obstacle, 0, sizeof obstacle);
-    const uint8_t kind = next_byte(l);
+    const uint8_t kind = next_byte(&l->bytes);
     obstacle.shape = kind % 2 == 0 ? TL_NAV_OBSTACLE_CYLINDER : TL_NAV_OBSTACLE_BOX;
     obstacle.area = kind % 4 < 2 ? TL_NAV_NULL_AREA : 7;
     obstacle.base = next_point(l);
-    obstacle.height = 0.25f * (float)(next_byte(l) % 16);
-    obstacle.radius = 0.125f * (float)(1 + next_byte(l) % 32);
+    obstacle.height = 0.25f * (float)(next_byte(&l->bytes) % 16);
+    obstacle.radius = 0.125f * (float)(1 + next_byte(&l->bytes) % 32);
     obstacle.half_x = obstacle.radius;
-    obstacle.half_z = 0.125f * (float)(next_byte(l) % 16);
-    obstacle.cosine = (float)(next_byte(l) % 5) - 2.0f;
+    obstacle.half_z = 0.125f * (float)(next_byte(&l->bytes) % 16);
+    obstacle.cosine = (float)(next_byte(&l->bytes) % 5) - 2.0f;
     obstacle.sine = 1.0f;
     return obstacle;
 }
@@ -233,7 +204,7 @@ static void put_obstacles(level *l)
     tl_nav_obstacles *obstacles;
     tl_nav_obstacle_id ids[MAX_OBSTACLES];
     tl_navmesh *navmesh;
-    const uint32_t count = next_byte(l) % (MAX_OBSTACLES + 1);
+    const uint32_t count = next_byte(&l->bytes) % (MAX_OBSTACLES + 1);
     require(tl_navmesh_create(NULL, &navmesh) == TL_OK);
     require(tl_nav_obstacles_bake(&l->def, &l->input, &obstacles, NULL, NULL) == TL_OK);
     uint32_t added = 0;
@@ -256,7 +227,7 @@ static void put_obstacles(level *l)
 static void use_navmesh(level *l)
 {
     tl_nav_query *query;
-    const tl_nav_query_def def = { 2 + next_byte(l), NULL, TL_DEF_COOKIE };
+    const tl_nav_query_def def = { 2 + next_byte(&l->bytes), NULL, TL_DEF_COOKIE };
     require(tl_nav_query_create(&def, &query, NULL) == TL_OK);
     for (uint32_t i = 0; i < 4; i++) {
         ask_path(l, query);
@@ -276,8 +247,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static level l;
     memset(&l, 0, sizeof l);
-    l.data = data;
-    l.size = size;
+    l.bytes = (fuzz_bytes){ data, size };
     require(tl_navmesh_create(NULL, &l.navmesh) == TL_OK);
     read_def(&l);
     read_triangles(&l);

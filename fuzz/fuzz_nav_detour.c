@@ -3,19 +3,10 @@
 // Untrusted bytes as Detour tiles: what tl_detour_read accepts becomes a tile that passes its own check, and can be
 // written and read again.
 
-#include <stdint.h>
-#include <stdlib.h>
+#include "fuzz/fuzz_input.h"
+
 #include <string.h>
 #include <talus/nav_detour.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -5,22 +5,13 @@
 // Raw mutations of a valid file rarely get past the counts, so an input is a list of edits (offset, byte) to a tile
 // that is baked here; an input that begins with 0xff is taken as the tile's bytes themselves.
 
+#include "fuzz/fuzz_input.h"
+
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 #include <talus/nav_query.h>
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 enum { SIDE = 3, STEP = 8, POLYGONS = SIDE * SIDE, VERTICES = (SIDE + 1) * (SIDE + 1) };
-
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
 
 static uint32_t vertex_at(uint32_t x, uint32_t z)
 {

@@ -6,19 +6,10 @@
 // table and header are recomputed, which lets the fuzzer reach the code behind them.
 
 #include "base/hash.h"
+#include "fuzz/fuzz_input.h"
 #include "pack/pack_format.h"
 
-#include <stdlib.h>
 #include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
 
 static void repair(uint8_t *bytes, size_t size)
 {

@@ -12,8 +12,6 @@
 
 enum { PATCH = 6, PLACES = 6, POINTS = 32 };
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 static memory_file bare, patched; // without routes, and with the input's
 static tl_nav_tiles tiles;
 static tl_pack_navmesh *settings;

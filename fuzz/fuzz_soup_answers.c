@@ -4,19 +4,16 @@
 // qualities give the same bits, batches those of single calls, and the closest hit is that of soups of one triangle
 // each. Coordinates are mostly small integers, so that much lies in one plane, on one edge or in one point.
 
+#include "fuzz/fuzz_input.h"
+
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 #include <talus/soup.h>
 
 enum { MAX_VERTICES = 24, MAX_TRIANGLES = 48, MAX_RAYS = 40, SOUPS = 6 };
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 typedef struct input {
-    const uint8_t *data;
-    size_t size;
+    fuzz_bytes bytes;
     tl_vec3 vertices[MAX_VERTICES];
     uint32_t indices[3 * MAX_TRIANGLES];
     uint16_t materials[MAX_TRIANGLES];
@@ -28,27 +25,11 @@ typedef struct input {
     tl_ray_filter filter;
 } input;
 
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
-
-static uint8_t next_byte(input *in)
-{
-    if (in->size == 0) {
-        return 0;
-    }
-    in->size--;
-    return *in->data++;
-}
-
 static float next_raw_float(input *in)
 {
     uint8_t bytes[4];
     for (uint32_t i = 0; i < 4; i++) {
-        bytes[i] = next_byte(in);
+        bytes[i] = next_byte(&in->bytes);
     }
     float value;
     memcpy(&value, bytes, sizeof value);
@@ -57,13 +38,13 @@ static float next_raw_float(input *in)
 
 static float next_coordinate(input *in)
 {
-    const uint8_t kind = next_byte(in);
+    const uint8_t kind = next_byte(&in->bytes);
     const float small = (float)(kind % 16) - 8.0f;
     switch (kind / 16) {
     case 12:
         return small * 0.1f;
     case 13:
-        return ldexpf(small, (int)next_byte(in) - 128);
+        return ldexpf(small, (int)next_byte(&in->bytes) - 128);
     case 14:
         return nextafterf(small, INFINITY);
     case 15:
@@ -81,13 +62,13 @@ static tl_vec3 next_vector(input *in)
 
 static void read_triangles(input *in)
 {
-    const uint32_t vertex_count = 3 + next_byte(in) % (MAX_VERTICES - 2);
-    const uint32_t triangle_count = 1 + next_byte(in) % MAX_TRIANGLES;
+    const uint32_t vertex_count = 3 + next_byte(&in->bytes) % (MAX_VERTICES - 2);
+    const uint32_t triangle_count = 1 + next_byte(&in->bytes) % MAX_TRIANGLES;
     for (uint32_t i = 0; i < vertex_count; i++) {
         in->vertices[i] = next_vector(in);
     }
     for (uint32_t i = 0; i < 3 * triangle_count; i++) {
-        in->indices[i] = next_byte(in) % vertex_count;
+        in->indices[i] = next_byte(&in->bytes) % vertex_count;
     }
     for (uint32_t i = 0; i < triangle_count; i++) {
         in->materials[i] = (uint16_t)(i % 5);
@@ -143,15 +124,15 @@ static void bake_singles(input *in)
 // Rays, half of them aimed at a vertex, so that edges and corners are met.
 static void read_rays(input *in)
 {
-    in->ray_count = 1 + next_byte(in) % MAX_RAYS;
+    in->ray_count = 1 + next_byte(&in->bytes) % MAX_RAYS;
     for (uint32_t i = 0; i < in->ray_count; i++) {
         tl_ray *ray = &in->rays[i];
         ray->origin = next_vector(in);
-        const uint8_t aim = next_byte(in);
+        const uint8_t aim = next_byte(&in->bytes);
         ray->direction = aim < 128 ? tl_sub(in->vertices[aim % in->view.vertex_count], ray->origin) : next_vector(in);
         ray->tmax = aim % 3 == 0 ? 1.0f : aim % 3 == 1 ? INFINITY : fabsf(next_coordinate(in));
     }
-    const uint8_t kind = next_byte(in);
+    const uint8_t kind = next_byte(&in->bytes);
     in->filter.cull = (tl_ray_cull)(kind % 3);
     in->filter.ignored_materials = kind / 3 % 8;
 }
@@ -266,8 +247,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static input in;
     memset(&in, 0, sizeof in);
-    in.data = data;
-    in.size = size;
+    in.bytes = (fuzz_bytes){ data, size };
     read_triangles(&in);
     if (bake_soups(&in)) {
         bake_singles(&in);

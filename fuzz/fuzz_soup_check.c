@@ -8,12 +8,10 @@
 
 #define _POSIX_C_SOURCE 200112L
 
-#include <stdint.h>
-#include <stdlib.h>
+#include "fuzz/fuzz_input.h"
+
 #include <string.h>
 #include <talus/soup.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static tl_soup *build_sample(tl_soup_layout layout)
 {
@@ -55,13 +53,6 @@ static bool count_box(tl_aabb box, uint32_t depth, bool leaf, void *user)
     (void)leaf;
     ++*(uint32_t *)user;
     return true;
-}
-
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
 }
 
 static void use_soup(const tl_soup *soup)

@@ -5,19 +5,13 @@
 #ifndef TALUS_FUZZ_HOLED_FLOOR_H
 #define TALUS_FUZZ_HOLED_FLOOR_H
 
+#include "fuzz/fuzz_input.h"
+
 #include <talus/nav_bake.h>
 
-#include <stdlib.h>
 #include <string.h>
 
 enum { HOLED_FLOOR_SIDE = 10 };
-
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
 
 /// Bakes it by the def, whose bounds are set to the floor's.
 static void holed_floor_bake(tl_nav_def *def, tl_nav_tiles *tiles_out)
