@@ -109,7 +109,7 @@ static uint32_t check_record(const tl_sweep_record *record, const tl_lattice_poi
                 ends = ends || tl_is_swept_first(points[other], points[p]);
             }
         }
-        if (begins && !ends) {
+        if (begins || ends) {
             TEST_CHECK(record->below[p] == brute_below(points, segments, count, p));
             located += record->below[p] != TL_NO_SEGMENT;
         }

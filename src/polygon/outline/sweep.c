@@ -268,6 +268,9 @@ static bool pass_point(sweep_line *s, uint32_t point)
     if (ended > 0 && (runs_through(s, around[0], point) || runs_through(s, around[1], point))) {
         return false;
     }
+    if (ended > 0 && s->record != NULL) {
+        s->record->below[point] = around[0];
+    }
     return begin_segments(s, point, around, ended > 0);
 }
 

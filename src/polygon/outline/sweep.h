@@ -18,7 +18,7 @@ typedef struct tl_lattice_segment {
 /// What a sweep that finds no contact has seen, for those who go the same way again.
 typedef struct tl_sweep_record {
     uint32_t *order; // [point] the points by rising x, then z
-    uint32_t *below; // [point] of points where segments only begin: the next segment below it, or TL_NO_SEGMENT
+    uint32_t *below; // [point] of points with segments: the next one below them, or TL_NO_SEGMENT
 } tl_sweep_record;
 
 /// A sweep over an outline's edges that found no contact. Vertices at one place are one point, edges that run along one
