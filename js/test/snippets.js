@@ -10,9 +10,13 @@ import { fileURLToPath } from 'node:url';
 const root = fileURLToPath(new URL('..', import.meta.url));
 const readme = readFileSync(join(root, 'README.md'), 'utf8');
 
-/** A title, a source and what it prints for each snippet. */
-export const snippets = [...readme.matchAll(/^## (.*)$[^]*?^```js\n([^]*?)^```\n\n```text\n([^]*?)^```/gm)]
-  .map(([, title, source, printed]) => ({ title, source, printed }));
+/** A title, a source and what it prints for each snippet; a section may have several. */
+export const snippets = [];
+let title = '';
+for (const [, heading, source, printed] of readme.matchAll(/^## (.*)$|^```js\n([^]*?)^```\n\n```text\n([^]*?)^```/gm)) {
+  if (heading !== undefined) title = heading;
+  else snippets.push({ title, source, printed });
+}
 
 /** How many sources there are: each must be a snippet. */
 export const sourceCount = readme.match(/^```js$/gm).length;
