@@ -26,7 +26,7 @@ typedef struct vertex_fan {
     double x, z;             // the vertex
     double first_x, first_z; // along the first edge
     double last_x, last_z;   // along the last one
-    bool is_beside; // it has turned away from its first edge's line, or to where that comes from
+    bool is_beside;          // it has turned away from its first edge's line, or to where that comes from
     bool is_wide;
     bool is_odd; // walls do not tell on which hand to turn: ways fork, or go more than once around, or too many
 } vertex_fan;
@@ -57,8 +57,8 @@ static void begin_fan(vertex_fan *f, const tl_nav_ring_edge *first, const tl_nav
     f->is_odd = false;
 }
 
-// A fan turns left from its first edge: while it is no wider than a half plane nothing lies on the right. Around the end
-// of a slit nothing need lie there either: the fan comes back to where it began.
+// A fan turns left from its first edge: while it is no wider than a half plane nothing lies on the right. Around the
+// end of a slit nothing need lie there either: the fan comes back to where it began.
 static void widen_fan(vertex_fan *f, const tl_nav_ring_edge *end)
 {
     double dx = (double)end->x - f->x;
@@ -68,7 +68,7 @@ static void widen_fan(vertex_fan *f, const tl_nav_ring_edge *end)
     double ahead = f->first_x * dz;
     double aside = f->first_z * dx;
     double error = TL_CROSS_ERROR * (fabs(ahead) + fabs(aside));
-    const bool is_left = ahead - aside < -error, is_right = ahead - aside > error;
+    const bool is_left = ahead - aside<-error, is_right = ahead - aside> error;
     const double along = f->first_x * dx + f->first_z * dz;
     // Once past the line and back on its left side: the fan winds up a spiral stair, more than once around.
     f->is_odd = f->is_odd || (f->is_wide && is_left);
