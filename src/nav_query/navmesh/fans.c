@@ -68,7 +68,8 @@ static void widen_fan(vertex_fan *f, const tl_nav_ring_edge *end)
     double ahead = f->first_x * dz;
     double aside = f->first_z * dx;
     double error = TL_CROSS_ERROR * (fabs(ahead) + fabs(aside));
-    const bool is_left = ahead - aside<-error, is_right = ahead - aside> error;
+    const bool is_left = ahead - aside < -error;
+    const bool is_right = ahead - aside > error;
     const double along = f->first_x * dx + f->first_z * dz;
     // Once past the line and back on its left side: the fan winds up a spiral stair, more than once around.
     f->is_odd = f->is_odd || (f->is_wide && is_left);
