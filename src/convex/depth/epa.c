@@ -11,7 +11,6 @@
 #include "convex/depth/epa.h"
 
 #include "base/compiler.h"
-
 #include "convex/depth/polytope.h"
 #include "math/tolerance.h"
 
@@ -219,13 +218,22 @@ static bool grow_kept(tl_minkowski *pair, tl_polytope_cache *cache, tl_core_dept
     return depth->status == TL_CONVEX_CONVERGED;
 }
 
+// Whether a cache holds triangles between its points: a caller's may hold anything.
+static bool is_polytope(const tl_polytope_cache *cache)
+{
+    bool is_sound = cache->point_count >= 4 && cache->point_count <= TL_KEPT_POINTS && cache->face_count >= 4 &&
+                    cache->face_count <= TL_KEPT_FACES;
+    for (uint32_t f = 0; is_sound && f < cache->face_count; f++) {
+        const uint8_t *corners = cache->corners[f];
+        is_sound =
+            corners[0] < cache->point_count && corners[1] < cache->point_count && corners[2] < cache->point_count;
+    }
+    return is_sound;
+}
+
 bool tl_epa_resume(tl_minkowski *pair, tl_polytope_cache *cache, tl_core_depth *depth)
 {
-    if (cache->point_count < 4 || cache->point_count > TL_KEPT_POINTS || cache->face_count < 4 ||
-        cache->face_count > TL_KEPT_FACES) {
-        return false;
-    }
-    return tl_polytope_holds(pair, cache, depth) || grow_kept(pair, cache, depth);
+    return is_polytope(cache) && (tl_polytope_holds(pair, cache, depth) || grow_kept(pair, cache, depth));
 }
 
 // `ids` is NULL where `cache` is.

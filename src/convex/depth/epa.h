@@ -17,7 +17,7 @@ void tl_epa_run(tl_minkowski *pair, const tl_gjk *gjk, tl_polytope_cache *cache,
 bool tl_epa_resume(tl_minkowski *pair, tl_polytope_cache *cache, tl_core_depth *depth);
 
 // polytope_hold.c
-// Whether that polytope proves the depth without a step, whose fields are set then.
+// Whether that polytope, which is one, proves the depth without a step, whose fields are set then.
 bool tl_polytope_holds(tl_minkowski *pair, const tl_polytope_cache *cache, tl_core_depth *depth);
 
 #endif

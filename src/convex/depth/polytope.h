@@ -97,7 +97,7 @@ bool tl_polytope_add(tl_polytope *polytope, uint32_t face, const tl_minkowski_po
 void tl_polytope_keep(tl_polytope *polytope, uint32_t nearest, double lower, tl_polytope_cache *cache_out);
 
 // The polytope that was kept, its points where they are now. False when it does not hold the origin. The caller has
-// checked the counts.
+// checked it.
 bool tl_polytope_resume(tl_minkowski *pair, const tl_polytope_cache *cache, tl_polytope *polytope_out);
 
 // Finds the twins of a polytope that was resumed. False when its faces are no closed surface.

@@ -8,8 +8,9 @@
 
 #include "convex/depth/epa.h"
 
-// The foot of the origin may be so much of a triangle's area outside of it and is taken to its edge.
-#define FOOT_ERROR 1e-9
+// The foot of the origin may be outside of a triangle by so much of its area: the witnesses, which are taken from it as
+// it is, leave the triangle by that share of its size at most, 1/256 of the gap between bounds that count as equal.
+#define FOOT_SHARE (TL_EPA_DEPTH_GAP / 256.0)
 
 typedef struct kept_body {
     const tl_polytope_cache *cache;
@@ -51,17 +52,6 @@ static double size_of(const kept_body *body)
     return most;
 }
 
-static bool corners_exist(const tl_polytope_cache *cache)
-{
-    bool exist = true;
-    for (uint32_t f = 0; f < cache->face_count; f++) {
-        const uint8_t *corners = cache->corners[f];
-        exist = exist && corners[0] < cache->point_count && corners[1] < cache->point_count &&
-                corners[2] < cache->point_count;
-    }
-    return exist;
-}
-
 // Witnesses on a face, along whose normal the depth is known; false when the foot of the origin lies beside it.
 static bool witness_on_face(const kept_body *body, uint32_t face, tl_core_depth *depth)
 {
@@ -71,7 +61,7 @@ static bool witness_on_face(const kept_body *body, uint32_t face, tl_core_depth 
     const tl_vec3d n = depth->normal;
     const double at_p = tl_vec3d_dot(n, tl_vec3d_cross(q->w, r->w)), at_q = tl_vec3d_dot(n, tl_vec3d_cross(r->w, p->w)),
                  at_r = tl_vec3d_dot(n, tl_vec3d_cross(p->w, q->w)), sum = at_p + at_q + at_r,
-                 least = -FOOT_ERROR * sum;
+                 least = -FOOT_SHARE * sum;
     if (!(at_p >= least && at_q >= least && at_r >= least && sum > 0.0)) {
         return false;
     }
@@ -87,7 +77,7 @@ bool tl_polytope_holds(tl_minkowski *pair, const tl_polytope_cache *cache, tl_co
 {
     kept_body body;
     body.cache = cache;
-    if (!corners_exist(cache) || !tl_minkowski_vertices(pair, cache->vertices, cache->point_count, body.points)) {
+    if (!tl_minkowski_vertices(pair, cache->vertices, cache->point_count, body.points)) {
         return false;
     }
     const double error = TL_POLYTOPE_ERROR * pair->scale;

@@ -145,9 +145,6 @@ bool tl_polytope_resume(tl_minkowski *pair, const tl_polytope_cache *cache, tl_p
     p->scale = pair->scale;
     for (uint32_t f = 0; f < p->face_count; f++) {
         for (uint32_t i = 0; i < 3; i++) {
-            if (cache->corners[f][i] >= p->vertex_count) {
-                return false;
-            }
             p->origins[4 * f + i] = cache->corners[f][i];
         }
         tl_polytope_set_key(p, f, tl_polytope_plane_of(p, f));
