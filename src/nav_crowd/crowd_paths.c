@@ -103,15 +103,26 @@ void tl_crowd_begin_path(tl_nav_crowd *crowd, uint32_t i, const tl_nav_corridor 
     a->stalled[i] = 0.0f;
 }
 
+// Where an agent's goal is now: on the polygon that it was given, or, where that went, on the nearest. False: nowhere.
+static bool find_goal(const crowd_step *step, uint32_t i, tl_nav_location *goal_out)
+{
+    const tl_nav_crowd *crowd = step->crowd;
+    const crowd_fields *a = &crowd->a;
+    goal_out->polygon = a->goal_polygon[i];
+    goal_out->point = tl_crowd_get3(a->goal, i);
+    return tl_navmesh_resolve(step->navmesh, goal_out->polygon, NULL, NULL) == TL_OK ||
+           tl_navmesh_find_nearest(step->navmesh, &crowd->filters[a->filter[i]], goal_out->point,
+                                   relocate_extents(crowd, i), goal_out) == TL_OK;
+}
+
 void tl_crowd_search_path(const crowd_step *step, uint32_t i, tl_nav_query *query)
 {
     tl_nav_crowd *crowd = step->crowd;
     crowd_fields *a = &crowd->a;
     const tl_nav_filter *filter = &crowd->filters[a->filter[i]];
-    tl_nav_location goal = { a->goal_polygon[i], tl_crowd_get3(a->goal, i) };
+    tl_nav_location goal;
     a->flags[i] &= ~(CROWD_PARTIAL | CROWD_GAVE_UP | CROWD_NEED_PATH | CROWD_ASK_LATER);
-    if (tl_navmesh_resolve(step->navmesh, goal.polygon, NULL, NULL) != TL_OK &&
-        tl_navmesh_find_nearest(step->navmesh, filter, goal.point, relocate_extents(crowd, i), &goal) != TL_OK) {
+    if (!find_goal(step, i, &goal)) {
         // There is no goal now: it stands until there is.
         a->flags[i] |= CROWD_PARTIAL;
         tl_nav_location here = { a->path[(size_t)i * crowd->def.max_path], tl_crowd_position(crowd, i) };
@@ -161,13 +172,11 @@ static bool is_still_shut_off(const crowd_step *step, uint32_t i)
 {
     const tl_nav_crowd *crowd = step->crowd;
     const crowd_fields *a = &crowd->a;
-    tl_nav_location goal = { a->goal_polygon[i], tl_crowd_get3(a->goal, i) };
     if ((a->flags[i] & CROWD_PARTIAL) == 0) {
         return false;
     }
-    if (tl_navmesh_resolve(step->navmesh, goal.polygon, NULL, NULL) != TL_OK &&
-        tl_navmesh_find_nearest(step->navmesh, &crowd->filters[a->filter[i]], goal.point, relocate_extents(crowd, i),
-                                &goal) != TL_OK) {
+    tl_nav_location goal;
+    if (!find_goal(step, i, &goal)) {
         return true;
     }
     uint32_t from = 0, to = 0;
