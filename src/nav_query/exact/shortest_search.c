@@ -225,6 +225,7 @@ tl_nav_search_end tl_nav_begin_shortest(tl_nav_shortest_search *search)
     tl_nav_next_generation(query);
     search->only = TL_NAV_NO_NODE;
     search->best = TL_NAV_NO_NODE;
+    search->lower_bound = 0.0; // that of a path over the graph is of no use, where it could not be walked
     wedge_search s = take_up(search);
     const uint32_t start = add_start(&s);
     search->last = find_line_from_start(&s, start);

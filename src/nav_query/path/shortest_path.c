@@ -41,7 +41,6 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
     }
     memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_PATH_UNREACHABLE;
-    search.lower_bound = 0.0; // of a path over the graph that could not be walked
     tl_nav_search_end end;
     do {
         end = tl_nav_search_shortest(&search);

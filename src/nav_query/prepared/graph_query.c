@@ -2,11 +2,11 @@
 //
 // The shortest path on a prepared navmesh: the straight line where it arrives, else one over corner vertices.
 //
-// With the table of distances nothing is searched: of the corner vertices in whose visibility cones the
-// start and the goal lie, the pair with the shortest path is the answer. The path is read off by walking along its
-// legs; a first or last leg that rounding alone put into a cone is struck out, and the next best pair taken. No
-// distance is too long, so the first path that can be walked is the shortest of all. Source: Shen, Cheema, Harabor,
-// Stuckey, Euclidean Pathfinding with Compressed Path Databases, IJCAI 2020.
+// With the table of distances nothing is searched: of the corner vertices in whose visibility cones the start and the
+// goal lie, the pair with the shortest path is the answer. The path is read off by walking along its legs; a first or
+// last leg that rounding alone put into a cone is struck out, and the next best pair taken. No distance is too long, so
+// the first path that can be walked is the shortest of all. Source: Shen, Cheema, Harabor, Stuckey, Euclidean
+// Pathfinding with Compressed Path Databases, IJCAI 2020.
 
 #include "nav_query/prepared/graph_query.h"
 #include "nav_query/prepared/corner_distances.h"

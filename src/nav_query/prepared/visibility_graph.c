@@ -24,7 +24,7 @@
 #include <string.h>
 
 // Wedges that one look around may need at first. It is doubled where that is too few.
-enum { FIRST_Wedges = 4096 };
+enum { FIRST_WEDGES = 4096 };
 
 // Pairs of numbers, as many as come.
 typedef struct pair_list {
@@ -282,7 +282,7 @@ static tl_result find_vertices(graph_baker *b)
 static tl_result bake_graph(graph_baker *b)
 {
     TL_TRY(find_vertices(b));
-    TL_TRY(make_look_query(b, FIRST_Wedges));
+    TL_TRY(make_look_query(b, FIRST_WEDGES));
     TL_TRY(tl_nav_find_reuse(b->navmesh, b->graph, b->vertex_of, b->fan_count, &b->reuse));
     b->stage.total = b->graph->vertex_count;
     for (uint32_t i = 0; i < b->graph->vertex_count; i++) {
