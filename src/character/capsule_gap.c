@@ -42,7 +42,10 @@ void tl_mover_set_triangle(tl_mover_item *t)
 // Most triangles near are told off by their boxes and planes: the edges are computed for the others alone, once.
 static void know_edges(tl_mover_item *t)
 {
-    for (int k = 0; k < 3 && !t->edges_known; k++) {
+    if (t->edges_known) {
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
         const tl_vec3d edge = tl_vec3d_sub(t->corners[(k + 1) % 3], t->corners[k]);
         t->inward[k] = tl_vec3d_cross(t->normal, edge);
         t->edge_sq[k] = tl_vec3d_dot(edge, edge);
