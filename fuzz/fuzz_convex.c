@@ -4,38 +4,16 @@
 // every query ends; the queries agree with one another and with themselves when the shapes are swapped; the depth's
 // normal separates the shapes; a cast stops where the distance says they touch.
 
-#include <talus/convex.h>
+#include "fuzz/fuzz_input.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
+#include <talus/convex.h>
 
 enum { MAX_POINTS = 24 };
 
-static void require(int condition)
+static tl_vec3 lattice_point(fuzz_bytes *b, float scale)
 {
-    if (!condition) {
-        abort();
-    }
-}
-
-typedef struct bytes {
-    const uint8_t *data;
-    size_t size;
-} bytes;
-
-static uint32_t next(bytes *b)
-{
-    if (b->size == 0) {
-        return 0;
-    }
-    b->size--;
-    return *b->data++;
-}
-
-static tl_vec3 lattice_point(bytes *b, float scale)
-{
-    uint32_t x = next(b), y = next(b);
+    uint32_t x = next_byte(b), y = next_byte(b);
     tl_vec3 p = tl_vec3_make((float)(x % 8) - 3, (float)(x / 8 % 8) - 3, (float)(y % 8) - 3);
     return tl_scale(p, scale);
 }
@@ -47,9 +25,9 @@ typedef struct body {
     bool curved;
 } body;
 
-static void make_body(body *body, bytes *b, float scale)
+static void make_body(body *body, fuzz_bytes *b, float scale)
 {
-    uint32_t kind = next(b), count = 1 + next(b) % MAX_POINTS;
+    uint32_t kind = next_byte(b), count = 1 + next_byte(b) % MAX_POINTS;
     float radius = kind & 8u ? 0.0f : 0.5f * scale * (float)(kind >> 4);
     tl_vec3 zero = tl_vec3_make(0, 0, 0), up = tl_vec3_make(0, scale, 0);
     for (uint32_t i = 0; i < count; i++) {
@@ -84,11 +62,11 @@ static void make_body(body *body, bytes *b, float scale)
     }
 }
 
-static tl_transform make_pose(bytes *b, float scale)
+static tl_transform make_pose(fuzz_bytes *b, float scale)
 {
     tl_transform pose;
     pose.position = lattice_point(b, scale);
-    uint32_t turn = next(b);
+    uint32_t turn = next_byte(b);
     tl_quat q = { (float)(turn % 4) - 1, (float)(turn / 4 % 4) - 1, (float)(turn / 16 % 4) - 1, (float)(turn / 64) };
     pose.rotation = q;
     return pose;
@@ -145,8 +123,8 @@ static void check_cast(const body *a, tl_transform pose_a, const body *b, tl_tra
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static const float scales[] = { 1.0f, 1e-6f, 1e6f, 0.1f };
-    bytes b = { data, size };
-    float scale = scales[next(&b) % 4];
+    fuzz_bytes b = { data, size };
+    float scale = scales[next_byte(&b) % 4];
     body a, c;
     make_body(&a, &b, scale);
     make_body(&c, &b, scale);
