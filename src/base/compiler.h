@@ -23,7 +23,8 @@
 #define TL_KEEP_VECTOR(value) ((void)(value))
 #endif
 
-/// A line of memory is needed soon.
+/// A line of memory is needed soon. gcc takes a function that does nothing but fetch for one without effects and leaves
+/// its calls out, unless it is TL_ALWAYS_INLINE.
 static inline void tl_prefetch(const void *at)
 {
 #if defined(__GNUC__) || defined(__clang__)

@@ -9,6 +9,8 @@
 //   TL_HEAP_BEFORE(context, a, b)  whether item a comes before item b. Break all ties: then the order in which items
 //                                  leave depends on the items alone, not on the heap's shape.
 //   TL_HEAP_MOVED(context, a, at)  optional: item a stands at `at` now, for heaps whose items are improved or removed
+//   TL_HEAP_FETCHES                optional, 1 for a heap too large for the cache: while the children of a node are
+//                                  compared, theirs are fetched
 //   TL_HEAP_ARITY                  optional: children of a node, 2 by default. 4 is faster where items are small:
 //                                  a heap half as high, whose four children lie in one cache line.
 //
@@ -21,8 +23,13 @@
 //
 // and forgets the macros again. Source: Williams, Algorithm 232: Heapsort, 1964; Johnson 1975 for d children.
 
+#include "base/compiler.h"
+
 #ifndef TL_HEAP_ARITY
 #define TL_HEAP_ARITY 2u
+#endif
+#ifndef TL_HEAP_FETCHES
+#define TL_HEAP_FETCHES 0
 #endif
 #ifndef TL_HEAP_CONTEXT
 #define TL_HEAP_CONTEXT const void *
@@ -77,6 +84,10 @@ static inline void TL_HEAP(sift_down)(TL_HEAP_ITEM *heap, uint32_t count, uint32
         if (first >= count) {
             break;
         }
+        const uint64_t second = (uint64_t)first * TL_HEAP_ARITY + 1; // grandchild
+        for (uint32_t k = 0; TL_HEAP_FETCHES && k < TL_HEAP_ARITY && second + k * TL_HEAP_ARITY < count; k++) {
+            tl_prefetch(&heap[second + k * TL_HEAP_ARITY]);
+        }
         uint32_t best = TL_HEAP(first_child)(heap, first, count, context);
         if (!TL_HEAP_BEFORE(context, heap[best], item)) {
             break;
@@ -109,4 +120,5 @@ static inline TL_HEAP_ITEM TL_HEAP(pop)(TL_HEAP_ITEM *heap, uint32_t *count, TL_
 #undef TL_HEAP_BEFORE
 #undef TL_HEAP_MOVED
 #undef TL_HEAP_ARITY
+#undef TL_HEAP_FETCHES
 #undef TL_HEAP_CONTEXT

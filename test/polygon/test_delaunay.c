@@ -96,7 +96,7 @@ static uint32_t make(uint32_t n, uint32_t shift)
     }
     tl_arena arena;
     tl_arena_init(&arena, NULL);
-    const tl_triangulate_input input = { lattice, n, NULL, NULL, TL_EARS_BY_SIZE };
+    const tl_triangulate_input input = { lattice, n, NULL, NULL, TL_EARS_BY_SIZE, NULL };
     TEST_RESULT(tl_triangulate(&arena, &input, triangles, twins), TL_OK);
     uint32_t before[3 * MAX_POINTS];
     memcpy(before, triangles, 3 * (n - 2) * sizeof *before);

@@ -157,7 +157,7 @@ static uint32_t partition(uint32_t n, uint32_t max_corners, uint64_t max_steps)
     bool found;
     tl_visibility visibility;
     tl_convex_parts parts;
-    const tl_triangulate_input input = { lattice, n, NULL, NULL, TL_EARS_BY_SIZE };
+    const tl_triangulate_input input = { lattice, n, NULL, NULL, TL_EARS_BY_SIZE, NULL };
     TEST_RESULT(tl_triangulate(&arena, &input, triangles, twins), TL_OK);
     const tl_triangulated_outline outline = { lattice, n, triangles, twins };
     TEST_RESULT(tl_find_visibility(&arena, &outline, UINT32_MAX, &visibility, &found), TL_OK);
@@ -182,7 +182,7 @@ static uint32_t merged_triangles(uint32_t n, uint32_t max_corners)
     tl_arena arena;
     tl_arena_init(&arena, NULL);
     tl_convex_parts parts;
-    const tl_merge_input input = { lattice, triangles, twins, n - 2, max_corners, NULL, NULL };
+    const tl_merge_input input = { lattice, triangles, twins, n - 2, max_corners, NULL, NULL, NULL };
     TEST_RESULT(tl_merge_triangles(&arena, &input, &parts), TL_OK);
     tl_arena_free(&arena);
     return parts.count;

@@ -123,7 +123,7 @@ static void hands_its_sweep_on(void **state)
         uint32_t triangles[2][3 * MAX_POINTS], twins[2][3 * MAX_POINTS];
         for (uint32_t k = 0; k < 2; k++) {
             const tl_outline_sweep *sweep = k == 0 ? &r.outline.sweep : NULL;
-            const tl_triangulate_input input = { points, n, sweep, NULL, TL_EARS_BY_MESH };
+            const tl_triangulate_input input = { points, n, sweep, NULL, TL_EARS_BY_MESH, NULL };
             TEST_RESULT(tl_triangulate(&r.arena, &input, triangles[k], twins[k]), TL_OK);
         }
         TEST_CHECK(memcmp(triangles[0], triangles[1], 3 * (n - 2) * sizeof **triangles) == 0);

@@ -11,10 +11,14 @@ static oracle_point points[MAX_POINTS];
 static tl_lattice_point lattice[MAX_POINTS];
 static uint32_t triangles[3 * MAX_POINTS], twins[3 * MAX_POINTS];
 
-static void triangulate(tl_arena *arena, uint32_t n)
+static tl_convex_parts triangulate_and_merge(tl_arena *arena, uint32_t n, uint32_t max_corners, uint32_t *places)
 {
-    const tl_triangulate_input input = { lattice, n, NULL, NULL, TL_EARS_BY_SIZE };
+    const tl_triangulate_input input = { lattice, n, NULL, NULL, TL_EARS_BY_SIZE, places };
     TEST_RESULT(tl_triangulate(arena, &input, triangles, twins), TL_OK);
+    const tl_merge_input merge = { lattice, triangles, twins, n - 2, max_corners, NULL, NULL, places };
+    tl_convex_parts parts;
+    TEST_RESULT(tl_merge_triangles(arena, &merge, &parts), TL_OK);
+    return parts;
 }
 
 // Triangulates, merges, compares with the plain form place by place. Returns the number of polygons.
@@ -26,10 +30,12 @@ static uint32_t compare(uint32_t n, uint32_t max_corners)
     }
     tl_arena arena;
     tl_arena_init(&arena, NULL);
-    triangulate(&arena, n);
-    tl_convex_parts parts;
-    const tl_merge_input input = { lattice, triangles, twins, n - 2, max_corners, NULL, NULL };
-    TEST_RESULT(tl_merge_triangles(&arena, &input, &parts), TL_OK);
+    static uint32_t places[MAX_POINTS];
+    const tl_convex_parts by_place = triangulate_and_merge(&arena, n, max_corners, places);
+    const tl_convex_parts parts = triangulate_and_merge(&arena, n, max_corners, NULL);
+    TEST_CHECK(by_place.count == parts.count);
+    TEST_CHECK(memcmp(by_place.first, parts.first, (parts.count + 1) * sizeof *parts.first) == 0);
+    TEST_CHECK(memcmp(by_place.corners, parts.corners, parts.first[parts.count] * sizeof *parts.corners) == 0);
     oracle_polygons expected = oracle_merge(points, triangles, n - 2, max_corners);
     TEST_CHECK(parts.count == expected.count);
     for (uint32_t p = 0; p < parts.count; p++) {

@@ -2,7 +2,7 @@
 
 #include "polygon/outline/sweep.h"
 
-#include "polygon_oracle.h"
+#include "polygon_shapes.h"
 
 enum { MAX_POINTS = 200, MAX_SEGMENTS = 200 };
 
@@ -110,8 +110,8 @@ static uint32_t check_record(const tl_sweep_record *record, const tl_lattice_poi
             }
         }
         if (begins || ends) {
-            TEST_CHECK(record->below[p] == brute_below(points, segments, count, p));
-            located += record->below[p] != TL_NO_SEGMENT;
+            TEST_CHECK(record->below[i] == brute_below(points, segments, count, p));
+            located += record->below[i] != TL_NO_SEGMENT;
         }
     }
     return located;
@@ -146,8 +146,49 @@ static void finds_any_contact(void **state)
     TEST_CHECK(apart > 2000 && touching > 5000 && large > 30 && located > 1000);
 }
 
+// Of an outline the segments need not be listed.
+static void an_outline_is_swept_as_its_segments_are(void **state)
+{
+    (void)state;
+    test_random random = { 42 };
+    uint32_t apart_count = 0;
+    for (uint32_t round = 0; round < 4000; round++) {
+        oracle_point corners[MAX_POINTS];
+        const uint32_t n = 3 + test_random_below(&random, round % 4 == 0 ? 60 : 8);
+        (void)shape_untangled(&random, corners, n, 8u << test_random_below(&random, 8));
+        tl_lattice_point points[MAX_POINTS];
+        tl_lattice_segment segments[MAX_SEGMENTS];
+        for (uint32_t i = 0; i < n; i++) {
+            points[i].x = (int32_t)corners[i].x;
+            points[i].z = (int32_t)corners[i].z;
+            segments[i].a = i;
+            segments[i].b = (i + 1) % n;
+        }
+        tl_arena arena;
+        tl_arena_init(&arena, NULL);
+        tl_sweep_record records[2];
+        bool apart[2] = { false, true };
+        for (uint32_t k = 0; k < 2; k++) {
+            TEST_CHECK(tl_sweep_record_init(&records[k], &arena, n));
+            TEST_RESULT(tl_sweep_segments(&arena, points, n, k == 0 ? segments : NULL, n, &records[k], &apart[k]),
+                        TL_OK);
+        }
+        TEST_CHECK(apart[0] == apart[1]);
+        if (apart[0]) {
+            TEST_CHECK(memcmp(records[0].order, records[1].order, n * sizeof *records[0].order) == 0);
+            TEST_CHECK(memcmp(records[0].below, records[1].below, n * sizeof *records[0].below) == 0);
+            apart_count++;
+        }
+        tl_arena_free(&arena);
+    }
+    TEST_CHECK(apart_count > 1000);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(finds_any_contact) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(finds_any_contact),
+        cmocka_unit_test(an_outline_is_swept_as_its_segments_are),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,7 +22,7 @@ static tl_result run(uint32_t n, tl_ear_test ear_test)
     }
     tl_arena arena;
     tl_arena_init(&arena, NULL);
-    const tl_triangulate_input input = { f.lattice, n, NULL, NULL, ear_test };
+    const tl_triangulate_input input = { f.lattice, n, NULL, NULL, ear_test, NULL };
     tl_result result = tl_triangulate(&arena, &input, f.triangles, f.twins);
     tl_arena_free(&arena);
     return result;
@@ -236,6 +236,31 @@ static void equals_the_plain_form_where_outlines_touch_themselves(void **state)
     TEST_CHECK(compared > 200);
 }
 
+// By place the same triangles stand at other numbers, each beside its outline's corner.
+static void check_by_place(const tl_lattice_point *lattice, uint32_t n, tl_ear_test ear_test, const uint32_t *triangles,
+                           const uint32_t *twins)
+{
+    uint32_t *corners = malloc(3 * (size_t)n * sizeof *corners), *across = malloc(3 * (size_t)n * sizeof *across);
+    uint32_t *places = malloc(n * sizeof *places);
+    tl_arena arena;
+    tl_arena_init(&arena, NULL);
+    const tl_triangulate_input input = { lattice, n, NULL, NULL, ear_test, places };
+    TEST_RESULT(tl_triangulate(&arena, &input, corners, across), TL_OK);
+    tl_arena_free(&arena);
+    for (uint32_t t = 0; t < n - 2; t++) {
+        TEST_CHECK(places[t] < n - 2 && memcmp(&corners[3 * t], &triangles[3 * places[t]], 3 * sizeof *corners) == 0);
+        TEST_CHECK(t == 0 || corners[3 * t + 1] > corners[3 * t - 2]);
+        for (uint32_t k = 0; k < 3; k++) {
+            const uint32_t twin = across[3 * t + k];
+            const uint32_t expected = twin != TL_NO_EDGE ? 3 * places[twin / 3] + twin % 3 : TL_NO_EDGE;
+            TEST_CHECK(twins[3 * places[t] + k] == expected);
+        }
+    }
+    free(corners);
+    free(across);
+    free(places);
+}
+
 // Too large for the plain form: the list, which is proven by it, against the mesh.
 static void compare_large(const oracle_point *points, uint32_t n)
 {
@@ -251,12 +276,14 @@ static void compare_large(const oracle_point *points, uint32_t n)
     tl_arena arena;
     tl_arena_init(&arena, NULL);
     for (uint32_t k = 0; k < 2; k++) {
-        const tl_triangulate_input input = { lattice, n, NULL, NULL, k == 0 ? TL_EARS_BY_LIST : TL_EARS_BY_MESH };
+        const tl_triangulate_input input = { lattice, n, NULL, NULL, k == 0 ? TL_EARS_BY_LIST : TL_EARS_BY_MESH, NULL };
         TEST_RESULT(tl_triangulate(&arena, &input, out[2 * k], out[2 * k + 1]), TL_OK);
     }
     tl_arena_free(&arena);
     TEST_CHECK(memcmp(out[0], out[2], 3 * ((size_t)n - 2) * sizeof(uint32_t)) == 0);
     TEST_CHECK(memcmp(out[1], out[3], 3 * ((size_t)n - 2) * sizeof(uint32_t)) == 0);
+    check_by_place(lattice, n, TL_EARS_BY_LIST, out[0], out[1]);
+    check_by_place(lattice, n, TL_EARS_BY_MESH, out[0], out[1]);
     for (uint32_t k = 0; k < 4; k++) {
         free(out[k]);
     }

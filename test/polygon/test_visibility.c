@@ -18,7 +18,7 @@ static tl_visibility look(tl_arena *arena, uint32_t n, uint64_t max_chords, bool
         lattice[i].z = (int32_t)points[i].z;
     }
     tl_visibility visibility;
-    const tl_triangulate_input input = { lattice, n, NULL, NULL, TL_EARS_BY_SIZE };
+    const tl_triangulate_input input = { lattice, n, NULL, NULL, TL_EARS_BY_SIZE, NULL };
     TEST_RESULT(tl_triangulate(arena, &input, triangles, twins), TL_OK);
     const tl_triangulated_outline outline = { lattice, n, triangles, twins };
     TEST_RESULT(tl_find_visibility(arena, &outline, max_chords, &visibility, found), TL_OK);

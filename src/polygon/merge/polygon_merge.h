@@ -26,6 +26,7 @@ typedef struct tl_merge_input {
     uint32_t max_corners;         // 0: any number
     const uint8_t *joined_first;  // [3 * triangle_count] or NULL: edges that go before all others, on both sides
     const tl_step_tracer *tracer; // or NULL
+    const uint32_t *places;       // [triangle] its place at first, as tl_triangulate gives it, or NULL: its number
 } tl_merge_input;
 
 /// Merges triangles across the longest shared edge first, while the result is strictly convex and has at most

@@ -232,10 +232,10 @@ static tl_result refill(remover *r, const fan_blade *blades, uint32_t blade_coun
     if (triangles == NULL || twins == NULL) {
         return TL_ERR_MEMORY;
     }
-    const tl_triangulate_input hole = { points, count, NULL, NULL, TL_EARS_BY_SIZE };
+    const tl_triangulate_input hole = { points, count, NULL, NULL, TL_EARS_BY_SIZE, NULL };
     TL_TRY(tl_triangulate(r->scratch, &hole, triangles, twins));
     tl_convex_parts parts;
-    const tl_merge_input input = { points, triangles, twins, count - 2, r->max_corners, NULL, NULL };
+    const tl_merge_input input = { points, triangles, twins, count - 2, r->max_corners, NULL, NULL, NULL };
     TL_TRY(tl_merge_triangles(r->scratch, &input, &parts));
     tl_stored_polygon of = common_origin(r->store, blades, blade_count);
     for (uint32_t i = 0; i < blade_count; i++) {

@@ -76,7 +76,7 @@ static tl_result merge_members(tl_polygon_store *store, tl_arena *scratch, const
     uint32_t pairs = 0;
     TL_TRY(tl_pair_edges(scratch, fans.corners, fans.twins, 3 * triangles, &pairs));
     tl_convex_parts parts;
-    const tl_merge_input input = { points, fans.corners, fans.twins, triangles, max_corners, fans.joined, NULL };
+    const tl_merge_input input = { points, fans.corners, fans.twins, triangles, max_corners, fans.joined, NULL, NULL };
     TL_TRY(tl_merge_triangles(scratch, &input, &parts));
     *gone += count - parts.count;
     return parts.count < count ? replace(store, scratch, members, count, &parts) : TL_OK;

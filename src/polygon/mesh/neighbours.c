@@ -10,14 +10,28 @@
 #include "polygon/mesh/polygon_store.h"
 
 #include "base/assert.h"
+#include "base/compiler.h"
 #include "base/min_max.h"
 #include "base/radix_sort.h"
 
 #include <string.h>
 
+enum { POLYGONS_AHEAD = 8, MANY_POLYGONS = 10000 };
+
 static uint32_t next_polygon_corner(const tl_stored_polygon *polygon, uint32_t place)
 {
     return place + 1 < polygon->first + polygon->count ? place + 1 : polygon->first;
+}
+
+// Polygons come in no order of place: in a large mesh, where their edges are counted is fetched ahead.
+static TL_ALWAYS_INLINE void fetch_polygon(const tl_polygon_store *store, const uint32_t *first, uint32_t p)
+{
+    if (store->polygon_count >= MANY_POLYGONS && POLYGONS_AHEAD < store->polygon_count - p) {
+        const tl_stored_polygon *later = &store->polygons[p + POLYGONS_AHEAD];
+        for (uint32_t k = 0; k < later->count; k++) {
+            tl_prefetch(&first[store->indices[later->first + k] + 1]);
+        }
+    }
 }
 
 // All edges by their lower vertex v, in ends[first[v]] to ends[first[v + 1] - 1]: key is the other vertex and, in the
@@ -28,6 +42,7 @@ static void gather_edges(const tl_polygon_store *store, uint32_t *first, tl_sort
     for (uint32_t p = 0; p < store->polygon_count; p++) {
         const tl_stored_polygon *polygon = &store->polygons[p];
         const uint32_t *corners = store->indices + polygon->first;
+        fetch_polygon(store, first, p);
         uint32_t to = corners[0];
         for (uint32_t k = polygon->count; k-- > 0;) {
             const uint32_t from = corners[k];
@@ -41,6 +56,7 @@ static void gather_edges(const tl_polygon_store *store, uint32_t *first, tl_sort
     for (uint32_t p = 0; p < store->polygon_count; p++) {
         const tl_stored_polygon *polygon = &store->polygons[p];
         const uint32_t *corners = store->indices + polygon->first;
+        fetch_polygon(store, first, p);
         uint32_t to = corners[0];
         for (uint32_t k = polygon->count; k-- > 0;) {
             const uint32_t from = corners[k];

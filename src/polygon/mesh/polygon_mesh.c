@@ -88,6 +88,10 @@ static tl_result merge_vertices(polygon_mesh_builder *b, const tl_outline *outli
         }
     }
     for (uint32_t i = 0; i < nodes->count; i++) {
+        if (TL_KEYS_AHEAD < nodes->count - i) {
+            const tl_lattice_point later = nodes->points[i + TL_KEYS_AHEAD];
+            tl_key_table_fetch(&b->store.places, tl_pair_key((uint32_t)later.x, (uint32_t)later.z));
+        }
         if (outline->is_plain || map[i] == 0) {
             TL_TRY(tl_polygon_store_vertex(&b->store, nodes->points[i].x, nodes->heights[i], nodes->points[i].z,
                                            nodes->is_border[i], &map[i]));

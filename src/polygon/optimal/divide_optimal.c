@@ -233,7 +233,7 @@ static tl_result solve_walks(tl_arena *arena, const tl_outline *outline, uint32_
     for (uint32_t w = 0; w < outline->walk_count; w++) {
         tl_arena_mark mark = tl_arena_get_mark(arena);
         tl_outline_triangles walk = { outline->walk_first[w + 1] - outline->walk_first[w] - 2,
-                                      triangles->corners + 3 * (size_t)first, NULL, 0 };
+                                      triangles->corners + 3 * (size_t)first, NULL, NULL, 0 };
         walk.twins = TL_PUSH(arena, uint32_t, 3 * (uint64_t)walk.count);
         if (walk.twins == NULL) {
             return TL_ERR_MEMORY;
@@ -278,13 +278,14 @@ tl_result tl_divide_optimally(tl_arena *arena, const tl_outline *outline, uint32
     TL_TRY(tl_pair_edges(arena, triangles->corners, triangles->twins, edges, &triangles->bridge_count));
     *is_exact &= triangles->bridge_count == 0;
     parts_out->count = UINT32_MAX;
-    const tl_merge_input pieces = { points, f.corners, f.twins, f.count, max_corners, f.joined, NULL };
+    const tl_merge_input pieces = { points, f.corners, f.twins, f.count, max_corners, f.joined, NULL, NULL };
     TL_TRY(merge_and_compare(arena, &pieces, parts_out));
     if (*is_exact) {
         return TL_OK;
     }
-    const tl_merge_input plain = { points, triangles->corners, triangles->twins, triangles->count, max_corners, NULL,
-                                   NULL };
+    const tl_merge_input plain = {
+        points, triangles->corners, triangles->twins, triangles->count, max_corners, NULL, NULL, NULL
+    };
     TL_TRY(merge_and_compare(arena, &plain, parts_out));
     TL_TRY(tl_make_delaunay(arena, points, triangles->corners, triangles->twins, triangles->count));
     return merge_and_compare(arena, &plain, parts_out);

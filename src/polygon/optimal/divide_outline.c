@@ -8,51 +8,80 @@
 #include "polygon/optimal/divide_outline.h"
 
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "polygon/outline/key_table.h"
 #include "polygon/triangulate/delaunay.h"
 #include "polygon/triangulate/triangulate.h"
 
 #include <string.h>
 
-tl_result tl_pair_edges(tl_arena *arena, const uint32_t *corners, uint32_t *twins, uint32_t edge_count,
-                        uint32_t *pair_count)
+static uint32_t triangle_edge_next(uint32_t edge)
 {
-    uint32_t open_count = 0;
+    return edge % 3 < 2 ? edge + 1 : edge - 2;
+}
+
+// How many open edges start at each corner: as often as the outline passes there.
+static tl_result count_passes(tl_arena *arena, const uint32_t *corners, const uint32_t *twins, uint32_t edge_count,
+                              uint8_t **passes_out)
+{
+    uint32_t highest = 0;
     for (uint32_t edge = 0; edge < edge_count; edge++) {
-        open_count += twins[edge] == TL_NO_EDGE;
+        highest = tl_max_u32(highest, corners[edge]);
     }
-    const tl_arena_mark mark = tl_arena_get_mark(arena);
-    tl_key_table table;
-    if (!tl_key_table_init(&table, arena, open_count)) {
+    uint8_t *passes = *passes_out = TL_PUSH_ZERO(arena, uint8_t, (uint64_t)highest + 1);
+    if (passes == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t edge = 0; edge < edge_count; edge++) {
-        if (twins[edge] == TL_NO_EDGE) {
-            uint32_t from = corners[edge];
-            uint32_t to = corners[edge % 3 < 2 ? edge + 1 : edge - 2];
-            uint32_t *back = tl_key_table_at(&table, tl_pair_key(to, from));
-            if (*back != TL_NO_VALUE) {
-                twins[edge] = *back;
-                twins[*back] = edge;
-                ++*pair_count;
-            } else {
-                *tl_key_table_at(&table, tl_pair_key(from, to)) = edge;
-            }
+        uint8_t *at = &passes[corners[edge]];
+        *at = twins[edge] != TL_NO_EDGE || *at > 1 ? *at : (uint8_t)(*at + 1);
+    }
+    return TL_OK;
+}
+
+tl_result tl_pair_edges(tl_arena *arena, const uint32_t *corners, uint32_t *twins, uint32_t edge_count,
+                        uint32_t *pair_count)
+{
+    const tl_arena_mark mark = tl_arena_get_mark(arena);
+    uint8_t *passes;
+    TL_TRY(count_passes(arena, corners, twins, edge_count, &passes));
+    // Of a bridge at least one end is passed twice, the other may be a tip. Few edges are left, so the table is small.
+    uint32_t *bridges = TL_PUSH(arena, uint32_t, edge_count);
+    tl_key_table table;
+    uint32_t bridge_count = 0;
+    for (uint32_t edge = 0; edge < edge_count && bridges != NULL; edge++) {
+        if (twins[edge] == TL_NO_EDGE && (passes[corners[edge]] > 1 || passes[corners[triangle_edge_next(edge)]] > 1)) {
+            bridges[bridge_count++] = edge;
+        }
+    }
+    if (bridges == NULL || !tl_key_table_init(&table, arena, bridge_count)) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = 0; i < bridge_count; i++) {
+        const uint32_t edge = bridges[i], from = corners[edge], to = corners[triangle_edge_next(edge)];
+        uint32_t *back = tl_key_table_at(&table, tl_pair_key(to, from));
+        if (*back != TL_NO_VALUE) {
+            twins[edge] = *back;
+            twins[*back] = edge;
+            ++*pair_count;
+        } else {
+            *tl_key_table_at(&table, tl_pair_key(from, to)) = edge;
         }
     }
     tl_arena_rollback(arena, mark);
     return TL_OK;
 }
 
-// Triangulates all walks of an outline.
+// Triangulates all walks of an outline; by place where the order of the cuts is not needed.
 static tl_result triangulate_walks(tl_arena *arena, const tl_outline *outline, const tl_step_tracer *tracer,
-                                   tl_outline_triangles *triangles)
+                                   bool by_place, tl_outline_triangles *triangles)
 {
-    uint32_t edges = 3 * outline->walk_first[outline->walk_count];
-    triangles->corners = TL_PUSH(arena, uint32_t, edges);
-    triangles->twins = TL_PUSH(arena, uint32_t, edges);
+    const uint32_t corners = outline->walk_first[outline->walk_count];
+    triangles->corners = TL_PUSH(arena, uint32_t, 3 * corners);
+    triangles->twins = TL_PUSH(arena, uint32_t, 3 * corners);
+    triangles->places = by_place ? TL_PUSH(arena, uint32_t, corners) : NULL;
     triangles->bridge_count = 0;
-    if (triangles->corners == NULL || triangles->twins == NULL) {
+    if (triangles->corners == NULL || triangles->twins == NULL || (by_place && triangles->places == NULL)) {
         return TL_ERR_MEMORY;
     }
     uint32_t made = 0;
@@ -71,11 +100,15 @@ static tl_result triangulate_walks(tl_arena *arena, const tl_outline *outline, c
             points = copy;
         }
         const tl_outline_sweep *sweep = outline->sweep.place_count > 0 ? &outline->sweep : NULL;
-        const tl_triangulate_input input = { points, count, sweep, tracer, TL_EARS_BY_SIZE };
+        uint32_t *places = by_place ? triangles->places + made : NULL;
+        const tl_triangulate_input input = { points, count, sweep, tracer, TL_EARS_BY_SIZE, places };
         TL_TRY(tl_triangulate(arena, &input, triangles->corners + 3 * made, triangles->twins + 3 * made));
         for (uint32_t i = 3 * made; i < 3 * (made + count - 2) && !outline->is_plain; i++) {
             triangles->corners[i] = walk[triangles->corners[i]];
             triangles->twins[i] += triangles->twins[i] != TL_NO_EDGE ? 3 * made : 0;
+        }
+        for (uint32_t t = 0; t < count - 2 && by_place && made > 0; t++) {
+            places[t] += made;
         }
         made += count - 2;
     }
@@ -168,7 +201,8 @@ tl_result tl_divide_outline(tl_arena *arena, const tl_outline *outline, tl_parti
         return keep_whole(arena, outline, division_out);
     }
     tl_outline_triangles triangles;
-    TL_TRY(triangulate_walks(arena, outline, tracer, &triangles));
+    const bool by_place = method == TL_PARTITION_CLASSIC && tracer == NULL;
+    TL_TRY(triangulate_walks(arena, outline, tracer, by_place, &triangles));
     division_out->triangle_count = triangles.count;
     bool is_exact = false;
     if (method == TL_PARTITION_OPTIMAL) {
@@ -183,7 +217,8 @@ tl_result tl_divide_outline(tl_arena *arena, const tl_outline *outline, tl_parti
             TL_TRY(tl_make_delaunay(arena, outline->nodes.points, triangles.corners, triangles.twins, triangles.count));
         }
         const tl_merge_input input = {
-            outline->nodes.points, triangles.corners, triangles.twins, triangles.count, max_corners, NULL, tracer
+            outline->nodes.points, triangles.corners, triangles.twins, triangles.count, max_corners, NULL, tracer,
+            triangles.places
         };
         TL_TRY(tl_merge_triangles(arena, &input, &division_out->parts));
     }

@@ -20,6 +20,7 @@ typedef struct tl_outline_triangles {
     uint32_t count;
     uint32_t *corners;
     uint32_t *twins;
+    uint32_t *places;      // [triangle] as tl_triangulate gives it, or NULL
     uint32_t bridge_count; // pairs of edges that are on the outline there and back
 } tl_outline_triangles;
 

@@ -6,9 +6,13 @@
 #define TALUS_SRC_POLYGON_KEY_TABLE_H
 
 #include "base/arena.h"
+#include "base/compiler.h"
 #include "base/hash.h"
 
 #define TL_NO_VALUE UINT32_MAX
+
+/// So many keys ahead a place is fetched in a large table.
+enum { TL_KEYS_AHEAD = 16 };
 
 // The key in halves, so that an entry takes 12 bytes instead of 16.
 typedef struct tl_key_entry {
@@ -28,6 +32,12 @@ bool tl_key_table_init(tl_key_table *table, tl_arena *arena, uint64_t count);
 static inline uint64_t tl_pair_key(uint32_t high, uint32_t low)
 {
     return (uint64_t)high << 32 | low;
+}
+
+/// A key that is looked for soon.
+static TL_ALWAYS_INLINE void tl_key_table_fetch(const tl_key_table *table, uint64_t key)
+{
+    tl_prefetch(&table->entries[tl_hash_mix(key) & table->mask]);
 }
 
 /// The place of a key; its value is TL_NO_VALUE when the key is new, and the caller then sets it.

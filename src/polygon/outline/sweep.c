@@ -19,7 +19,7 @@
 #include "base/hash.h"
 #include "base/radix_sort.h"
 
-enum { FINGER_REACH = 8, FINGER_STEPS = 8, POINTS_AHEAD = 8 };
+enum { FINGER_REACH = 8, FINGER_STEPS = 8, POINTS_AHEAD = 8, ITEMS_AROUND = 4 };
 
 // The parent of a segment that is not on the line.
 #define NOT_ON_LINE (TL_NO_SEGMENT - 1)
@@ -38,10 +38,30 @@ typedef struct sweep_line {
     sweep_item *items; // [segment]
     uint32_t count;
     uint32_t root;
-    uint32_t *first; // [points + 1] segments at each point
+    uint32_t *first; // [points + 1] segments at each point; NULL: segment i runs from point i to the next
     uint32_t *around;
-    tl_sweep_record *record; // or NULL
+    uint32_t *below; // of the point that is passed, in the record; or NULL
 } sweep_line;
+
+// The segments at a point.
+typedef struct sweep_star {
+    uint32_t count;
+    const uint32_t *segments;
+    uint32_t pair[2];
+} sweep_star;
+
+static void find_star(const sweep_line *s, uint32_t point, sweep_star *star)
+{
+    if (s->first != NULL) {
+        star->count = s->first[point + 1] - s->first[point];
+        star->segments = &s->around[s->first[point]];
+        return;
+    }
+    star->count = 2;
+    star->segments = star->pair;
+    star->pair[0] = point > 0 ? point - 1 : 0;
+    star->pair[1] = point > 0 ? point : s->count - 1;
+}
 
 static uint64_t priority(uint32_t segment)
 {
@@ -197,24 +217,24 @@ static bool clash(const sweep_line *s, uint32_t below, uint32_t above)
 
 // Takes out the segments that end in a point. Those next to the last one, after the others are gone, are next to the
 // point, unless a segment that runs through the point stood between them: then it is one of them. Returns how many.
-static uint32_t end_segments(sweep_line *s, uint32_t point, uint32_t around[2])
+static uint32_t end_segments(sweep_line *s, const sweep_star *star, uint32_t point, uint32_t around[2])
 {
     uint32_t ended = 0;
-    for (uint32_t k = s->first[point]; k < s->first[point + 1]; k++) {
-        const sweep_item *i = &s->items[s->around[k]];
+    for (uint32_t k = 0; k < star->count; k++) {
+        const sweep_item *i = &s->items[star->segments[k]];
         if (i->to == point) {
             around[0] = i->neighbour[0];
             around[1] = i->neighbour[1];
-            take_out(s, s->around[k]);
+            take_out(s, star->segments[k]);
             ended++;
         }
     }
     return ended;
 }
 
-static bool runs_through(const sweep_line *s, uint32_t item, uint32_t point)
+static bool runs_through(const sweep_line *s, uint32_t item, tl_lattice_point point)
 {
-    return item != TL_NO_SEGMENT && tl_turn(s->items[item].begin, s->items[item].end, s->points[point]) == 0;
+    return item != TL_NO_SEGMENT && tl_turn(s->items[item].begin, s->items[item].end, point) == 0;
 }
 
 // Where to put one of two segments that begin in a point, the other one being there. False: one runs along the other.
@@ -228,11 +248,11 @@ static bool locate_beside(const sweep_line *s, uint32_t other, uint32_t item, ui
 }
 
 // Puts in the segments that begin in a point; around[] is known where others ended there. False: a contact.
-static bool begin_segments(sweep_line *s, uint32_t point, uint32_t around[2], bool is_located)
+static bool begin_segments(sweep_line *s, const sweep_star *star, uint32_t point, uint32_t around[2], bool is_located)
 {
     uint32_t begun = 0, first = TL_NO_SEGMENT;
-    for (uint32_t k = s->first[point]; k < s->first[point + 1]; k++) {
-        uint32_t item = s->around[k];
+    for (uint32_t k = 0; k < star->count; k++) {
+        const uint32_t item = star->segments[k];
         if (s->items[item].from != point) {
             continue;
         }
@@ -243,15 +263,15 @@ static bool begin_segments(sweep_line *s, uint32_t point, uint32_t around[2], bo
         if (!apart) {
             return false;
         }
-        if (begun == 0 && !is_located && s->record != NULL) {
-            s->record->below[point] = around[0];
+        if (begun == 0 && !is_located && s->below != NULL) {
+            *s->below = around[0];
         }
         insert_between(s, item, around[0], around[1]);
         first = begun == 0 ? item : first;
         begun++;
     }
-    for (uint32_t k = s->first[point]; k < s->first[point + 1] && begun > 0; k++) {
-        uint32_t item = s->around[k];
+    for (uint32_t k = 0; k < star->count && begun > 0; k++) {
+        const uint32_t item = star->segments[k];
         if (s->items[item].from == point &&
             (clash(s, s->items[item].neighbour[0], item) || clash(s, item, s->items[item].neighbour[1]))) {
             return false;
@@ -264,46 +284,99 @@ static bool begin_segments(sweep_line *s, uint32_t point, uint32_t around[2], bo
 static bool pass_point(sweep_line *s, uint32_t point)
 {
     uint32_t around[2] = { TL_NO_SEGMENT, TL_NO_SEGMENT };
-    uint32_t ended = end_segments(s, point, around);
-    if (ended > 0 && (runs_through(s, around[0], point) || runs_through(s, around[1], point))) {
+    sweep_star star;
+    find_star(s, point, &star);
+    const uint32_t ended = end_segments(s, &star, point, around);
+    const tl_lattice_point p = s->points[point];
+    if (ended > 0 && (runs_through(s, around[0], p) || runs_through(s, around[1], p))) {
         return false;
     }
-    if (ended > 0 && s->record != NULL) {
-        s->record->below[point] = around[0];
+    if (ended > 0 && s->below != NULL) {
+        *s->below = around[0];
     }
-    return begin_segments(s, point, around, ended > 0);
+    return begin_segments(s, &star, point, around, ended > 0);
+}
+
+static void init_sweep_item(const sweep_line *s, sweep_item *item, uint32_t a, uint32_t b)
+{
+    const bool forward = tl_is_swept_first(s->points[a], s->points[b]);
+    item->from = forward ? a : b;
+    item->to = forward ? b : a;
+    item->begin = s->points[item->from];
+    item->end = s->points[item->to];
+    item->parent = NOT_ON_LINE;
+}
+
+// A counting sort of segments by point; first[] is shifted by one while it is filled.
+static bool gather_stars(sweep_line *s, tl_arena *arena, uint32_t point_count, const tl_lattice_segment *segments)
+{
+    const uint64_t end_count = 2 * (uint64_t)s->count;
+    s->around = TL_PUSH(arena, uint32_t, end_count + 2); // two are fetched of each point, however few it has
+    s->first = TL_PUSH_ZERO(arena, uint32_t, (uint64_t)point_count + 2);
+    if (s->around == NULL || s->first == NULL) {
+        return false;
+    }
+    s->around[end_count] = s->around[end_count + 1] = 0;
+    for (uint32_t i = 0; i < s->count; i++) {
+        s->first[segments[i].a + 2]++;
+        s->first[segments[i].b + 2]++;
+    }
+    for (uint32_t p = 0; p < point_count; p++) {
+        s->first[p + 2] += s->first[p + 1];
+    }
+    for (uint32_t i = 0; i < s->count; i++) {
+        s->around[s->first[segments[i].a + 1]++] = i;
+        s->around[s->first[segments[i].b + 1]++] = i;
+    }
+    return true;
 }
 
 static bool gather_sweep_segments(sweep_line *s, tl_arena *arena, uint32_t point_count,
                                   const tl_lattice_segment *segments, uint32_t count)
 {
     s->items = TL_PUSH(arena, sweep_item, count);
-    s->around = TL_PUSH(arena, uint32_t, 2 * (uint64_t)count);
-    s->first = TL_PUSH_ZERO(arena, uint32_t, (uint64_t)point_count + 2);
-    if (s->items == NULL || s->around == NULL || s->first == NULL) {
+    s->root = TL_NO_SEGMENT;
+    s->count = count;
+    s->first = s->around = NULL;
+    if (s->items == NULL || (segments != NULL && !gather_stars(s, arena, point_count, segments))) {
         return false;
     }
     for (uint32_t i = 0; i < count; i++) {
-        bool forward = tl_is_swept_first(s->points[segments[i].a], s->points[segments[i].b]);
-        s->items[i].from = forward ? segments[i].a : segments[i].b;
-        s->items[i].to = forward ? segments[i].b : segments[i].a;
-        s->items[i].begin = s->points[s->items[i].from];
-        s->items[i].end = s->points[s->items[i].to];
-        s->items[i].parent = NOT_ON_LINE;
-        s->first[segments[i].a + 2]++;
-        s->first[segments[i].b + 2]++;
+        const uint32_t next = i + 1 < count ? i + 1 : 0;
+        init_sweep_item(s, &s->items[i], segments != NULL ? segments[i].a : i, segments != NULL ? segments[i].b : next);
     }
-    // A counting sort by point; first[] is shifted by one while it is filled.
-    for (uint32_t p = 0; p < point_count; p++) {
-        s->first[p + 2] += s->first[p + 1];
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        s->around[s->first[segments[i].a + 1]++] = i;
-        s->around[s->first[segments[i].b + 1]++] = i;
-    }
-    s->root = TL_NO_SEGMENT;
-    s->count = count;
     return true;
+}
+
+// The two segments at a point of an outline, and some before and after them, which are likely to stand beside them.
+static TL_ALWAYS_INLINE void fetch_items(const sweep_line *s, uint32_t point)
+{
+    const uint32_t first = point > ITEMS_AROUND ? point - ITEMS_AROUND : 0;
+    if (2 * ITEMS_AROUND < s->count - first) {
+        const char *begin = (const char *)&s->items[first], *end = (const char *)&s->items[first + 2 * ITEMS_AROUND];
+        for (const char *line = begin; line < end; line += 64) {
+            tl_prefetch(line);
+        }
+    }
+}
+
+// Points come from anywhere in the outline. What leads to their segments is fetched in steps, each of which reads what
+// the step before has fetched.
+static TL_ALWAYS_INLINE void fetch_points_ahead(const sweep_line *s, const tl_sort_item *order, uint32_t count)
+{
+    if (3 * POINTS_AHEAD >= count) {
+        return;
+    }
+    if (s->first == NULL) {
+        fetch_items(s, order[POINTS_AHEAD].value);
+        return;
+    }
+    tl_prefetch(&s->first[order[3 * POINTS_AHEAD].value]);
+    tl_prefetch(&s->points[order[3 * POINTS_AHEAD].value]);
+    tl_prefetch(&s->around[s->first[order[2 * POINTS_AHEAD].value]]);
+    const uint32_t *around = &s->around[s->first[order[POINTS_AHEAD].value]];
+    tl_prefetch(&s->items[around[0]]);
+    tl_prefetch(&s->items[around[1]]);
 }
 
 bool tl_sweep_record_init(tl_sweep_record *record, tl_arena *arena, uint32_t point_count)
@@ -319,7 +392,7 @@ tl_result tl_sweep_segments(tl_arena *arena, const tl_lattice_point *points, uin
 {
     sweep_line s;
     s.points = points;
-    s.record = record;
+    s.below = NULL;
     tl_sort_item *order = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)point_count);
     if (order == NULL || !gather_sweep_segments(&s, arena, point_count, segments, segment_count)) {
         return TL_ERR_MEMORY;
@@ -339,13 +412,8 @@ tl_result tl_sweep_segments(tl_arena *arena, const tl_lattice_point *points, uin
         record->order[i] = order[i].value;
     }
     for (uint32_t i = 0; i < point_count && *apart_out; i++) {
-        if (2 * POINTS_AHEAD < point_count - i) {
-            tl_prefetch(&s.first[order[i + 2 * POINTS_AHEAD].value]);
-            tl_prefetch(&points[order[i + 2 * POINTS_AHEAD].value]);
-            const uint32_t *around = &s.around[s.first[order[i + POINTS_AHEAD].value]];
-            tl_prefetch(&s.items[around[0]]);
-            tl_prefetch(&s.items[around[1]]);
-        }
+        fetch_points_ahead(&s, order + i, point_count - i);
+        s.below = record != NULL ? &record->below[i] : NULL;
         *apart_out = pass_point(&s, order[i].value);
     }
     return TL_OK;

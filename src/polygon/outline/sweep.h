@@ -17,8 +17,8 @@ typedef struct tl_lattice_segment {
 
 /// What a sweep that finds no contact has seen, for those who go the same way again.
 typedef struct tl_sweep_record {
-    uint32_t *order; // [point] the points by rising x, then z
-    uint32_t *below; // [point] of points with segments: the next one below them, or TL_NO_SEGMENT
+    uint32_t *order; // the points by rising x, then z
+    uint32_t *below; // in that order, of points with segments: the next one below them, or TL_NO_SEGMENT
 } tl_sweep_record;
 
 /// A sweep over an outline's edges that found no contact. Vertices at one place are one point, edges that run along one
@@ -34,7 +34,8 @@ typedef struct tl_outline_sweep {
 bool tl_sweep_record_init(tl_sweep_record *record, tl_arena *arena, uint32_t point_count);
 
 /// Whether all points lie at different places and no two segments share a point that is not an end of both. Each
-/// segment is there once. `record` may be NULL. Memory comes from `arena`; TL_ERR_MEMORY is the only error.
+/// segment is there once; NULL: segment i runs from point i to the next, and there are as many. `record` may be NULL.
+/// Memory comes from `arena`; TL_ERR_MEMORY is the only error.
 tl_result tl_sweep_segments(tl_arena *arena, const tl_lattice_point *points, uint32_t point_count,
                             const tl_lattice_segment *segments, uint32_t segment_count, tl_sweep_record *record,
                             bool *apart_out);

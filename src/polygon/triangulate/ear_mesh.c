@@ -20,69 +20,69 @@
 
 #include "base/assert.h"
 
-bool tl_ear_mesh_is_free(const tl_ear_mesh *mesh, uint32_t a, uint32_t b, tl_lattice_point from, tl_lattice_point to)
+bool tl_ear_mesh_is_free(const tl_ear_vertex *vertices, uint32_t a, uint32_t b, tl_lattice_point from,
+                         tl_lattice_point to)
 {
-    for (uint32_t edge = mesh->outer[b];;) {
-        const uint32_t back = tl_ear_edge_previous(edge), v = mesh->edges[back].origin;
+    for (uint32_t edge = vertices[b].outer;;) {
+        const uint32_t back = tl_ear_edge_previous(edge), v = tl_ear_edge_origin(vertices, back);
         if (v == a) {
             return true;
         }
-        if (tl_turn(from, to, mesh->points[v]) <= 0) {
+        if (tl_turn(from, to, vertices[v].position) <= 0) {
             return false;
         }
-        edge = mesh->edges[back].twin;
+        edge = tl_ear_edge_twin(vertices, back);
     }
 }
 
 // Makes `twin` the far side of `edge`, or the outline.
-static void join_ear_edge(tl_ear_mesh *mesh, uint32_t edge, uint32_t twin)
+static void join_ear_edge(tl_ear_vertex *vertices, uint32_t edge, uint32_t twin)
 {
-    mesh->edges[edge].twin = twin;
+    tl_ear_edge *e = tl_ear_edge_at(vertices, edge);
+    e->twin = twin;
     if (twin != TL_NO_EAR_EDGE) {
-        mesh->edges[twin].twin = edge;
+        tl_ear_edge_at(vertices, twin)->twin = edge;
     } else {
-        mesh->outer[mesh->edges[edge].origin] = edge;
+        vertices[e->origin].outer = edge;
     }
 }
 
 // The triangles (b, u, v) and (b, v, w) become (b, u, w) and (v, w, u); `edge` runs from b to u before and after.
-static void flip_ear_edge(tl_ear_mesh *mesh, uint32_t edge)
+static void flip_ear_edge(tl_ear_vertex *vertices, uint32_t edge)
 {
-    tl_ear_edge *edges = mesh->edges;
     const uint32_t uv = tl_ear_edge_next(edge), vb = tl_ear_edge_previous(edge);
-    const uint32_t bv = edges[vb].twin, wb = tl_ear_edge_previous(bv);
-    const uint32_t beyond_uv = edges[uv].twin, beyond_wb = edges[wb].twin;
-    edges[vb].origin = edges[wb].origin;
-    edges[bv].origin = edges[uv].origin;
-    join_ear_edge(mesh, vb, beyond_wb);
-    join_ear_edge(mesh, bv, beyond_uv);
-    edges[uv].twin = wb;
-    edges[wb].twin = uv;
+    const uint32_t bv = tl_ear_edge_twin(vertices, vb), wb = tl_ear_edge_previous(bv);
+    const uint32_t beyond_uv = tl_ear_edge_twin(vertices, uv), beyond_wb = tl_ear_edge_twin(vertices, wb);
+    tl_ear_edge_at(vertices, vb)->origin = tl_ear_edge_origin(vertices, wb);
+    tl_ear_edge_at(vertices, bv)->origin = tl_ear_edge_origin(vertices, uv);
+    join_ear_edge(vertices, vb, beyond_wb);
+    join_ear_edge(vertices, bv, beyond_uv);
+    tl_ear_edge_at(vertices, uv)->twin = wb;
+    tl_ear_edge_at(vertices, wb)->twin = uv;
 }
 
-void tl_ear_mesh_cut(tl_ear_mesh *mesh, uint32_t a, uint32_t b)
+void tl_ear_mesh_cut(tl_ear_vertex *vertices, uint32_t a, uint32_t b)
 {
-    const tl_ear_edge *edges = mesh->edges;
-    const tl_lattice_point *points = mesh->points;
-    uint32_t edge = mesh->outer[b];
+    uint32_t edge = vertices[b].outer;
     for (;;) {
-        const uint32_t back = tl_ear_edge_previous(edge), v = edges[back].origin;
+        const uint32_t back = tl_ear_edge_previous(edge), v = tl_ear_edge_origin(vertices, back);
         if (v == a) {
             break;
         }
-        const uint32_t u = edges[tl_ear_edge_next(edge)].origin, beyond = edges[back].twin;
-        const uint32_t w = edges[tl_ear_edge_previous(beyond)].origin;
-        if (tl_turn(points[u], points[v], points[w]) <= 0) {
+        const uint32_t u = tl_ear_edge_origin(vertices, tl_ear_edge_next(edge));
+        const uint32_t beyond = tl_ear_edge_twin(vertices, back);
+        const uint32_t w = tl_ear_edge_origin(vertices, tl_ear_edge_previous(beyond));
+        if (tl_turn(vertices[u].position, vertices[v].position, vertices[w].position) <= 0) {
             edge = beyond;
             continue;
         }
-        flip_ear_edge(mesh, edge);
-        if (edge != mesh->outer[b]) { // the vertex before may go now
-            edge = tl_ear_edge_next(edges[edge].twin);
+        flip_ear_edge(vertices, edge);
+        if (edge != vertices[b].outer) { // the vertex before may go now
+            edge = tl_ear_edge_next(tl_ear_edge_twin(vertices, edge));
         }
     }
-    TL_ASSERT(edge == mesh->outer[b]);
-    const uint32_t inner = edges[tl_ear_edge_next(edge)].twin;
+    TL_ASSERT(edge == vertices[b].outer);
+    const uint32_t inner = tl_ear_edge_twin(vertices, tl_ear_edge_next(edge));
     TL_ASSERT(inner != TL_NO_EAR_EDGE);
-    join_ear_edge(mesh, inner, TL_NO_EAR_EDGE);
+    join_ear_edge(vertices, inner, TL_NO_EAR_EDGE);
 }

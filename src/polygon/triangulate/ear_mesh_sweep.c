@@ -17,6 +17,7 @@
 
 #include "base/assert.h"
 #include "base/compiler.h"
+#include "base/min_max.h"
 #include "polygon/outline/key_table.h"
 
 #include <string.h>
@@ -29,7 +30,7 @@
 
 #define NO_REGION     UINT32_MAX
 
-enum { VERTICES_AHEAD = 16 };
+enum { VERTICES_AHEAD = 6 };
 
 // A vertex that splits a region, and the one it is joined to, stand in two chains: once in each.
 typedef struct chain_node {
@@ -45,7 +46,7 @@ typedef struct sweep_region {
 } sweep_region;
 
 typedef struct ear_sweep {
-    tl_ear_mesh *mesh;
+    tl_ear_vertex *vertices;
     const tl_lattice_point *points;
     uint32_t count;
     uint32_t triangle_count;
@@ -70,10 +71,10 @@ static uint32_t vertex_after(const ear_sweep *s, uint32_t v)
 // Joins an edge of a new triangle to what lies beyond it.
 static void join_side(ear_sweep *s, uint32_t edge, uint32_t side)
 {
-    tl_ear_edge *edges = s->mesh->edges;
-    edges[edge].twin = TL_NO_EAR_EDGE;
+    tl_ear_edge *e = tl_ear_edge_at(s->vertices, edge);
+    e->twin = TL_NO_EAR_EDGE;
     if (side & OUTLINE_SIDE) {
-        s->mesh->outer[side & SIDE_NUMBER] = edge;
+        s->vertices[side & SIDE_NUMBER].outer = edge;
         return;
     }
     uint32_t twin = side;
@@ -83,20 +84,24 @@ static void join_side(ear_sweep *s, uint32_t edge, uint32_t side)
         *first = edge;
     }
     if (twin != TL_NO_EAR_EDGE) {
-        edges[edge].twin = twin;
-        edges[twin].twin = edge;
+        e->twin = twin;
+        tl_ear_edge_at(s->vertices, twin)->twin = edge;
     }
 }
 
-// The first edge of a new triangle, from a to b.
+// The first edge of a new triangle, from a to b. It lies at the vertex in the middle of the three: there is one only.
 static uint32_t add_ear_triangle(ear_sweep *s, uint32_t a, uint32_t b, uint32_t c)
 {
-    s->is_broken = s->is_broken || s->triangle_count == s->count - 2;
-    const uint32_t edge = s->is_broken ? 0 : 4 * s->triangle_count++;
-    s->mesh->edges[edge].origin = s->nodes[a].vertex;
-    s->mesh->edges[edge + 1].origin = s->nodes[b].vertex;
-    s->mesh->edges[edge + 2].origin = s->nodes[c].vertex;
-    return edge;
+    const uint32_t u = s->nodes[a].vertex, v = s->nodes[b].vertex, w = s->nodes[c].vertex;
+    const uint32_t low = tl_min_u32(u, v), high = tl_max_u32(u, v);
+    const uint32_t middle = tl_max_u32(low, tl_min_u32(high, w));
+    tl_ear_edge *edges = s->vertices[middle].edges;
+    s->is_broken = s->is_broken || edges[0].origin != TL_NO_EAR_VERTEX;
+    s->triangle_count++;
+    edges[0].origin = u;
+    edges[1].origin = v;
+    edges[2].origin = w;
+    return 4 * middle;
 }
 
 static uint32_t add_chain_node(ear_sweep *s, uint32_t v)
@@ -250,17 +255,49 @@ static void sweep_vertex(ear_sweep *s, uint32_t v, uint32_t lower)
     }
 }
 
+// What vertex v needs when its turn comes, in steps, each of which reads what the one before has fetched.
+static TL_ALWAYS_INLINE void fetch_vertex(const ear_sweep *s, uint32_t v)
+{
+    tl_prefetch(&s->points[v]);
+    tl_prefetch(&s->region_of[v]);
+    tl_prefetch(&s->vertices[v]);
+}
+
+static TL_ALWAYS_INLINE void fetch_region(const ear_sweep *s, uint32_t v)
+{
+    const uint32_t region = s->region_of[v], before = s->region_of[vertex_before(s, v)];
+    tl_prefetch(&s->regions[region != NO_REGION ? region : 0]);
+    tl_prefetch(&s->regions[before != NO_REGION ? before : 0]);
+}
+
+static TL_ALWAYS_INLINE void fetch_chain(const ear_sweep *s, uint32_t v)
+{
+    const uint32_t edges[2] = { v, vertex_before(s, v) };
+    for (uint32_t k = 0; k < 2; k++) {
+        if (s->region_of[edges[k]] != NO_REGION) {
+            const sweep_region *region = &s->regions[s->region_of[edges[k]]];
+            tl_prefetch(&s->nodes[region->low]);
+            tl_prefetch(&s->nodes[region->high]);
+        }
+    }
+}
+
 // An outline whose vertices stand at different places: edges are the sweep's segments.
 static void sweep_plain_outline(ear_sweep *s, const tl_sweep_record *record)
 {
+    const uint32_t *order = record->order;
     for (uint32_t i = 0; i < s->count && !s->is_broken; i++) {
-        if (VERTICES_AHEAD < s->count - i) {
-            const uint32_t later = record->order[i + VERTICES_AHEAD];
-            tl_prefetch(&s->points[later]);
-            tl_prefetch(&s->region_of[later]);
-            tl_prefetch(&record->below[later]);
+        const uint32_t left = s->count - i;
+        if (3 * VERTICES_AHEAD < left) {
+            fetch_vertex(s, order[i + 3 * VERTICES_AHEAD]);
         }
-        sweep_vertex(s, record->order[i], record->below[record->order[i]]);
+        if (2 * VERTICES_AHEAD < left) {
+            fetch_region(s, order[i + 2 * VERTICES_AHEAD]);
+        }
+        if (VERTICES_AHEAD < left) {
+            fetch_chain(s, order[i + VERTICES_AHEAD]);
+        }
+        sweep_vertex(s, order[i], record->below[i]);
     }
 }
 
@@ -285,15 +322,22 @@ static tl_result sweep_united_outline(ear_sweep *s, tl_arena *arena, const tl_ou
     }
     const uint32_t *order = sweep->record.order, *below = sweep->record.below;
     for (uint32_t i = 0; i < sweep->place_count && !s->is_broken; i++) {
-        if (2 * VERTICES_AHEAD < sweep->place_count - i) {
-            tl_prefetch(&first[order[i + 2 * VERTICES_AHEAD]]);
-            tl_prefetch(&below[order[i + 2 * VERTICES_AHEAD]]);
-            const uint32_t later = first[order[i + VERTICES_AHEAD]];
-            tl_prefetch(&s->points[later]);
-            tl_prefetch(&s->region_of[later]);
+        const uint32_t left = sweep->place_count - i;
+        if (4 * VERTICES_AHEAD < left) {
+            tl_prefetch(&first[order[i + 4 * VERTICES_AHEAD]]);
+        }
+        if (3 * VERTICES_AHEAD < left) {
+            const uint32_t later = first[order[i + 3 * VERTICES_AHEAD]];
+            fetch_vertex(s, later);
             tl_prefetch(&next_there[later]);
         }
-        const uint32_t segment = below[order[i]];
+        if (2 * VERTICES_AHEAD < left) {
+            fetch_region(s, first[order[i + 2 * VERTICES_AHEAD]]);
+        }
+        if (VERTICES_AHEAD < left) {
+            fetch_chain(s, first[order[i + VERTICES_AHEAD]]);
+        }
+        const uint32_t segment = below[i];
         const uint32_t lower = segment < sweep->segment_count ? forward[segment] : NO_REGION;
         for (uint32_t v = first[order[i]]; v != TL_NO_VALUE && !s->is_broken; v = next_there[v]) {
             sweep_vertex(s, v, lower);
@@ -365,29 +409,29 @@ static tl_result sweep_unknown_outline(ear_sweep *s, tl_arena *arena)
     return is_apart ? sweep_united_outline(s, arena, &sweep) : TL_OK;
 }
 
-tl_result tl_ear_mesh_init(tl_ear_mesh *mesh, tl_arena *arena, const tl_lattice_point *points, uint32_t count,
+tl_result tl_ear_mesh_init(tl_ear_vertex *vertices, uint32_t count, tl_arena *scratch, const tl_lattice_point *points,
                            const tl_outline_sweep *sweep)
 {
-    mesh->points = points;
-    mesh->edges = TL_PUSH(arena, tl_ear_edge, 4 * ((uint64_t)count - 2));
-    mesh->outer = TL_PUSH(arena, uint32_t, count);
-    const tl_arena_mark mark = tl_arena_get_mark(arena);
-    ear_sweep s = { mesh, points, count, 0, NULL, 0, NULL, 0, NULL, false };
+    const tl_arena_mark mark = tl_arena_get_mark(scratch);
+    ear_sweep s = { vertices, points, count, 0, NULL, 0, NULL, 0, NULL, false };
     // A vertex that splits makes three nodes and two edges begin, so at most every other one does.
-    s.nodes = TL_PUSH(arena, chain_node, 2 * (uint64_t)count + 1);
-    s.regions = TL_PUSH(arena, sweep_region, (uint64_t)count / 2 + 1);
-    s.region_of = TL_PUSH(arena, uint32_t, count);
-    if (mesh->edges == NULL || mesh->outer == NULL || s.nodes == NULL || s.regions == NULL || s.region_of == NULL) {
+    s.nodes = TL_PUSH(scratch, chain_node, 2 * (uint64_t)count + 1);
+    s.regions = TL_PUSH(scratch, sweep_region, (uint64_t)count / 2 + 1);
+    s.region_of = TL_PUSH(scratch, uint32_t, count);
+    if (s.nodes == NULL || s.regions == NULL || s.region_of == NULL) {
         return TL_ERR_MEMORY;
     }
-    memset(s.region_of, 0xff, count * sizeof *s.region_of);
+    for (uint32_t v = 0; v < count; v++) {
+        s.region_of[v] = NO_REGION;
+        vertices[v].edges[0].origin = TL_NO_EAR_VERTEX;
+    }
     if (sweep == NULL) {
-        TL_TRY(sweep_unknown_outline(&s, arena));
+        TL_TRY(sweep_unknown_outline(&s, scratch));
     } else if (sweep->place_of == NULL) {
         sweep_plain_outline(&s, &sweep->record);
     } else {
-        TL_TRY(sweep_united_outline(&s, arena, sweep));
+        TL_TRY(sweep_united_outline(&s, scratch, sweep));
     }
-    tl_arena_rollback(arena, mark);
+    tl_arena_rollback(scratch, mark);
     return s.is_broken || s.triangle_count != count - 2 ? TL_ERR_SELF_INTERSECTION : TL_OK;
 }

@@ -25,23 +25,17 @@
 #include "polygon/triangulate/ear_mesh.h"
 #include "polygon/triangulate/partition_queue.h"
 
+#include <string.h>
+
 // From so many points on the mesh is the faster one.
 enum { SMALLEST_MESH = 128, CUTS_AHEAD = 8 };
 
-// A vertex with the ones next to it in what is left of the outline.
-typedef struct outline_vertex {
-    tl_lattice_point position;
-    uint32_t previous, next;
-    uint32_t across; // edge of a cut triangle on the far side of the edge that starts here, or TL_NO_EDGE
-    bool is_reflex;  // or straight
-} outline_vertex;
-
 typedef struct triangulation {
     const tl_lattice_point *points;
-    outline_vertex *vertices;
-    bool has_mesh;
-    tl_ear_list list; // of small outlines
-    tl_ear_mesh mesh; // of large ones
+    tl_ear_vertex *vertices;
+    uint32_t count;
+    bool has_mesh;    // in the vertices, of large outlines
+    tl_ear_list list; // of small ones
     tl_partition_queue queue;
 } triangulation;
 
@@ -49,8 +43,8 @@ typedef struct triangulation {
 // nobody can predict.
 static TL_ALWAYS_INLINE bool find_partition(const triangulation *t, uint32_t b, tl_partition *found)
 {
-    const outline_vertex *corner = &t->vertices[b];
-    const outline_vertex *before = &t->vertices[corner->previous], *after = &t->vertices[corner->next];
+    const tl_ear_vertex *corner = &t->vertices[b];
+    const tl_ear_vertex *before = &t->vertices[corner->previous], *after = &t->vertices[corner->next];
     const tl_lattice_point a = before->position, c = after->position;
     found->key = (uint64_t)tl_distance2(a, c);
     found->value = corner->previous;
@@ -77,7 +71,7 @@ static void consider_partition(triangulation *t, uint32_t b)
 // A corner whose angle a cut has made smaller.
 static void update_angle(triangulation *t, uint32_t b)
 {
-    outline_vertex *v = &t->vertices[b];
+    tl_ear_vertex *v = &t->vertices[b];
     if (v->is_reflex && tl_turn(t->vertices[v->previous].position, v->position, t->vertices[v->next].position) > 0) {
         v->is_reflex = false;
         if (!t->has_mesh) {
@@ -91,38 +85,36 @@ static void update_angle(triangulation *t, uint32_t b)
 // still the one that was tested.
 static bool is_current(const triangulation *t, const tl_partition *item)
 {
-    const outline_vertex *b = &t->vertices[t->vertices[item->value].next];
+    const tl_ear_vertex *b = &t->vertices[t->vertices[item->value].next];
     return b->previous == item->value && b->next == item->extra;
 }
 
 // The edge intersection test.
 static bool is_free_partition(const triangulation *t, const tl_partition *item)
 {
-    const outline_vertex *a = &t->vertices[item->value];
+    const tl_ear_vertex *a = &t->vertices[item->value];
     if (t->has_mesh) {
-        return tl_ear_mesh_is_free(&t->mesh, item->value, a->next, a->position, t->vertices[item->extra].position);
+        return tl_ear_mesh_is_free(t->vertices, item->value, a->next, a->position, t->vertices[item->extra].position);
     }
     return tl_ear_list_is_free(&t->list, a->position, t->vertices[a->next].position, t->vertices[item->extra].position);
 }
 
-// Corners are cut off in no order of place. Those of the sorted list are known long before their turn, the next one of
-// the heap is while the one before it is cut: what they need is fetched meanwhile.
-static void fetch_cuts_ahead(const triangulation *t)
+// Corners are cut off in no order of place. Those of the sorted list are known long before their turn, the next ones of
+// the heap are likely to be on top of it: what they need is fetched meanwhile.
+static TL_ALWAYS_INLINE void fetch_cuts_ahead(const triangulation *t)
 {
     const tl_partition_queue *queue = &t->queue;
+    const tl_ear_vertex *vertices = t->vertices;
     if (queue->sorted_count > 2 * CUTS_AHEAD) {
-        const uint32_t a = queue->sorted[2 * CUTS_AHEAD].value;
-        tl_prefetch(&t->vertices[a]);
-        tl_prefetch(&t->vertices[queue->sorted[2 * CUTS_AHEAD].extra]);
-        tl_prefetch(&t->mesh.outer[a]);
+        tl_prefetch(&vertices[queue->sorted[2 * CUTS_AHEAD].value]);
+        tl_prefetch(&vertices[queue->sorted[2 * CUTS_AHEAD].extra]);
     }
     if (queue->sorted_count > CUTS_AHEAD) {
-        const uint32_t b = t->vertices[queue->sorted[CUTS_AHEAD].value].next;
-        tl_prefetch(&t->mesh.edges[t->mesh.outer[b]]);
+        tl_prefetch(&vertices[vertices[queue->sorted[CUTS_AHEAD].value].next]);
     }
-    if (queue->heap_count > 0) {
-        tl_prefetch(&t->vertices[queue->heap[0].value]);
-        tl_prefetch(&t->vertices[queue->heap[0].extra]);
+    for (uint32_t i = 0; i < 5 && i < queue->heap_count; i++) { // the top and its children
+        tl_prefetch(&vertices[queue->heap[i].value]);
+        tl_prefetch(&vertices[queue->heap[i].extra]);
     }
 }
 
@@ -159,19 +151,6 @@ static bool is_left_turn(const triangulation *t, uint32_t b)
     return t->vertices[t->vertices[b].previous].next == b && t->vertices[t->vertices[b].next].previous == b;
 }
 
-static void emit_triangle(triangulation *t, uint32_t triangle, const uint32_t corners[3], uint32_t edges,
-                          uint32_t *triangles_out, uint32_t *twins_out)
-{
-    for (uint32_t k = 0; k < 3; k++) {
-        triangles_out[3 * triangle + k] = corners[k];
-        uint32_t twin = k < edges ? t->vertices[corners[k]].across : TL_NO_EDGE;
-        twins_out[3 * triangle + k] = twin;
-        if (twin != TL_NO_EDGE) {
-            twins_out[twin] = 3 * triangle + k;
-        }
-    }
-}
-
 static tl_result start_list(triangulation *t, tl_arena *scratch, uint32_t count)
 {
     if (!tl_ear_list_init(&t->list, scratch, count)) {
@@ -189,7 +168,7 @@ static tl_result start_list(triangulation *t, tl_arena *scratch, uint32_t count)
 
 static tl_result start_mesh(triangulation *t, tl_arena *scratch, const tl_triangulate_input *input)
 {
-    TL_TRY(tl_ear_mesh_init(&t->mesh, scratch, input->points, input->count, input->sweep));
+    TL_TRY(tl_ear_mesh_init(t->vertices, input->count, scratch, input->points, input->sweep));
     tl_partition_queue *queue = &t->queue;
     if (!tl_partition_queue_init(queue, scratch, input->count)) {
         return TL_ERR_MEMORY;
@@ -206,15 +185,19 @@ static tl_result start_triangulation(triangulation *t, tl_arena *scratch, const 
     const tl_lattice_point *points = input->points;
     const uint32_t count = input->count;
     t->points = points;
-    t->vertices = TL_PUSH(scratch, outline_vertex, count);
+    t->count = count;
+    t->vertices = TL_PUSH(scratch, tl_ear_vertex, count);
     if (t->vertices == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t before = i > 0 ? i - 1 : count - 1, after = i + 1 < count ? i + 1 : 0;
-        const outline_vertex v = { points[i], before, after, TL_NO_EDGE,
-                                   tl_turn(points[before], points[i], points[after]) <= 0 };
-        t->vertices[i] = v;
+        tl_ear_vertex *v = &t->vertices[i];
+        v->position = points[i];
+        v->previous = before;
+        v->next = after;
+        v->across = v->cut = TL_NO_EAR_VERTEX;
+        v->is_reflex = tl_turn(points[before], points[i], points[after]) <= 0;
     }
     // Those who watch get the partitions in the queue's order.
     t->has_mesh = input->ear_test == TL_EARS_BY_SIZE ? input->count >= SMALLEST_MESH || input->tracer != NULL
@@ -261,11 +244,26 @@ static tl_result trace_cut(const triangulation *t, tl_arena *scratch, const tl_s
     return TL_OK;
 }
 
-static tl_result triangulate(triangulation *t, tl_arena *scratch, uint32_t count, const tl_step_tracer *tracer,
-                             uint32_t *triangles_out, uint32_t *twins_out)
+// Cuts corner b off and joins its neighbours.
+static void cut_ear(triangulation *t, uint32_t b, uint32_t number)
 {
-    uint32_t triangle = 0;
-    for (uint32_t left = count; left > 3; left--) {
+    tl_ear_vertex *ear = &t->vertices[b], *a = &t->vertices[ear->previous], *c = &t->vertices[ear->next];
+    if (t->has_mesh) {
+        tl_ear_mesh_cut(t->vertices, ear->previous, b);
+    } else {
+        t->list.lengths2[b] = TL_NO_PARTITION;
+    }
+    ear->cut = number;
+    ear->across_before = a->across;
+    a->across = b;
+    a->next = ear->next;
+    c->previous = ear->previous;
+}
+
+// Cuts off all but the last triangle, of which the middle vertex is handed out.
+static tl_result cut_ears(triangulation *t, tl_arena *scratch, const tl_step_tracer *tracer, uint32_t *last_out)
+{
+    for (uint32_t left = t->count; left > 3; left--) {
         tl_partition chosen;
         if (!(t->has_mesh ? choose_from_queue(t, &chosen) : choose_from_list(t, &chosen))) {
             return TL_ERR_SELF_INTERSECTION;
@@ -275,18 +273,9 @@ static tl_result triangulate(triangulation *t, tl_arena *scratch, uint32_t count
         if (tracer != NULL) {
             TL_TRY(trace_cut(t, scratch, tracer, left, corners));
         }
-        emit_triangle(t, triangle, corners, 2, triangles_out, twins_out);
-        if (t->has_mesh) {
-            tl_ear_mesh_cut(&t->mesh, a, corners[1]);
-        } else {
-            t->list.lengths2[corners[1]] = TL_NO_PARTITION;
-        }
-        t->vertices[a].across = 3 * triangle + 2;
-        t->vertices[a].next = c;
-        t->vertices[c].previous = a;
+        cut_ear(t, corners[1], t->count - left);
         update_angle(t, a);
         update_angle(t, c);
-        triangle++;
         if (left > 4) {
             consider_partition(t, a);
             consider_partition(t, c);
@@ -302,8 +291,47 @@ static tl_result triangulate(triangulation *t, tl_arena *scratch, uint32_t count
     if (tl_turn(t->points[corners[0]], t->points[corners[1]], t->points[corners[2]]) <= 0) {
         return TL_ERR_SELF_INTERSECTION;
     }
-    emit_triangle(t, triangle, corners, 3, triangles_out, twins_out);
+    t->vertices[corners[1]].cut = t->count - 3;
+    t->vertices[corners[1]].across_before = t->vertices[corners[0]].across;
+    *last_out = corners[1];
     return tracer != NULL ? trace_cut(t, scratch, tracer, 3, corners) : TL_OK;
+}
+
+// Where the triangle of an ear is written: by the number of its cut, or by its corner. Two vertices, the first and the
+// last one of the last triangle, are no ear's corner.
+static uint32_t triangle_of(const triangulation *t, uint32_t b, const uint32_t *places_out, const uint32_t uncut[2])
+{
+    return places_out == NULL ? t->vertices[b].cut : b - (b > uncut[0]) - (b > uncut[1]);
+}
+
+static void write_triangles(const triangulation *t, uint32_t last, const tl_triangulate_input *input,
+                            uint32_t *triangles_out, uint32_t *twins_out)
+{
+    uint32_t *places_out = input->places_out;
+    const uint32_t uncut[2] = { t->vertices[last].previous, t->vertices[last].next };
+    memset(twins_out, 0xff, 3 * ((size_t)t->count - 2) * sizeof *twins_out);
+    for (uint32_t b = 0; b < t->count; b++) {
+        const tl_ear_vertex *ear = &t->vertices[b];
+        if (ear->cut == TL_NO_EAR_VERTEX) {
+            continue;
+        }
+        const uint32_t triangle = triangle_of(t, b, places_out, uncut);
+        triangles_out[3 * triangle] = ear->previous;
+        triangles_out[3 * triangle + 1] = b;
+        triangles_out[3 * triangle + 2] = ear->next;
+        if (places_out != NULL) {
+            places_out[triangle] = ear->cut;
+        }
+        const uint32_t across[3] = { ear->across_before, ear->across,
+                                     b == last ? t->vertices[uncut[1]].across : TL_NO_EAR_VERTEX };
+        for (uint32_t k = 0; k < 3; k++) {
+            if (across[k] != TL_NO_EAR_VERTEX) {
+                const uint32_t twin = 3 * triangle_of(t, across[k], places_out, uncut) + 2;
+                twins_out[3 * triangle + k] = twin;
+                twins_out[twin] = 3 * triangle + k;
+            }
+        }
+    }
 }
 
 tl_result tl_triangulate(tl_arena *scratch, const tl_triangulate_input *input, uint32_t *triangles_out,
@@ -311,8 +339,10 @@ tl_result tl_triangulate(tl_arena *scratch, const tl_triangulate_input *input, u
 {
     const tl_arena_mark mark = tl_arena_get_mark(scratch);
     triangulation t;
+    uint32_t last = 0;
     TL_TRY(start_triangulation(&t, scratch, input));
-    TL_TRY(triangulate(&t, scratch, input->count, input->tracer, triangles_out, twins_out));
+    TL_TRY(cut_ears(&t, scratch, input->tracer, &last));
+    write_triangles(&t, last, input, triangles_out, twins_out);
     tl_arena_rollback(scratch, mark);
     return TL_OK;
 }

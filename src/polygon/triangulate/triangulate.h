@@ -26,6 +26,8 @@ typedef struct tl_triangulate_input {
     const tl_outline_sweep *sweep; // over the edges from each point to the next, or NULL: not known
     const tl_step_tracer *tracer;  // or NULL
     tl_ear_test ear_test;
+    uint32_t *places_out; // NULL: triangles come in the order they were cut. Else by the corner that was cut, so that
+                          // neighbours lie near one another, and this is [triangle] its place in that order
 } tl_triangulate_input;
 
 /// Cuts a weakly simple outline of `count` >= 3 points into count - 2 triangles, all of positive area.
@@ -33,8 +35,9 @@ typedef struct tl_triangulate_input {
 /// Edges may coincide there and back (bridges to holes) and points may coincide, but no point lies inside an edge, no
 /// two edges cross, and no point is a spike's tip: what tl_outline_prepare hands out.
 /// Triangle t has the corners triangles_out[3t .. 3t + 2], indices of points, in the order (before, cut corner, after);
-/// triangles come in the order they were cut. twins_out[3t + k] is the number (3 * triangle + edge) of the same
-/// partition edge seen from the other triangle, or TL_NO_EDGE on the outline; edge k runs from corner k to corner k
+/// triangles come in the order they were cut, unless places_out is given. twins_out[3t + k] is the number (3 * triangle
+/// + edge) of the same partition edge seen from the other triangle, or TL_NO_EDGE on the outline; edge k runs from
+/// corner k to corner k
 /// + 1. TL_ERR_SELF_INTERSECTION: no valid partition was left, so the outline was not as described.
 tl_result tl_triangulate(tl_arena *scratch, const tl_triangulate_input *input, uint32_t *triangles_out,
                          uint32_t *twins_out);
