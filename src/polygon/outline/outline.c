@@ -79,15 +79,7 @@ static tl_result is_plain_by_sweep(tl_arena *arena, const tl_lattice_point *poin
         return TL_ERR_MEMORY;
     }
     const tl_arena_mark mark = tl_arena_get_mark(arena);
-    tl_lattice_segment *segments = TL_PUSH(arena, tl_lattice_segment, count);
-    if (segments == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        segments[i].a = i;
-        segments[i].b = i + 1 < count ? i + 1 : 0;
-    }
-    TL_TRY(tl_sweep_segments(arena, points, count, segments, count, &sweep->record, is_plain));
+    TL_TRY(tl_sweep_segments(arena, points, count, NULL, count, &sweep->record, is_plain));
     sweep->place_count = sweep->segment_count = *is_plain ? count : 0;
     tl_arena_rollback(arena, mark);
     return TL_OK;
@@ -141,6 +133,10 @@ tl_result tl_outline_unite_nodes(tl_arena *arena, tl_outline_nodes *nodes, uint3
     }
     uint32_t united = 0;
     for (uint32_t i = 0; i < nodes->count; i++) {
+        if (TL_KEYS_AHEAD < nodes->count - i) {
+            const tl_lattice_point later = nodes->points[i + TL_KEYS_AHEAD];
+            tl_key_table_fetch(&table, tl_pair_key((uint32_t)later.x, (uint32_t)later.z));
+        }
         tl_lattice_point p = nodes->points[i];
         uint32_t *place = tl_key_table_at(&table, tl_pair_key((uint32_t)p.x, (uint32_t)p.z));
         if (*place == TL_NO_VALUE) {
@@ -165,6 +161,20 @@ static bool on_other_floor(int32_t a, int32_t b, uint32_t merge_height)
 {
     int64_t difference = (int64_t)a - b;
     return (difference < 0 ? -difference : difference) > (int64_t)merge_height;
+}
+
+static bool has_other_floors(const tl_contour_vertex *vertices, const uint32_t *starts, uint32_t merge_height,
+                             const tl_outline *outline)
+{
+    const uint32_t corner_count = outline->walk_first[outline->walk_count];
+    for (uint32_t i = 0; i < corner_count; i++) {
+        if (outline->edges[i] != TL_NO_EDGE_OF_CONTOUR &&
+            on_other_floor(vertices[starts[outline->edges[i]]].y, outline->nodes.heights[outline->corners[i]],
+                           merge_height)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // Parts nodes that the contour passes on two floors. starts[e] is the contour's vertex at which its edge e starts.
@@ -257,7 +267,10 @@ static tl_result take_apart(tl_arena *arena, const tl_contour_vertex *vertices, 
     keep_sweep(outline, places, count);
     // Where edges were split they are no longer the contour's; such a contour is mended on one floor.
     bool is_split = (faults & (TL_CONTOUR_FAULT_TOUCH | TL_CONTOUR_FAULT_CROSSING)) != 0;
-    return is_split || outline->walk_count == 0 ? TL_OK : part_floors(arena, vertices, starts, merge_height, outline);
+    if (is_split || outline->walk_count == 0 || !has_other_floors(vertices, starts, merge_height, outline)) {
+        return TL_OK;
+    }
+    return part_floors(arena, vertices, starts, merge_height, outline);
 }
 
 tl_result tl_outline_prepare(tl_arena *arena, const tl_contour_vertex *vertices, uint32_t count, uint32_t merge_height,

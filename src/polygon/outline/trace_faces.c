@@ -37,6 +37,11 @@ static uint32_t half_twin(uint32_t half)
     return half ^ 1u;
 }
 
+static uint64_t undirected_key(const tl_outline_edge *edge)
+{
+    return edge->from < edge->to ? tl_pair_key(edge->from, edge->to) : tl_pair_key(edge->to, edge->from);
+}
+
 static tl_result gather_half_edges(graph *g, tl_arena *arena, const tl_outline_edge *edges, uint32_t count)
 {
     tl_key_table table;
@@ -52,9 +57,10 @@ static tl_result gather_half_edges(graph *g, tl_arena *arena, const tl_outline_e
     memset(g->edge_of, 0xff, 2 * (size_t)count * sizeof *g->edge_of);
     uint32_t made = 0;
     for (uint32_t i = 0; i < count; i++) {
-        bool rising = edges[i].from < edges[i].to;
-        uint64_t key = rising ? tl_pair_key(edges[i].from, edges[i].to) : tl_pair_key(edges[i].to, edges[i].from);
-        uint32_t *place = tl_key_table_at(&table, key);
+        if (TL_KEYS_AHEAD < count - i) {
+            tl_key_table_fetch(&table, undirected_key(&edges[i + TL_KEYS_AHEAD]));
+        }
+        uint32_t *place = tl_key_table_at(&table, undirected_key(&edges[i]));
         if (*place == TL_NO_VALUE) {
             *place = made;
             g->origin[2 * made] = edges[i].from;
@@ -227,6 +233,26 @@ static void add_walk(const graph *g, uint32_t start, uint32_t *halves, tl_outlin
     outline->walk_first[outline->walk_count] = (uint32_t)(corners - outline->corners);
 }
 
+// In the order of the contour, and each from its earliest edge on, so that a contour with bridges is walked just as it
+// came; last the faces that the contour only runs backward around.
+static tl_result add_walks(const graph *g, tl_arena *arena, uint32_t count, tl_outline *outline)
+{
+    uint8_t *done = TL_PUSH_ZERO(arena, uint8_t, g->face_count);
+    uint32_t *halves = TL_PUSH(arena, uint32_t, g->half_count);
+    if (done == NULL || halves == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint64_t i = 0; i < (uint64_t)count + g->half_count; i++) {
+        uint32_t h = i < count ? g->half_of[i] : (uint32_t)(i - count);
+        uint32_t face = g->face[h];
+        if (g->winding[face] > 0 && !done[face]) {
+            done[face] = 1;
+            add_walk(g, h, halves, outline);
+        }
+    }
+    return TL_OK;
+}
+
 static void find_faults(const graph *g, tl_outline *outline)
 {
     for (uint32_t f = 0; f < g->face_count; f++) {
@@ -249,6 +275,15 @@ tl_result tl_outline_trace_faces(tl_arena *arena, const tl_outline_edge *edges, 
     if (count == 0) {
         return TL_OK;
     }
+    // A connected plane graph has at most as many bounded faces as edges.
+    outline->walk_first = TL_PUSH(arena, uint32_t, (uint64_t)count + 2);
+    outline->corners = TL_PUSH(arena, uint32_t, 2 * (uint64_t)count);
+    outline->edges = TL_PUSH(arena, uint32_t, 2 * (uint64_t)count);
+    if (outline->walk_first == NULL || outline->corners == NULL || outline->edges == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    outline->walk_first[0] = 0;
+    const tl_arena_mark mark = tl_arena_get_mark(arena);
     graph g;
     memset(&g, 0, sizeof g);
     g.points = outline->nodes.points;
@@ -257,26 +292,8 @@ tl_result tl_outline_trace_faces(tl_arena *arena, const tl_outline_edge *edges, 
     TL_TRY(link_faces(&g, arena));
     TL_TRY(number_plane_faces(&g, arena));
     TL_TRY(count_windings(&g, arena));
-    uint8_t *done = TL_PUSH_ZERO(arena, uint8_t, g.face_count);
-    uint32_t *halves = TL_PUSH(arena, uint32_t, g.half_count);
-    outline->walk_first = TL_PUSH(arena, uint32_t, (uint64_t)g.face_count + 1);
-    outline->corners = TL_PUSH(arena, uint32_t, g.half_count);
-    outline->edges = TL_PUSH(arena, uint32_t, g.half_count);
-    if (done == NULL || halves == NULL || outline->walk_first == NULL || outline->corners == NULL ||
-        outline->edges == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    outline->walk_first[0] = 0;
-    // In the order of the contour, and each from its earliest edge on, so that a contour with bridges is walked just as
-    // it came; last the faces that the contour only runs backward around.
-    for (uint64_t i = 0; i < (uint64_t)count + g.half_count; i++) {
-        uint32_t h = i < count ? g.half_of[i] : (uint32_t)(i - count);
-        uint32_t face = g.face[h];
-        if (g.winding[face] > 0 && !done[face]) {
-            done[face] = 1;
-            add_walk(&g, h, halves, outline);
-        }
-    }
+    TL_TRY(add_walks(&g, arena, count, outline));
     find_faults(&g, outline);
+    tl_arena_rollback(arena, mark);
     return TL_OK;
 }
