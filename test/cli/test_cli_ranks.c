@@ -71,7 +71,7 @@ static int make_land(void **state)
 {
     const int code = cli_enter_folder(state);
     if (has_mpirun()) {
-        cli_do(0, "sample world -n 100000 -o land");
+        cli_do(0, "sample world -n 50000 -o land");
         cli_do(0, "world plan land -o alone");
         cli_do(0, "world bake alone");
         cli_do(0, "world merge alone -o alone.talus");

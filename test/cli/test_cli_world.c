@@ -63,7 +63,7 @@ static void test_shards_and_threads(void **state)
 {
     (void)state;
     static const int counts[] = { 1, 3, 7 };
-    cli_do(0, "sample world -n 100000 -o land");
+    cli_do(0, "sample world -n 50000 -o land");
     for (int c = 0; c < 3; c++) {
         char line[256];
         double tiles = 0, planned;
@@ -167,7 +167,7 @@ static uint32_t next_random(uint64_t *state)
 static void test_kills(void **state)
 {
     (void)state;
-    cli_do(0, "sample world -n 100000 --seed 5 -o wild");
+    cli_do(0, "sample world -n 50000 --seed 5 -o wild");
     cli_do(0, "world plan wild -o once");
     cli_do(0, "world bake once");
     cli_do(0, "world merge once -o once.talus");

@@ -8,8 +8,8 @@ MAX_CHANGED = 0.003        # of the pixels: the scale's length in words
 VISIBLE = 32               # of 255
 
 
-def read_png(path):
-    """(width, height, bytes a pixel, rows): PNG (second edition), 8 bits a channel, not interlaced, as talus writes them."""
+def unpack_png(path):
+    """(width, height, bytes a pixel, filtered rows): PNG (second edition), 8 bits a channel, not interlaced, as talus writes them."""
     data = open(path, "rb").read()
     if data[:8] != b"\x89PNG\r\n\x1a\n":
         raise ValueError(f"{path} is no PNG")
@@ -25,7 +25,7 @@ def read_png(path):
         elif kind == b"IDAT":
             packed += body
         place += size + 12
-    return width, height, step, unfilter(zlib.decompress(packed), width * step, height, step)
+    return width, height, step, zlib.decompress(packed)
 
 
 def paeth(left, above, corner):
@@ -58,9 +58,14 @@ def unfilter(data, width, height, step):
 
 def differ(one, other):
     """What tells two pictures apart, in words; None where a reader sees none of it."""
-    (width, height, step, rows), (width2, height2, step2, rows2) = read_png(one), read_png(other)
+    picture, other_picture = unpack_png(one), unpack_png(other)
+    if picture == other_picture:
+        return None
+    (width, height, step, filtered), (width2, height2, step2, filtered2) = picture, other_picture
     if step != step2 or abs(width - width2) > MAX_SIZE_DIFFERENCE * width or abs(height - height2) > MAX_SIZE_DIFFERENCE * height:
         return f"{width} x {height} and {width2} x {height2} pixels"
+    rows = unfilter(filtered, width * step, height, step)
+    rows2 = unfilter(filtered2, width2 * step, height2, step)
     size = min(width, width2) * step
     changed = total = 0
     for a, b in zip(rows[HEAD:-FOOT], rows2[HEAD:-FOOT]):
