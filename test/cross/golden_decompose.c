@@ -11,16 +11,16 @@ void golden_decompositions(const tl_mesh_view *view)
         float tolerance;
         tl_solid_rule solid;
         uint32_t max_vertices, max_parts;
-    } KINDS[] = { { "enclosed", 3.5f, TL_SOLID_ENCLOSED, 256, 0 },
-                  { "surface", 6.0f, TL_SOLID_SURFACE, 0, 0 },
-                  { "few", 3.5f, TL_SOLID_ENCLOSED, 12, 5 } };
+    } KINDS[] = { { "enclosed", 5.0f, TL_SOLID_ENCLOSED, 256, 0 },
+                  { "surface", 9.0f, TL_SOLID_SURFACE, 0, 0 },
+                  { "few", 5.5f, TL_SOLID_ENCLOSED, 12, 5 } };
     for (int i = 0; i < 3; i++) {
         tl_decompose_def def = tl_default_decompose_def();
         def.tolerance = KINDS[i].tolerance;
         def.solid = KINDS[i].solid;
         def.max_vertices = KINDS[i].max_vertices;
         def.max_parts = KINDS[i].max_parts;
-        def.max_cells = 1u << 13;
+        def.max_cells = 1u << 12;
         tl_decomposition body;
         MUST(tl_decomposition_bake(view, &def, &body, NULL));
         digest d = digest_begin();
