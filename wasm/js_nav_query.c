@@ -102,8 +102,7 @@ static bool grow_path(tl_js_navmesh *self, uint32_t corners, uint32_t polygons)
     return true;
 }
 
-// Corners as three arrays in the buffer: references, points, flags. Slot: how many, and where.
-static tl_result put_corners(uint32_t at, const tl_nav_corner *corners, uint32_t count)
+tl_result tl_js_put_corners(uint32_t at, const tl_nav_corner *corners, uint32_t count)
 {
     tl_nav_ref *refs = tl_js_buffer_room(count * (sizeof(tl_nav_ref) + sizeof(tl_vec3) + sizeof(uint32_t)));
     if (refs == NULL) {
@@ -156,7 +155,7 @@ tl_result TL_JS_EXPORT(js_find_path)(tl_js_navmesh *self, uint32_t flags, float 
     at = tl_js_put(tl_js_put(tl_js_put(at, path.length), path.lower_bound), path.surface_length);
     at = put_place(put_place(tl_js_put(at, path.node_count), &request.start), &request.goal);
     at = tl_js_put_pointer(tl_js_put(at, polygons), self->polygons);
-    return result == TL_OK ? put_corners(at, self->corners, path.corner_count) : result;
+    return result == TL_OK ? tl_js_put_corners(at, self->corners, path.corner_count) : result;
 }
 
 /// The cheapest path by area costs. Slot: as js_find_path, the cost in the place of the lower bound.
@@ -191,7 +190,7 @@ tl_result TL_JS_EXPORT(js_find_route)(tl_js_navmesh *self, uint32_t flags, float
     at = tl_js_put(tl_js_put(tl_js_put(at, plane), (double)route.path.cost), (double)route.length);
     at = put_place(put_place(tl_js_put(at, route.path.node_count), &route.start), &route.goal);
     at = tl_js_put_pointer(tl_js_put(at, route.path.polygon_count), self->polygons);
-    return result == TL_OK ? put_corners(at, self->corners, route.corner_count) : result;
+    return result == TL_OK ? tl_js_put_corners(at, self->corners, route.corner_count) : result;
 }
 
 /// A path for a wider agent. Slot: as js_find_path, the distance to walls in the place of the lower bound.
@@ -226,7 +225,7 @@ tl_result TL_JS_EXPORT(js_find_wide_path)(tl_js_navmesh *self, uint32_t flags, f
     at = tl_js_put(tl_js_put(tl_js_put(at, path.length), path.wall_distance), path.surface_length);
     at = put_place(put_place(tl_js_put(at, path.node_count), &request.start), &request.goal);
     at = tl_js_put_pointer(tl_js_put(at, 0), NULL);
-    return result == TL_OK ? put_corners(at, self->corners, path.corner_count) : result;
+    return result == TL_OK ? tl_js_put_corners(at, self->corners, path.corner_count) : result;
 }
 
 /// Slot: bytes for a table; then kind, corner vertices, edges, bytes.

@@ -41,6 +41,9 @@ tl_nav_offmesh tl_js_offmesh(uint32_t at);
 /// Gives the entry behind it.
 uint32_t tl_js_put_offmesh(uint32_t at, const tl_nav_offmesh *link);
 
+/// Corners as three arrays in the buffer: references, points, flags. Slot, from `at` on: how many, and where.
+tl_result tl_js_put_corners(uint32_t at, const tl_nav_corner *corners, uint32_t count);
+
 /// Tiles in the order of a file: by z, x and layer. Slot numbers, tl_navmesh_tile_count of them; NULL: out of memory.
 /// Freed with free().
 uint32_t *tl_js_tile_order(const tl_navmesh *navmesh);

@@ -12,6 +12,7 @@ export * from './types/nav_bake.js';
 export * from './types/stages.js';
 export * from './types/navmesh.js';
 export * from './types/nav_tools.js';
+export * from './types/corridor.js';
 export * from './types/crowd.js';
 export * from './types/pack.js';
 export * from './types/worker.js';

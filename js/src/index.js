@@ -19,6 +19,7 @@ import './nav_change.js';
 export { navmeshFromDetour, navmeshToDetour } from './nav_detour.js';
 export { jumpLinkPoint } from './nav_tools.js';
 export { Sight } from './sight.js';
+export { Corridor } from './corridor.js';
 export { Crowd } from './crowd.js';
 export { loadPack, pointFromLevel, pointToLevel, savePack } from './pack.js';
 export { TalusWorker } from './worker.js';

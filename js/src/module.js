@@ -207,6 +207,7 @@ function takeReport() {
 
 // Of tl_result (talus/base.h): its last outcome, and errors that JavaScript finds itself.
 const TL_NOT_LOADED = 3;
+export const TL_INCOMPLETE = 2;
 export const TL_ERR_MEMORY = 4;
 export const TL_ERR_NODES = 30;
 

@@ -7,8 +7,8 @@ import { Navmesh } from './navmesh.js';
 import { F32, F64, SLOT, TL_ERR_NODES, U32, U64, check, fail, slotVec3, wasm } from './module.js';
 
 const START_GIVEN = 1, GOAL_GIVEN = 2, FILTERED = 4, WITH_POLYGONS = 8;
-const HALF_EXTENTS = [2, 4, 2];
-const PATH_STATUS = ['none', 'complete', 'unreachable', 'out of nodes', 'unfinished', 'stale'];
+export const HALF_EXTENTS = [2, 4, 2];
+export const PATH_STATUS = ['none', 'complete', 'unreachable', 'out of nodes', 'unfinished', 'stale'];
 const WIDE_STATUS = ['none', 'complete', 'unreachable', 'out of nodes', 'start blocked', 'goal blocked'];
 const ALL_FLAGS = 0xffffffffffffffffn;
 
@@ -74,22 +74,29 @@ function wordsAt(first, count) {
   return list;
 }
 
-function refsAt(first, count) {
+export function refsAt(first, count) {
   const list = new Array(count);
   for (let i = 0; i < count; i++) list[i] = U64[first + i];
   return list;
 }
 
+/** What tl_js_put_corners left at a place of the slot. */
+export function readCorners(at) {
+  const s = SLOT + at, count = F64[s];
+  return {
+    corners: floatsAt(F64[s + 2] / 4, 3 * count),
+    cornerPolygons: refsAt(F64[s + 1] / 8, count),
+    cornerFlags: wordsAt(F64[s + 3] / 4, count),
+  };
+}
+
 // Where js_find_path leaves what.
 function readPath(words) {
-  const s = SLOT;
-  const cornerCount = F64[s + 15];
+  const s = SLOT, { corners, cornerPolygons, cornerFlags } = readCorners(15);
   const complete = F64[s] !== 0;
   return {
     status: words[F64[s]],
-    corners: floatsAt(F64[s + 17] / 4, complete ? 3 * cornerCount : 0),
-    cornerPolygons: refsAt(F64[s + 16] / 8, cornerCount),
-    cornerFlags: wordsAt(F64[s + 18] / 4, cornerCount),
+    corners: complete ? corners : [], cornerPolygons, cornerFlags,
     polygons: refsAt(F64[s + 14] / 8, F64[s + 13]),
     length: F64[s + 1], lowerBound: F64[s + 2], surfaceLength: F64[s + 3],
     start: readLocation(5), goal: readLocation(9), nodeCount: F64[s + 4],
