@@ -18,6 +18,13 @@ pub const TL_NO_TRIANGLE: u32 = u32::MAX;
 pub const TL_BLOB_ALIGNMENT: usize = 64;
 /// The first so many hits of a character's move are kept.
 pub const TL_MAX_CHARACTER_HITS: usize = 8;
+/// Bits of a corner's flags: where the path begins and ends, to which side it turns there, and that it takes an off-mesh
+/// link from there to the next corner.
+pub const TL_NAV_CORNER_START: u32 = 1;
+pub const TL_NAV_CORNER_END: u32 = 2;
+pub const TL_NAV_CORNER_LEFT: u32 = 4;
+pub const TL_NAV_CORNER_RIGHT: u32 = 8;
+pub const TL_NAV_CORNER_LINK: u32 = 16;
 
 /// A chunk's type out of its four letters.
 pub const fn pack_type(letters: &[u8; 4]) -> u32 {

@@ -2,6 +2,7 @@
 #![doc = include_str!("../README.md")]
 
 mod character;
+mod corridor;
 mod crowd;
 mod decompose;
 mod error;
@@ -20,6 +21,7 @@ mod world_queries;
 pub use character::{
     Character, CharacterHit, CharacterMover, CharacterReport, CharacterSettings, CharacterStep, Surface,
 };
+pub use corridor::{Corner, Corridor, Way};
 pub use crowd::{Agent, AgentSettings, AgentState, AgentStatus, Crowd, CrowdReport, CrowdSettings};
 pub use decompose::{decompose, ConvexPart, DecomposeSettings, Solid};
 pub use error::{Error, ErrorKind};

@@ -383,8 +383,13 @@ impl Query {
         self.navmesh = navmesh;
     }
 
-    fn locate(&self, point: Point) -> Result<Option<sys::tl_nav_location>, Error> {
+    pub(crate) fn locate(&self, point: Point) -> Result<Option<sys::tl_nav_location>, Error> {
         self.navmesh.locate(point, self.search_extents)
+    }
+
+    /// What the C interface's searches take: both are whole for as long as the query is.
+    pub(crate) fn parts(&mut self) -> (*mut sys::tl_nav_query, *const sys::tl_navmesh) {
+        (self.search.at, self.navmesh.raw())
     }
 
     /// The nearest point of the floor; `None`: there is none within `search_extents`.

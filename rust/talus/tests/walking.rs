@@ -3,8 +3,8 @@
 //! and refuse what is wrong by name.
 
 use talus::{
-    Agent, AgentSettings, AgentStatus, Character, CharacterMover, CharacterSettings, CharacterStep, Crowd,
-    CrowdSettings, ErrorKind, Formation, GroupSettings, Navmesh, NavmeshSettings, Point, Soup, Surface,
+    Agent, AgentSettings, AgentStatus, Character, CharacterMover, CharacterSettings, CharacterStep, Corridor, Crowd,
+    CrowdSettings, ErrorKind, Formation, GroupSettings, Navmesh, NavmeshSettings, Point, Soup, Surface, Way,
 };
 
 const DT: f32 = 1.0 / 20.0;
@@ -116,6 +116,58 @@ fn groups_follow_their_leader_around_the_wall() {
     assert_eq!(crowd.group(group).unwrap_err().kind(), ErrorKind::Stale);
     let error = crowd.add_group(&squad, &GroupSettings { spacing: f32::NAN, ..Default::default() }).unwrap_err();
     assert_eq!((error.kind(), error.field()), (ErrorKind::NotFinite, Some("spacing")));
+}
+
+#[test]
+fn a_corridor_is_walked_around_the_wall() {
+    let mut query = navmesh().query().unwrap();
+    let (from, to) = ([-5.0, 0.0, -5.0], [4.0, 0.0, -5.0]);
+    let path = query.shortest_path(from, to).unwrap().unwrap();
+    let mut corridor = Corridor::new(&query, from, 64).unwrap().unwrap();
+    assert_eq!((corridor.position(), corridor.reaches()), (corridor.target(), true));
+    assert_eq!(corridor.find(&mut query, to).unwrap(), Way::Complete);
+    let points: Vec<Point> = corridor.corners(&query, 64).unwrap().iter().map(|corner| corner.point).collect();
+    assert_eq!(points.len(), path.points.len());
+    let away = |a: Point, b: Point| (a[0] - b[0]).hypot(a[2] - b[2]);
+    assert!(points.iter().zip(&path.points).all(|(&a, &b)| away(a, b) < 1e-3));
+    let mut length = 0.0;
+    for step in 0.. {
+        assert!(step < 1000, "it does not arrive");
+        let Some(next) = corridor.corners(&query, 2).unwrap().get(1).copied() else { break };
+        let here = corridor.position();
+        let share = (0.2 / away(here, next.point)).min(1.0);
+        let now =
+            corridor.step(&mut query, std::array::from_fn(|i| here[i] + share * (next.point[i] - here[i]))).unwrap();
+        assert_eq!(now, corridor.position());
+        length += f64::from(away(here, now));
+        if away(now, corridor.target()) < 1e-3 {
+            break;
+        }
+    }
+    assert!(length > path.length - 0.01 && length < 1.01 * path.length, "{length} of {}", path.length);
+
+    // The target walks away, the agent is pushed against the wall, and there is nothing to make shorter.
+    assert!(away(corridor.step_target(&mut query, [3.0, 0.0, -2.0]).unwrap(), [3.0, 0.0, -2.0]) < 1e-3);
+    assert!(corridor.step(&mut query, [-3.0, 0.0, -5.0]).unwrap()[0] > 0.5);
+    assert!(!corridor.shorten(&query, 20.0).unwrap());
+    corridor.improve(&mut query, 32, 256).unwrap();
+    assert_eq!(corridor.repair(&mut query).unwrap(), Some(Way::Complete));
+    assert_eq!(corridor.pass_link(&query).unwrap(), None);
+    assert_eq!(corridor.find(&mut query, [99.0, 0.0, 0.0]).unwrap(), Way::NoFloor);
+    assert_eq!(corridor.step(&mut query, [f32::NAN, 0.0, 0.0]).unwrap_err().kind(), ErrorKind::NotFinite);
+    assert!(Corridor::new(&query, [99.0, 0.0, 0.0], 64).unwrap().is_none());
+    assert_eq!(Corridor::new(&query, from, 0).err().unwrap().field(), Some("capacity"));
+
+    // Two polygons lead a part of the way.
+    let mut short = Corridor::new(&query, from, 2).unwrap().unwrap();
+    short.find(&mut query, to).unwrap();
+    assert!(!short.reaches() && short.corners(&query, 64).unwrap().len() >= 2);
+
+    // Another navmesh has none of its polygons: it is repaired.
+    query.set_navmesh(navmesh());
+    let (position, goal) = (corridor.position(), corridor.goal());
+    assert!(corridor.repair(&mut query).unwrap().is_some());
+    assert!(away(position, corridor.position()) < 1e-3 && away(goal, corridor.target()) < 1e-3);
 }
 
 #[test]
