@@ -389,6 +389,48 @@ static void forks_are_passed(void **state)
     tl_nav_query_destroy(query);
 }
 
+static void check_pairs_arrive(tl_nav_query *query, uint64_t seed, uint32_t tile_cells)
+{
+    test_random random = { seed };
+    fixture_level level = fixture_random(&random, 5, 12);
+    level.tile_cells = tile_cells;
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    const fixture_refs all = fixture_all_refs(navmesh);
+    uint32_t reached = 0;
+    for (uint32_t i = 0; i < 40; i++) {
+        const tl_nav_path_request request = { NULL, fixture_random_location(navmesh, &all, &random),
+                                              fixture_random_location(navmesh, &all, &random) };
+        tl_nav_path path;
+        tl_nav_ref polygons[1024];
+        tl_nav_shortest_path shortest;
+        TEST_RESULT(tl_nav_query_find_path(query, navmesh, &request, polygons, 1024, &path), TL_OK);
+        TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &request, NULL, &shortest), TL_OK);
+        TEST_CHECK(path.status == shortest.status);
+        TEST_CHECK(shortest.node_count < 2500);
+        reached += path.status == TL_NAV_PATH_COMPLETE;
+    }
+    TEST_CHECK(reached > 20);
+    free(all.refs);
+    tl_navmesh_destroy(navmesh);
+}
+
+// In small tiles most polygons have links of two floors that run back and forth: one within another, or seen past one
+// another's ends. Paths that are as long as one another, along a seam, are searched once: they double at each link.
+static void links_lie_within_others(void **state)
+{
+    (void)state;
+    static const uint32_t SEEDS_OF_TWO[] = { 8, 70, 80, 201, 242 };
+    static const uint32_t SEEDS_OF_THREE[] = { 17, 23, 129, 211, 242, 248, 380, 397, 603, 712 };
+    tl_nav_query *query = fixture_query(1 << 14);
+    for (uint32_t i = 0; i < 5; i++) {
+        check_pairs_arrive(query, SEEDS_OF_TWO[i], 2);
+    }
+    for (uint32_t i = 0; i < 10; i++) {
+        check_pairs_arrive(query, SEEDS_OF_THREE[i], 3);
+    }
+    tl_nav_query_destroy(query);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(seams_know_their_twins),
@@ -397,6 +439,7 @@ int main(void)
                                         cmocka_unit_test(large_tiles_have_wide_numbers),
                                         cmocka_unit_test(collapsed_vertices_have_walls),
                                         cmocka_unit_test(slits_end_in_corners),
-                                        cmocka_unit_test(forks_are_passed) };
+                                        cmocka_unit_test(forks_are_passed),
+                                        cmocka_unit_test(links_lie_within_others) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -146,7 +146,7 @@ static inline bool may_turn_on(wedge_search *s, const step_from *from, uint32_t 
     bool is_walled = walls->first_x != 0.0f || walls->first_z != 0.0f;
     const uint64_t end = from->rings->has_back && vertex != i ? TURNING_NUMBER >> 3 : 0;
     const uint64_t number = TURNING_NUMBER | end | corner_number(from, from->rings->has_back ? i : vertex);
-    return (is_walled && s->in->filter == NULL) || is_first_root(s, number, cost);
+    return (is_walled && s->in->filter == NULL && !from->rings->has_back) || is_first_root(s, number, cost);
 }
 
 // Notes a vertex that the start sees. `to_vertex` leads there from the root, which is the start, or where the way bent
@@ -209,7 +209,8 @@ static inline void turn_into(wedge_search *s, const step_from *from, uint32_t i,
         return;
     }
     cost += length_of(to_vertex);
-    if (turn != 0 && rank_root(s, turn, cost) != TL_NAV_ROOT_WORSE) {
+    if (turn != 0 && rank_root(s, turn, cost) != TL_NAV_ROOT_WORSE &&
+        (!from->rings->has_back || may_turn_on(s, from, i, vertex, cost))) {
         const wedge_origin root = { from->ring[vertex].x, from->ring[vertex].z, cost };
         seen_edge edge = see_edge(from, i, root.x, root.z);
         add_wedge(s, from, i, root, &edge, open, open);
@@ -420,6 +421,26 @@ static inline bool is_outrun(const wedge_search *s, const tl_nav_wedge *wedge, c
            is_outrun_from(wedge, by_right, right, ends->sees_left ? left : meet_edge_line(wedge->left, right, left));
 }
 
+// Where links of two floors lie over one another along a seam, one may lie within another, by which a wedge has
+// entered. Paths turn at its ends, straight back over the seam.
+static TL_NOINLINE void turn_within_entry(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge,
+                                          const wedge_view *view)
+{
+    for (uint32_t i = 0; i < from->count; i++) {
+        const uint32_t ends[2] = { i, vertex_behind(i, from->count) };
+        for (uint32_t k = 0; k < 2 && i != wedge->edge && tl_nav_ring_is_open(&from->ring[i]); k++) {
+            const tl_nav_ring_edge *vertex = &from->ring[ends[k]];
+            const seen_vertex seen = look_at(view, vertex);
+            const seen_edge entry = see_edge(from, wedge->edge, vertex->x, vertex->z);
+            const bool is_within = entry.right.x * entry.left.x + entry.right.z * entry.left.z < 0.0;
+            if (is_within && view_of(s, &entry).edge_on && (seen.left_of & LEFT_LIMIT) == 0 &&
+                (seen.right_of & RIGHT_LIMIT) == 0 && !is_open_direction(seen.at)) {
+                turn_into(s, from, i, ends[k], wedge->cost, seen.at);
+            }
+        }
+    }
+}
+
 // Goes around the ring from the right end of the edge of entry to its left end, which is from right to left as it is
 // seen from the root. Edges right of the wedge are reached by turning right, those left of it by turning left.
 static inline void expand_wedge(wedge_search *s, uint32_t index)
@@ -429,6 +450,7 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
     const wedge_view view = make_view(wedge);
     const step_from from = step_from_polygon(s, index, wedge->slot, wedge->polygon);
     const entry_ends ends = ends_of_entry(&from, wedge);
+    const bool in_order = !from.rings->has_back; // the edges, as they are seen
     // With a filter a vertex's number says nothing of its walls.
     if (s->in->filter == NULL && s->sight == NULL && is_outrun(s, wedge, &ends)) {
         return;
@@ -449,7 +471,10 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
         const uint32_t next = vertex_behind(i, from.count);
         right = left_is == i ? left : look_at(&view, &from.ring[i]);
         if ((right.left_of & LEFT_LIMIT) != 0) {
-            break; // and so are all that follow
+            if (in_order) {
+                break; // and so are all that follow
+            }
+            continue;
         }
         left = look_at(&view, &from.ring[next]);
         left_is = next;
@@ -457,8 +482,8 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
             continue;
         }
         const bool begins_right = (right.right_of & LEFT_LIMIT) != 0, ends_left = (left.left_of & RIGHT_LIMIT) != 0;
-        last_seen = begins_right ? k : last_seen;
-        first_seen = ends_left && k < first_seen ? k : first_seen;
+        last_seen = begins_right && in_order ? k : last_seen;
+        first_seen = ends_left && in_order && k < first_seen ? k : first_seen;
         seen_edge edge = { right.at, left.at };
         edge_view v = view_of(s, &edge);
         if (v.facing && begins_right && ends_left) {
@@ -471,6 +496,9 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
         if (v.edge_on) {
             add_edge_on(s, &from, i, root, &edge);
         }
+    }
+    if (!in_order) {
+        turn_within_entry(s, &from, wedge, &view);
     }
     if (view.open_right_of == 0 && ends.sees_left) {
         turn_at_limit(s, &from, wedge, 1, last_seen, from.count);
