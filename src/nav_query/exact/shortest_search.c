@@ -257,6 +257,25 @@ tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search)
     return end == TL_NAV_SEARCH_PAUSED ? tl_nav_step_shortest(search, &steps) : end;
 }
 
+// Whether some direction of a wedge lies on one hand of a wall: on the left (1) or the right (-1). Far more than
+// rounding is allowed for, as who is told of what is seen asks more closely.
+static bool reaches_hand_of(const tl_nav_wedge *wedge, tl_nav_direction wall, int hand, double rounding)
+{
+    const double wall_size = fabs(wall.x) + fabs(wall.z), slack = 32.0 * rounding;
+    return hand * wedge_cross(wall, wedge->left) <= slack * (wall_size + fabs(wedge->left.x) + fabs(wedge->left.z)) ||
+           hand * wedge_cross(wall, wedge->right) <= slack * (wall_size + fabs(wedge->right.x) + fabs(wedge->right.z));
+}
+
+// Whether a path that comes back from somewhere in a wedge may turn at the place that is looked from: to a hand on
+// which both walls lie. No direction of a wedge lies on one hand of a line if neither of its ends does.
+static bool may_turn_before(const tl_nav_wedge *wedge, const tl_nav_ring_walls *walls, double rounding)
+{
+    const tl_nav_direction first = { (double)walls->first_x, (double)walls->first_z };
+    const tl_nav_direction last = { (double)walls->last_x, (double)walls->last_z };
+    return (reaches_hand_of(wedge, first, 1, rounding) && reaches_hand_of(wedge, last, 1, rounding)) ||
+           (reaches_hand_of(wedge, first, -1, rounding) && reaches_hand_of(wedge, last, -1, rounding));
+}
+
 bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight)
 {
     wedge_search s;
@@ -273,7 +292,8 @@ bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight)
     tl_nav_next_generation(s.query);
     look_from_root(&s, add_start(&s));
     for (uint32_t i = 0; i < s.query->wedge_count && s.trouble == TL_NAV_SEARCH_FOUND; i++) {
-        if (s.query->wedges[i].edge < TL_NAV_WEDGE_LANDS) {
+        const tl_nav_wedge *wedge = &s.query->wedges[i];
+        if (wedge->edge < TL_NAV_WEDGE_LANDS && may_turn_before(wedge, sight->walls, s.rounding)) {
             expand_wedge(&s, i);
         }
     }

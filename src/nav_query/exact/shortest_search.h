@@ -45,10 +45,12 @@ tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search);
 typedef struct tl_nav_sight {
     void (*note)(void *user, uint32_t turn); ///< a vertex is seen at which a path that comes straight to it may turn
     void *user;
+    const tl_nav_ring_walls *walls; ///< on both sides of the start, which is a vertex
 } tl_nav_sight;
 
-/// Looks from the start of `from` all around, as far as walls let; of its other members query and navmesh count, and
-/// the filter is NULL. Afterwards the query's wedges hold the polygons that are seen. False: out of nodes.
+/// Looks from the start of `from` as far as walls let, in all directions from which a path that comes may turn there;
+/// of its other members query and navmesh count, and the filter is NULL. Afterwards the query's wedges hold the
+/// polygons that are seen. False: out of nodes.
 bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight);
 
 /// Sets a search up for a request, and moves its ends onto their polygons. TL_ERR_ARGUMENT (the filter has no cookie),

@@ -157,7 +157,7 @@ static tl_result look_from(graph_baker *b, uint32_t vertex)
     start.start_slot = from->place.slot;
     start.start_polygon = from->place.polygon;
     start.start = tl_vec3_make(from->x, from->y, from->z);
-    tl_nav_sight sight = { note_sight, b };
+    tl_nav_sight sight = { note_sight, b, &from->walls };
     b->vertex = vertex;
     start.query = b->query;
     while (!tl_nav_see(&start, &sight)) {
