@@ -14,6 +14,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "nav_query/exact/wedge_sight.h"
 #include "nav_query/prepared/graph_reuse.h"
 
@@ -133,8 +134,8 @@ static void write_cone(const tl_navmesh *navmesh, const tl_nav_visibility_graph 
     for (uint32_t i = 0; i < count; i++) {
         double x = (double)ring[i].x;
         double z = (double)ring[i].z;
-        size = fmax(size, fabs(x - (double)vertex->x) + fabs(z - (double)vertex->z));
-        largest = fmax(largest, fmax(fabs(x), fabs(z)));
+        size = tl_max_f64(size, fabs(x - (double)vertex->x) + fabs(z - (double)vertex->z));
+        largest = tl_max_f64(largest, tl_max_f64(fabs(x), fabs(z)));
     }
     double rounding = fmax(graph->rounding, TL_NAV_ON_LINE * largest);
     cones->left_x[at] = cone->left_x;
@@ -146,21 +147,31 @@ static void write_cone(const tl_navmesh *navmesh, const tl_nav_visibility_graph 
     cones->vertex[at] = cone->vertex;
 }
 
-static bool allocate_cones(const tl_allocator *allocator, tl_nav_corner_cones *cones)
+// Room for `capacity` cones.
+static bool allocate_cones(const tl_allocator *allocator, tl_nav_corner_cones *cones, uint32_t capacity)
 {
-    cones->size = 7 * ((uint64_t)cones->count + TL_NAV_CONES_AT_ONCE);
+    const uint64_t places = (uint64_t)capacity + TL_NAV_CONES_AT_ONCE;
+    cones->size = 7 * places;
     cones->block = tl_allocate_array(allocator, cones->size, sizeof *cones->block);
     if (cones->block == NULL) {
         return false;
     }
-    memset(cones->block, 0, cones->size * sizeof *cones->block);
     float **arrays[6] = { &cones->left_x,  &cones->left_z,  &cones->left_min,
                           &cones->right_x, &cones->right_z, &cones->right_min };
     for (uint32_t i = 0; i < 6; i++) {
-        *arrays[i] = cones->block + i * (cones->size / 7);
+        *arrays[i] = cones->block + i * places;
     }
-    cones->vertex = (uint32_t *)(void *)(cones->block + 6 * (cones->size / 7));
+    cones->vertex = (uint32_t *)(void *)(cones->block + 6 * places);
     return true;
+}
+
+// What is read behind the last cone, with it.
+static void clear_behind_cones(const tl_nav_corner_cones *cones)
+{
+    for (uint32_t i = 0; i < 7; i++) {
+        float *end = cones->block + i * (cones->size / 7) + cones->count;
+        memset(end, 0, TL_NAV_CONES_AT_ONCE * sizeof *end);
+    }
 }
 
 // The cones of the list by polygon, joined: those of polygon p at [first[p], first[p + 1]).
@@ -197,29 +208,33 @@ static const uint32_t *old_cones(const tl_navmesh *navmesh, const tl_nav_graph_r
                : NULL;
 }
 
-// Copies the cones of a polygon that are reused to the graph's from `at` on; UINT32_MAX: they are only counted. Returns
-// their number.
+static void copy_run(const tl_nav_corner_cones *from, uint32_t first, uint32_t count, const tl_nav_corner_cones *to,
+                     uint32_t at)
+{
+    const size_t bytes = count * sizeof *from->block;
+    memcpy(to->left_x + at, from->left_x + first, bytes);
+    memcpy(to->left_z + at, from->left_z + first, bytes);
+    memcpy(to->left_min + at, from->left_min + first, bytes);
+    memcpy(to->right_x + at, from->right_x + first, bytes);
+    memcpy(to->right_z + at, from->right_z + first, bytes);
+    memcpy(to->right_min + at, from->right_min + first, bytes);
+}
+
+// Copies the cones of a polygon that are reused to the graph's from `at` on: all that follow one another at once.
+// Returns their number.
 static uint32_t copy_cones(const tl_nav_graph_reuse *reuse, const uint32_t *range, const tl_nav_corner_cones *to,
                            uint32_t at)
 {
     const tl_nav_corner_cones *from = &reuse->old->cones;
     uint32_t count = 0;
     for (uint32_t i = range[0]; i < range[1]; i++) {
-        const uint32_t vertex = reuse->now[from->vertex[i]];
-        if (vertex == TL_NAV_NO_VERTEX) {
-            continue;
+        const uint32_t begin = i;
+        while (i < range[1] && reuse->now[from->vertex[i]] != TL_NAV_NO_VERTEX) {
+            to->vertex[at + count + (i - begin)] = reuse->now[from->vertex[i]];
+            i++;
         }
-        if (at != UINT32_MAX) {
-            const uint32_t k = at + count;
-            to->left_x[k] = from->left_x[i];
-            to->left_z[k] = from->left_z[i];
-            to->left_min[k] = from->left_min[i];
-            to->right_x[k] = from->right_x[i];
-            to->right_z[k] = from->right_z[i];
-            to->right_min[k] = from->right_min[i];
-            to->vertex[k] = vertex;
-        }
-        count++;
+        copy_run(from, begin, i - begin, to, at + count);
+        count += i - begin;
     }
     return count;
 }
@@ -227,7 +242,7 @@ static uint32_t copy_cones(const tl_nav_graph_reuse *reuse, const uint32_t *rang
 // What lay_cones puts into a graph.
 typedef struct cone_layout {
     const tl_navmesh *navmesh;
-    const tl_nav_visibility_graph *graph;
+    tl_nav_visibility_graph *graph;
     const tl_nav_graph_reuse *reuse;
     const uint32_t *first;             // by polygon, of the new ones
     const tl_nav_corner_cone *grouped; // those
@@ -235,44 +250,54 @@ typedef struct cone_layout {
 } cone_layout;
 
 // The cones of one polygon, from `at` on; returns their number. `p`: its number in the graph.
-static uint32_t lay_polygon(const cone_layout *l, uint32_t slot, uint32_t polygon, uint32_t p, uint32_t at, bool writes)
+static uint32_t lay_polygon(const cone_layout *l, uint32_t slot, uint32_t polygon, uint32_t p, uint32_t at)
 {
     const uint32_t *range = old_cones(l->navmesh, l->reuse, slot, polygon);
-    uint32_t count = range != NULL ? copy_cones(l->reuse, range, &l->graph->cones, writes ? at : UINT32_MAX) : 0;
+    uint32_t count = range != NULL ? copy_cones(l->reuse, range, &l->graph->cones, at) : 0;
     for (uint32_t i = l->first[p]; i < l->first[p + 1]; i++, count++) {
-        if (writes) {
-            write_cone(l->navmesh, l->graph, &l->grouped[i], at + count);
-        }
+        write_cone(l->navmesh, l->graph, &l->grouped[i], at + count);
     }
     return count;
 }
 
-// Goes through all polygons and says where their cones stand; `writes`: writes them there.
-static tl_result lay_cones(const cone_layout *l, bool writes, uint32_t *count_out)
+// Goes through all polygons, and writes their cones and where they stand.
+static tl_result lay_cones(const cone_layout *l)
 {
-    uint64_t count = 0;
+    tl_nav_corner_cones *cones = &l->graph->cones;
     uint32_t p = 0;
     for (uint32_t slot = 0; slot < l->graph->slot_count; slot++) {
         const tl_nav_slot *in = &l->navmesh->slots[slot];
         for (uint32_t polygon = 0; in->tile != NULL && polygon < in->rings.polygon_count; polygon++, p++) {
-            l->graph->cones.first[p] = (uint32_t)count;
-            count += lay_polygon(l, slot, polygon, p, (uint32_t)count, writes);
-            if (count > UINT32_MAX - TL_NAV_CONES_AT_ONCE) {
-                return TL_ERR_LIMIT;
-            }
+            cones->first[p] = cones->count;
+            cones->count += lay_polygon(l, slot, polygon, p, cones->count);
             TL_TRY(tl_stage_tick(l->stage, p));
         }
     }
-    l->graph->cones.first[p] = (uint32_t)count;
-    *count_out = (uint32_t)count;
+    cones->first[p] = cones->count;
+    clear_behind_cones(cones);
     return TL_OK;
+}
+
+// How many cones of the graph before are reused.
+static uint32_t count_reused(const tl_navmesh *navmesh, const tl_nav_graph_reuse *reuse)
+{
+    uint32_t count = 0;
+    for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
+        const uint32_t *first = old_cones(navmesh, reuse, slot, 0);
+        const uint32_t end = first != NULL ? first[navmesh->slots[slot].rings.polygon_count] : 0;
+        for (uint32_t i = first != NULL ? first[0] : 0; i < end; i++) {
+            count += reuse->now[reuse->old->cones.vertex[i]] != TL_NAV_NO_VERTEX ? 1 : 0;
+        }
+    }
+    return count;
 }
 
 tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, tl_nav_visibility_graph *graph,
                              const tl_nav_graph_reuse *reuse, tl_stage *stage)
 {
     tl_nav_corner_cones *cones = &graph->cones;
-    if (list->count > UINT32_MAX - TL_NAV_CONES_AT_ONCE) {
+    const uint32_t reused = count_reused(navmesh, reuse);
+    if (list->count + reused > UINT32_MAX - TL_NAV_CONES_AT_ONCE) {
         return TL_ERR_LIMIT;
     }
     const uint64_t places = (uint64_t)graph->polygon_count + 1;
@@ -283,13 +308,10 @@ tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, 
     const cone_layout layout = { navmesh, graph, reuse, first, grouped, stage };
     if (result == TL_OK) {
         sort_cones(list, graph, first, grouped);
-        result = lay_cones(&layout, false, &cones->count);
+        result = allocate_cones(list->allocator, cones, reused + first[graph->polygon_count]) ? TL_OK : TL_ERR_MEMORY;
     }
     if (result == TL_OK) {
-        result = allocate_cones(list->allocator, cones) ? TL_OK : TL_ERR_MEMORY;
-    }
-    if (result == TL_OK) {
-        result = lay_cones(&layout, true, &cones->count);
+        result = lay_cones(&layout);
     }
     tl_release_array(list->allocator, grouped, list->count, sizeof *grouped);
     tl_release_array(list->allocator, first, places, sizeof *first);
