@@ -126,17 +126,14 @@ static void note_sight(void *user, uint32_t turn)
     }
 }
 
-// The edges that a corner vertex had before, where it sees what it saw. Those that look around anew may miss it by
-// rounding, and so both ends are told.
-static void keep_sights(graph_baker *b, uint32_t vertex)
+// Tells the ends of the edges that a corner vertex keeps: those that look around anew may miss it by rounding.
+static void tell_ends(graph_baker *b, uint32_t vertex)
 {
     const tl_nav_visibility_graph *old = b->reuse.old;
     const tl_nav_corner_vertex *from = &old->vertices[b->reuse.before[vertex]];
     for (uint32_t k = from[0].first_edge; k < from[1].first_edge; k++) {
-        const uint32_t turn = old->vertices[old->edges[k].to].turn, to = b->vertex_of[turn];
-        add_pair(b, vertex, to);
-        if (!tl_nav_is_reused(&b->reuse, to)) {
-            add_pair(b, to, vertex);
+        if (b->reuse.now[old->edges[k].to] == TL_NAV_NO_VERTEX) {
+            add_pair(b, b->vertex_of[old->vertices[old->edges[k].to].turn], vertex);
         }
     }
 }
@@ -222,25 +219,39 @@ static uint32_t sort_unique(uint32_t *values, uint32_t count)
     return kept;
 }
 
-static tl_result make_edges(graph_baker *b)
+// Where the edges of a corner vertex lead that it had before, if it sees what it saw. Returns their number.
+static uint32_t kept_ends(const graph_baker *b, uint32_t vertex, uint32_t *to_out)
 {
-    TL_TRY(tl_stage_add(&b->stage, 0));
-    tl_nav_visibility_graph *graph = b->graph;
-    uint32_t count = graph->vertex_count;
-    uint32_t *first = tl_allocate_array(&b->allocator, (uint64_t)count + 1, sizeof *first);
-    uint32_t *to = tl_allocate_array(&b->allocator, b->sights.count, sizeof *to);
-    if (first != NULL && to != NULL) {
-        group(&b->sights, count, first, to);
-        for (uint32_t i = 0; i < count; i++) {
-            uint32_t end = sort_unique(to + first[i], first[i + 1] - first[i]);
-            graph->vertices[i].first_edge = graph->edge_count;
-            memmove(to + graph->edge_count, to + first[i], end * sizeof *to);
-            graph->edge_count += end;
-        }
-        graph->vertices[count].first_edge = graph->edge_count;
-        graph->edges = tl_allocate_array(&b->allocator, graph->edge_count, sizeof *graph->edges);
+    const tl_nav_visibility_graph *old = b->reuse.old;
+    if (!tl_nav_is_reused(&b->reuse, vertex)) {
+        return 0;
     }
-    for (uint32_t i = 0; i < count && graph->edges != NULL; i++) {
+    const tl_nav_corner_vertex *from = &old->vertices[b->reuse.before[vertex]];
+    const uint32_t count = from[1].first_edge - from[0].first_edge;
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t to = old->edges[from->first_edge + k].to, now = b->reuse.now[to];
+        to_out[k] = now != TL_NAV_NO_VERTEX ? now : b->vertex_of[old->vertices[to].turn];
+    }
+    return count;
+}
+
+// Where all edges lead, vertex by vertex: those that were kept, and what was seen. `to` has room for all.
+static void gather_ends(graph_baker *b, const uint32_t *first, const uint32_t *seen, uint32_t *to)
+{
+    tl_nav_visibility_graph *graph = b->graph;
+    for (uint32_t i = 0; i < graph->vertex_count; i++) {
+        uint32_t *ends = to + graph->edge_count;
+        const uint32_t kept = kept_ends(b, i, ends), fresh = first[i + 1] - first[i];
+        memcpy(ends + kept, seen + first[i], fresh * sizeof *ends);
+        graph->vertices[i].first_edge = graph->edge_count;
+        graph->edge_count += sort_unique(ends, kept + fresh);
+    }
+    graph->vertices[graph->vertex_count].first_edge = graph->edge_count;
+}
+
+static void fill_edges(tl_nav_visibility_graph *graph, const uint32_t *to)
+{
+    for (uint32_t i = 0; i < graph->vertex_count; i++) {
         const tl_nav_corner_vertex *from = &graph->vertices[i];
         for (uint32_t k = from[0].first_edge; k < from[1].first_edge; k++) {
             const tl_nav_corner_vertex *end = &graph->vertices[to[k]];
@@ -250,8 +261,31 @@ static tl_result make_edges(graph_baker *b)
             graph->edges[k] = edge;
         }
     }
-    tl_release_array(&b->allocator, first, (uint64_t)count + 1, sizeof *first);
-    tl_release_array(&b->allocator, to, b->sights.count, sizeof *to);
+}
+
+static tl_result make_edges(graph_baker *b)
+{
+    TL_TRY(tl_stage_add(&b->stage, 0));
+    tl_nav_visibility_graph *graph = b->graph;
+    const uint64_t room = b->sights.count + (b->reuse.old != NULL ? b->reuse.old->edge_count : 0);
+    if (room > UINT32_MAX) {
+        return TL_ERR_LIMIT;
+    }
+    const uint64_t places = (uint64_t)graph->vertex_count + 1;
+    uint32_t *first = tl_allocate_array(&b->allocator, places, sizeof *first);
+    uint32_t *seen = tl_allocate_array(&b->allocator, b->sights.count, sizeof *seen);
+    uint32_t *to = tl_allocate_array(&b->allocator, room, sizeof *to);
+    if (first != NULL && seen != NULL && to != NULL) {
+        group(&b->sights, graph->vertex_count, first, seen);
+        gather_ends(b, first, seen, to);
+        graph->edges = tl_allocate_array(&b->allocator, graph->edge_count, sizeof *graph->edges);
+    }
+    if (graph->edges != NULL) {
+        fill_edges(graph, to);
+    }
+    tl_release_array(&b->allocator, first, places, sizeof *first);
+    tl_release_array(&b->allocator, seen, b->sights.count, sizeof *seen);
+    tl_release_array(&b->allocator, to, room, sizeof *to);
     return graph->edges != NULL ? TL_OK : TL_ERR_MEMORY;
 }
 
@@ -287,16 +321,13 @@ static tl_result bake_graph(graph_baker *b)
     b->stage.total = b->graph->vertex_count;
     for (uint32_t i = 0; i < b->graph->vertex_count; i++) {
         if (tl_nav_is_reused(&b->reuse, i)) {
-            keep_sights(b, i);
+            tell_ends(b, i);
             TL_TRY(b->result);
         } else {
             TL_TRY(look_from(b, i));
             b->graph->looked++;
         }
         TL_TRY(tl_stage_add(&b->stage, 1));
-    }
-    if (b->sights.count > UINT32_MAX) {
-        return TL_ERR_LIMIT;
     }
     TL_TRY(make_edges(b));
     TL_TRY(tl_nav_group_cones(&b->cones, b->navmesh, b->graph, &b->reuse, &b->stage));
