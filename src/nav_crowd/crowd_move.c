@@ -14,7 +14,8 @@
 // The part of the clearance that a wide agent keeps in any case: what wide paths keep, whose circles are 32 chords.
 #define KEPT_CLEARANCE 0.995f
 
-// The share of its top speed below which an agent that wants to stand does: ORCA's answers in a standing throng.
+// The share of its top speed below which an agent that wants to stand does: ORCA's answers in a standing throng. Who
+// makes way for others wants to move: in a throng there is often room for less than that.
 #define STANDING_SHARE 0.05f
 
 enum { MAX_CUTS = 6 };
@@ -60,6 +61,14 @@ static bool slide_keeps_clearance(const crowd_step *step, uint32_t i, tl_vec3 to
            keeps_clearance(crowd, i, move.end.point.x, move.end.point.z);
 }
 
+// Whether an agent that wants to stand is pushed by so little that it does.
+static bool is_still(const crowd_fields *a, uint32_t i, const float velocity[2])
+{
+    const float still = STANDING_SHARE * a->max_speed[i];
+    return tl_crowd_stands(a->status[i]) && a->wanted_x[i] == 0.0f && a->wanted_z[i] == 0.0f &&
+           velocity[0] * velocity[0] + velocity[1] * velocity[1] < still * still;
+}
+
 static void stay(tl_nav_crowd *crowd, uint32_t i)
 {
     crowd->a.vx[i] = 0.0f;
@@ -70,8 +79,7 @@ void tl_crowd_move(const crowd_step *step, uint32_t i, const float velocity[2], 
 {
     tl_nav_crowd *crowd = step->crowd;
     crowd_fields *a = &crowd->a;
-    const float still = STANDING_SHARE * a->max_speed[i];
-    if (tl_crowd_stands(a->status[i]) && velocity[0] * velocity[0] + velocity[1] * velocity[1] < still * still) {
+    if (is_still(a, i, velocity)) {
         stay(crowd, i);
         return;
     }
