@@ -97,14 +97,17 @@ static bool find_on_trail(const crowd_step *step, const crowd_group *group, uint
     tl_vec3 newer = leader;
     float share = behind / tl_max_f32(tl_distance(leader, older.point), FLT_MIN);
     if (share > 1.0f) {
+        // A whole trail is as long as the column; by rounding, or where it was laid this very step, a little less.
+        const bool is_whole = group->trail_count == group->count;
+        const float most = (float)(group->trail_count - 1);
         const float past = (behind - tl_distance(leader, older.point)) / group->spacing;
-        if (!(past < (float)(group->trail_count - 1))) {
+        if (!(past < most) && !is_whole) {
             return false;
         }
-        const uint32_t back = (uint32_t)past;
+        const uint32_t back = past < most ? (uint32_t)past : group->trail_count - 2;
         newer = trail_place(step->crowd, group, back).point;
         older = trail_place(step->crowd, group, back + 1);
-        share = past - (float)back;
+        share = past - (float)back; // clamped below
     }
     // From the older place, which followers have before them. At a link the ray ends where that begins.
     tl_vec3 to = tl_lerp(newer, older.point, tl_clamp_f32(share, 0.0f, 1.0f));
