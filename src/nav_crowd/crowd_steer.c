@@ -157,6 +157,28 @@ static void keep_corner(crowd_fields *a, uint32_t i, const tl_nav_corner *corner
     a->corner[2 * (size_t)i + 1] = corner->point.z;
 }
 
+// A corner so near, in radii, is looked past: and so far past it, metres.
+#define LOOK_RADII  3.0f
+#define LOOK_BEYOND 20.0f
+
+// Rays past a near corner. Whoever is pushed to the other side of an inner vertex by those who stand there would else
+// be led around that vertex, and back again when it is pushed once more, for ever.
+static bool look_past_corner(const crowd_step *step, uint32_t i, tl_nav_corridor *corridor)
+{
+    tl_nav_crowd *crowd = step->crowd;
+    const crowd_fields *a = &crowd->a;
+    const float x = a->corner[2 * (size_t)i] - a->x[i], z = a->corner[2 * (size_t)i + 1] - a->z[i];
+    const float near = LOOK_RADII * a->radius[i];
+    if ((a->flags[i] & (CROWD_LEFT | CROWD_RIGHT)) == 0 || a->clearance[i] > 0.0f || x * x + z * z > near * near ||
+        (crowd->head->step + i) % CORNER_STEPS != 0) {
+        return false;
+    }
+    bool changed = false;
+    return tl_nav_corridor_shorten(corridor, step->navmesh, &crowd->filters[a->filter[i]], near + LOOK_BEYOND,
+                                   &changed) == TL_OK &&
+           changed;
+}
+
 void tl_crowd_walk(const crowd_step *step, uint32_t i)
 {
     tl_nav_crowd *crowd = step->crowd;
@@ -165,6 +187,9 @@ void tl_crowd_walk(const crowd_step *step, uint32_t i)
         return;
     }
     tl_nav_corridor corridor = tl_crowd_corridor(crowd, i);
+    if (look_past_corner(step, i, &corridor)) {
+        tl_crowd_keep_corridor(crowd, i, &corridor);
+    }
     tl_nav_corner corners[3];
     uint32_t count = 0;
     tl_result result = tl_nav_corridor_corners(&corridor, step->navmesh, corners, 3, &count);
