@@ -187,7 +187,8 @@ typedef struct crowd_snapshot {
 #define CROWD_SEEN_FIXED   1u ///< others do all of the evading
 #define CROWD_SEEN_STILL   2u ///< it has arrived, or has nowhere to go
 #define CROWD_SEEN_YIELDS  4u
-#define CROWD_SEEN_STALLED 8u ///< it walks, but is held up
+#define CROWD_SEEN_STALLED 8u  ///< it walks, but is held up
+#define CROWD_SEEN_CLAIMS  16u ///< it has been held up for so long that it has the right of way
 
 /// A uniform grid over the plan that repeats itself every `mask + 1` cells in both directions.
 typedef struct crowd_grid {

@@ -25,8 +25,9 @@ static uint32_t grid_cell(const crowd_grid *grid, float x, float z)
            ((uint32_t)tl_crowd_place_in_grid(x, grid->cell_size).cell & grid->mask_x);
 }
 
-// Seconds after which others see that an agent is held up.
+// Seconds after which others see that an agent is held up; and that it has the right of way.
 #define SEEN_STALLED_AFTER 0.5f
+#define CLAIM_AFTER        16.0f
 
 static uint32_t kind_of(const crowd_fields *a, uint32_t i)
 {
@@ -37,6 +38,7 @@ static uint32_t kind_of(const crowd_fields *a, uint32_t i)
     uint32_t kind = tl_crowd_stands(status) ? CROWD_SEEN_STILL : 0;
     kind |= (a->flags[i] & CROWD_YIELDS) != 0 ? CROWD_SEEN_YIELDS : 0;
     kind |= status == TL_NAV_AGENT_WALKING && a->stalled[i] > SEEN_STALLED_AFTER ? CROWD_SEEN_STALLED : 0;
+    kind |= status == TL_NAV_AGENT_WALKING && a->stalled[i] > CLAIM_AFTER ? CROWD_SEEN_CLAIMS : 0;
     return kind;
 }
 

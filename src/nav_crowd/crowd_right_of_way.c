@@ -107,6 +107,30 @@ static const crowd_group *led_by(const tl_nav_crowd *crowd, uint32_t i)
     return group != NULL && !tl_crowd_follows(crowd, i) ? group : NULL;
 }
 
+// Whether an agent's goal is farther away than another agent is: else it ends before they meet.
+static bool goes_past(const tl_nav_crowd *crowd, uint32_t k, float apart_sq)
+{
+    const tl_vec3 goal = tl_crowd_get3(crowd->a.goal, crowd->seen.agent[k]);
+    const float x = goal.x - crowd->seen.x[k], z = goal.z - crowd->seen.z[k];
+    return x * x + z * z > apart_sq;
+}
+
+// Whether one that comes the other way has the right of way: both unit directions. Who has been held up for long goes
+// before who has not; else who gets on, and where neither does, by the common direction.
+static bool loses_to(const crowd_step *step, uint32_t k, uint32_t other, const float mine[2], const float its[2])
+{
+    const crowd_snapshot *seen = &step->crowd->seen;
+    const float x = seen->x[other] - seen->x[k], z = seen->z[other] - seen->z[k];
+    const float apart_sq = x * x + z * z;
+    const uint32_t claims = seen->kind[k] & CROWD_SEEN_CLAIMS, its_claims = seen->kind[other] & CROWD_SEEN_CLAIMS;
+    const float *preferred = step->preferred;
+    const bool loses = claims != its_claims ? its_claims != 0
+                                            : (seen->kind[other] & CROWD_SEEN_STALLED) == 0 ||
+                                                  its[0] * preferred[0] + its[1] * preferred[1] >
+                                                      mine[0] * preferred[0] + mine[1] * preferred[1];
+    return loses && goes_past(step->crowd, k, apart_sq) && goes_past(step->crowd, other, apart_sq);
+}
+
 // `ahead`: where the agent heads now, `travel`: past its corner; both unit. `now`: as in comes_against.
 static crowd_traffic look_at_traffic(const crowd_step *step, uint32_t k, const float ahead[2], const float travel[2],
                                      bool now, const crowd_neighbor *neighbors, uint32_t count)
@@ -131,9 +155,7 @@ static crowd_traffic look_at_traffic(const crowd_step *step, uint32_t k, const f
             traffic.follows = traffic.follows || (is_before && !is_against && back < 0.0f);
         } else if (is_against) {
             traffic.meets = true;
-            float mine = travel[0] * step->preferred[0] + travel[1] * step->preferred[1];
-            traffic.loses = traffic.loses || (seen->kind[other] & CROWD_SEEN_STALLED) == 0 ||
-                            its[0] * step->preferred[0] + its[1] * step->preferred[1] > mine;
+            traffic.loses = traffic.loses || loses_to(step, k, other, travel, its);
         }
     }
     return traffic;
@@ -163,7 +185,7 @@ static bool stands_before_goal(const tl_nav_crowd *crowd, uint32_t k, const crow
         float ox = goal.x - seen->x[other], oz = goal.z - seen->z[other];
         const bool is_before = (seen->kind[other] & CROWD_SEEN_STILL) != 0 && ox * ox + oz * oz < x * x + z * z;
         const bool is_near = x * x + z * z < diameter * diameter;
-        if (is_near && (seen->kind[other] & CROWD_SEEN_STILL) != 0 && crowd->a.stalled[i] > SETTLE_LATE) {
+        if (is_near && crowd->a.stalled[i] > SETTLE_LATE) {
             return true;
         }
         // Around a corner the throng before the goal may be farther from it than who comes to its end.
