@@ -31,26 +31,24 @@ void tl_mover_set_triangle(tl_mover_item *t)
     const tl_vec3d *corners = t->corners;
     t->low = lesser(corners[0], lesser(corners[1], corners[2]));
     t->high = greater(corners[0], greater(corners[1], corners[2]));
+    t->shape = NULL;
+    t->known = false;
+}
+
+void tl_mover_know_triangle(tl_mover_item *t)
+{
+    const tl_vec3d *corners = t->corners;
     const tl_vec3d first = tl_vec3d_sub(corners[1], corners[0]), second = tl_vec3d_sub(corners[2], corners[0]);
     const tl_vec3d normal = tl_vec3d_cross(first, second);
     const double normal_sq = tl_vec3d_dot(normal, normal);
     const bool has_face = normal_sq > MOVER_NEEDLE_SINE_SQ * tl_vec3d_dot(first, first) * tl_vec3d_dot(second, second);
     t->normal = tl_vec3d_scale(normal, has_face ? 1.0 / sqrt(normal_sq) : 0.0);
-    t->edges_known = false;
-}
-
-// Most triangles near are told off by their boxes and planes: the edges are computed for the others alone, once.
-static void know_edges(tl_mover_item *t)
-{
-    if (t->edges_known) {
-        return;
-    }
     for (int k = 0; k < 3; k++) {
-        const tl_vec3d edge = tl_vec3d_sub(t->corners[(k + 1) % 3], t->corners[k]);
+        const tl_vec3d edge = tl_vec3d_sub(corners[(k + 1) % 3], corners[k]);
         t->inward[k] = tl_vec3d_cross(t->normal, edge);
         t->edge_sq[k] = tl_vec3d_dot(edge, edge);
     }
-    t->edges_known = true;
+    t->known = true;
 }
 
 static double clamp_to_one(double share)
@@ -78,12 +76,17 @@ static void take_plane(const tl_mover_item *t, tl_vec3d end, double height, tl_m
     best->face = true;
 }
 
-static void try_edge_of(const tl_mover_item *t, const tl_mover_core *core, int k, tl_mover_nearest *best,
-                        double *best_sq)
+// The nearest edge so far: its normal and distance are computed when all have been tried.
+typedef struct nearest_edge {
+    double distance_sq;
+    tl_vec3d away, point; ///< from the point on the edge to the core
+} nearest_edge;
+
+static void try_edge_of(const tl_mover_item *t, const tl_mover_core *core, int k, nearest_edge *best)
 {
     tl_vec3d q = t->corners[k], e = tl_vec3d_sub(t->corners[(k + 1) % 3], q), r = tl_vec3d_sub(core->low, q);
-    double length = core->length, ee = tl_vec3d_dot(e, e), er = tl_vec3d_dot(e, r), de = length * e.y,
-           dr = length * r.y, dd = length * length, determinant = dd * ee - de * de;
+    double length = core->length, ee = t->edge_sq[k], er = tl_vec3d_dot(e, r), de = length * e.y, dr = length * r.y,
+           dd = length * length, determinant = dd * ee - de * de;
     // Nearly parallel: any point of the core will do, as the ends are tried by clamping.
     double s = determinant > 0.0 ? clamp_to_one((de * er - dr * ee) / determinant) : 0.0;
     double u = ee > 0.0 ? clamp_to_one((de * s + er) / ee) : 0.0;
@@ -92,12 +95,27 @@ static void try_edge_of(const tl_mover_item *t, const tl_mover_core *core, int k
     on_core.y += length * s;
     tl_vec3d away = tl_vec3d_sub(on_core, on_edge);
     double distance_sq = tl_vec3d_dot(away, away);
-    if (distance_sq < *best_sq) {
-        *best_sq = distance_sq;
-        best->distance = sqrt(distance_sq);
-        best->point = on_edge;
+    if (distance_sq < best->distance_sq) {
+        const nearest_edge edge = { distance_sq, away, on_edge };
+        *best = edge;
+    }
+}
+
+// Edges that no point of the core is outside of hold no nearest point, but for their ends, which other edges have.
+static void try_edges(const tl_mover_item *t, const tl_mover_core *core, uint32_t inside_of, double best_sq,
+                      tl_mover_nearest *best)
+{
+    nearest_edge edge = { best_sq, { 0, 0, 0 }, { 0, 0, 0 } };
+    for (int k = 0; k < 3; k++) {
+        if ((inside_of >> k & 1u) == 0) {
+            try_edge_of(t, core, k, &edge);
+        }
+    }
+    if (edge.distance_sq < best_sq) {
+        best->distance = sqrt(edge.distance_sq);
+        best->point = edge.point;
         best->face = false;
-        best->normal = best->distance > 0.0 ? tl_vec3d_scale(away, 1.0 / best->distance) : t->normal;
+        best->normal = best->distance > 0.0 ? tl_vec3d_scale(edge.away, 1.0 / best->distance) : t->normal;
     }
 }
 
@@ -123,13 +141,13 @@ static bool crosses_triangle(const tl_mover_item *t, const tl_mover_core *core, 
 }
 
 // On which sides of a triangle's edges the core's ends are: bit k for the inside of edge k, seen along the normal; and
-// whether it is all farther than the reach outside of one.
+// whether it is all farther than a distance outside of one, in the plane.
 typedef struct core_sides {
     uint32_t low, top;
     bool beyond;
 } core_sides;
 
-static core_sides sides_of(const tl_mover_item *t, tl_vec3d low, tl_vec3d top, double reach)
+static core_sides sides_of(const tl_mover_item *t, tl_vec3d low, tl_vec3d top, double far_sq)
 {
     core_sides sides = { 0, 0, false };
     for (int k = 0; k < 3; k++) {
@@ -138,7 +156,7 @@ static core_sides sides_of(const tl_mover_item *t, tl_vec3d low, tl_vec3d top, d
         const double most = low_in > top_in ? low_in : top_in;
         sides.low |= (uint32_t)(low_in >= 0.0) << k;
         sides.top |= (uint32_t)(top_in >= 0.0) << k;
-        sides.beyond = sides.beyond || (most < 0.0 && most * most > reach * reach * t->edge_sq[k]);
+        sides.beyond = sides.beyond || (most < 0.0 && most * most > far_sq * t->edge_sq[k]);
     }
     return sides;
 }
@@ -155,12 +173,15 @@ static void nearest_of_triangle(const tl_mover_item *t, const tl_mover_core *cor
         if (crosses_triangle(t, core, low, high, best)) {
             return;
         }
-        in = sides_of(t, core->low, top, reach);
+        // Of the reach, what lies across the plane is gone before the plane is reached: so a floor's triangles beside
+        // the one under the core are told off here.
+        bool low_nearer = fabs(low) <= fabs(high), same_side = (low >= 0.0) == (high >= 0.0);
+        double over = same_side ? (low_nearer ? low : high) : 0.0;
+        in = sides_of(t, core->low, top, reach * reach - over * over);
         if (in.beyond) {
             best->distance = (double)INFINITY;
             return;
         }
-        bool low_nearer = fabs(low) <= fabs(high), same_side = (low >= 0.0) == (high >= 0.0);
         if (same_side && (low_nearer ? in.low : in.top) == ALL_SIDES) {
             take_plane(t, low_nearer ? core->low : top, low_nearer ? low : high, best);
             return;
@@ -174,12 +195,7 @@ static void nearest_of_triangle(const tl_mover_item *t, const tl_mover_core *cor
             best_sq = high * high;
         }
     }
-    // An edge that no point of the core is outside of holds no nearest point, but for its ends, which other edges have.
-    for (int k = 0; k < 3; k++) {
-        if (((in.low & in.top) >> k & 1u) == 0) {
-            try_edge_of(t, core, k, best, &best_sq);
-        }
-    }
+    try_edges(t, core, in.low & in.top, best_sq, best);
     if (best->distance == 0.0 && tl_vec3d_dot(best->normal, best->normal) == 0.0) {
         best->normal = tl_vec3d_make(0.0, 1.0, 0.0); // a needle through the core
     }
@@ -212,7 +228,7 @@ void tl_mover_nearest_of(tl_mover_item *item, const tl_mover_core *core, double 
     if (item->shape != NULL) {
         nearest_of_shape(item, core, nearest_out);
     } else {
-        know_edges(item);
+        tl_mover_know(item);
         nearest_of_triangle(item, core, reach, nearest_out);
     }
 }

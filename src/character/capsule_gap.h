@@ -20,7 +20,7 @@ typedef struct tl_mover_item {
     const tl_transform *pose;
     uint32_t instance, triangle;
     uint16_t material;
-    bool edges_known;
+    bool known; ///< of a triangle: normal, inward, edge_sq
 } tl_mover_item;
 
 /// An upright capsule's core: from `low` up by `length`; and the radius, for shapes.
@@ -37,18 +37,35 @@ typedef struct tl_mover_nearest {
     bool face;       ///< a triangle's inside is nearest, not an edge or corner of it
 } tl_mover_nearest;
 
-/// Box and normal of the triangle with the item's corners.
+/// The box of the triangle with the item's corners.
 void tl_mover_set_triangle(tl_mover_item *item);
+/// Its normal and edges. Most triangles near are told off by their boxes: the others are computed once.
+void tl_mover_know_triangle(tl_mover_item *item);
+
+static inline void tl_mover_know(tl_mover_item *item)
+{
+    if (item->shape == NULL && !item->known) {
+        tl_mover_know_triangle(item);
+    }
+}
 
 /// What is farther than `reach` may be called infinitely far: then the distance alone is set.
 void tl_mover_nearest_of(tl_mover_item *item, const tl_mover_core *core, double reach, tl_mover_nearest *nearest_out);
 
-/// Whether the item's box lies farther from the core's box than `reach`.
+/// How far a span from `low` to `high` is from another one.
+static inline double tl_mover_between(double low, double high, double from, double to)
+{
+    const double below = from - high, above = low - to, most = below > above ? below : above;
+    return most > 0.0 ? most : 0.0;
+}
+
+/// Whether the item's box lies farther from the core than `reach`.
 static inline bool tl_mover_is_far(const tl_mover_item *item, const tl_mover_core *core, double reach)
 {
-    return item->low.x - core->low.x > reach || core->low.x - item->high.x > reach ||
-           item->low.z - core->low.z > reach || core->low.z - item->high.z > reach ||
-           item->low.y - (core->low.y + core->length) > reach || core->low.y - item->high.y > reach;
+    const double x = tl_mover_between(item->low.x, item->high.x, core->low.x, core->low.x);
+    const double y = tl_mover_between(item->low.y, item->high.y, core->low.y, core->low.y + core->length);
+    const double z = tl_mover_between(item->low.z, item->high.z, core->low.z, core->low.z);
+    return x * x + y * y + z * z > reach * reach;
 }
 
 #endif

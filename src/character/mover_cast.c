@@ -21,21 +21,32 @@
 
 enum { MAX_ADVANCES = 64 };
 
-// Whether the capsule stays clear of the item's box, grown by `reach`, along the whole motion.
-static bool sweep_misses_box(const tl_mover_item *item, const tl_mover_core *core, tl_vec3d motion, double reach)
+// The box of a core along a whole motion.
+typedef struct swept_box {
+    tl_vec3d low, high;
+} swept_box;
+
+static swept_box sweep_box(const tl_mover_core *core, tl_vec3d by)
 {
-    const double low[3] = { core->low.x, core->low.y, core->low.z };
-    const double high[3] = { core->low.x, core->low.y + core->length, core->low.z };
-    const double by[3] = { motion.x, motion.y, motion.z };
-    const double min[3] = { item->low.x, item->low.y, item->low.z };
-    const double max[3] = { item->high.x, item->high.y, item->high.z };
-    for (int k = 0; k < 3; k++) {
-        double from = by[k] < 0.0 ? low[k] + by[k] : low[k], to = by[k] > 0.0 ? high[k] + by[k] : high[k];
-        if (min[k] - to > reach || from - max[k] > reach) {
-            return true;
-        }
-    }
-    return false;
+    swept_box box = { core->low, core->low };
+    box.high.y += core->length;
+    box.low.x = by.x < 0.0 ? box.low.x + by.x : box.low.x;
+    box.low.y = by.y < 0.0 ? box.low.y + by.y : box.low.y;
+    box.low.z = by.z < 0.0 ? box.low.z + by.z : box.low.z;
+    box.high.x = by.x > 0.0 ? box.high.x + by.x : box.high.x;
+    box.high.y = by.y > 0.0 ? box.high.y + by.y : box.high.y;
+    box.high.z = by.z > 0.0 ? box.high.z + by.z : box.high.z;
+    return box;
+}
+
+// Whether the capsule stays clear of the item's box along the whole motion. Along one axis `keep` is enough; else as
+// far as a miss, since what comes nearer than that ends a motion already.
+static bool misses_box(const tl_mover_item *item, const swept_box *box, double keep, double miss)
+{
+    const double x = tl_mover_between(item->low.x, item->high.x, box->low.x, box->high.x);
+    const double y = tl_mover_between(item->low.y, item->high.y, box->low.y, box->high.y);
+    const double z = tl_mover_between(item->low.z, item->high.z, box->low.z, box->high.z);
+    return x > keep || y > keep || z > keep || x * x + y * y + z * z > miss * miss;
 }
 
 // The time at which the core may first be within reach of the triangle's plane; INFINITY: it never is.
@@ -58,9 +69,7 @@ static void cast_at_item(const tl_character_mover *m, const tl_mover_core *core,
 {
     tl_mover_item *item = &m->items[index];
     double keep = m->radius + CAST_SHARE * m->gap;
-    if (sweep_misses_box(item, core, motion, keep)) {
-        return;
-    }
+    tl_mover_know(item);
     const double miss = keep + MISS_SHARE * m->gap;
     double t = item->shape == NULL ? reaches_plane(item, core, motion, keep) : 0.0;
     bool started = t > 0.0;
@@ -107,13 +116,15 @@ tl_mover_sweep tl_mover_cast(tl_character_mover *m, tl_vec3d feet, tl_vec3d moti
     double z = share_within(feet.z, motion.z, m->feet_low.z, m->feet_high.z);
     best.t = x < y ? x : y;
     best.t = z < best.t ? z : best.t;
-    const double length = tl_vec3d_length(motion);
+    const double length = tl_vec3d_length(motion), keep = m->radius + CAST_SHARE * m->gap;
+    const double miss = keep + MISS_SHARE * m->gap;
+    const swept_box box = sweep_box(&core, motion);
     m->report->sweeps++;
     // What it was in contact with last is likely to be met first, and then most others are told off at once.
     const uint32_t first = m->contact_count > 0 ? m->contacts[m->contact_count - 1].item : 0;
     for (uint32_t i = 0; i < m->item_count; i++) {
         const uint32_t index = i == 0 ? first : i <= first ? i - 1 : i;
-        if (m->items[index].instance != m->ignored_instance) {
+        if (m->items[index].instance != m->ignored_instance && !misses_box(&m->items[index], &box, keep, miss)) {
             cast_at_item(m, &core, motion, length, index, &best);
         }
     }

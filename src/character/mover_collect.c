@@ -28,7 +28,7 @@ static tl_mover_item *next_item(collection *c)
 }
 
 // As rays.h says: front and back as seen from the middle of the box, materials, then the caller's word.
-static bool accepts_triangle(const collection *c, const tl_soup_triangle *triangle, const tl_mover_item *item)
+static bool accepts_triangle(const collection *c, const tl_soup_triangle *triangle, tl_mover_item *item)
 {
     const tl_ray_filter *filter = c->filter;
     if (filter == NULL) {
@@ -40,6 +40,7 @@ static bool accepts_triangle(const collection *c, const tl_soup_triangle *triang
     }
     if (filter->cull != TL_RAY_CULL_NONE) {
         tl_vec3d middle = tl_vec3d_from(tl_aabb_center(c->box));
+        tl_mover_know(item);
         double height = tl_vec3d_dot(item->normal, tl_vec3d_sub(middle, item->corners[0]));
         if (filter->cull == TL_RAY_CULL_BACK ? height < 0.0 : height > 0.0) {
             return false;
@@ -60,7 +61,6 @@ static bool collect_triangle(const tl_soup_triangle *triangle, void *user)
         item->corners[k] = c->at != NULL ? tl_frame_point(&c->frame, corner) : corner;
     }
     tl_mover_set_triangle(item);
-    item->shape = NULL;
     item->instance = c->instance;
     item->triangle = triangle->triangle;
     item->material = triangle->material;

@@ -124,8 +124,11 @@ double tl_mover_find_contacts(tl_character_mover *m, tl_vec3d feet)
     m->contact_count = 0;
     for (uint32_t i = 0; i < m->item_count; i++) {
         tl_mover_item *item = &m->items[i];
-        if (item->instance == m->ignored_instance || tl_mover_is_far(item, &core, reach) ||
-            is_off_plane(item, &core, reach)) {
+        if (item->instance == m->ignored_instance || tl_mover_is_far(item, &core, reach)) {
+            continue;
+        }
+        tl_mover_know(item);
+        if (is_off_plane(item, &core, reach)) {
             continue;
         }
         tl_mover_nearest nearest;
