@@ -33,6 +33,7 @@
 #define YIELD_FOR      28.0f
 #define SETTLE_AFTER   0.5f
 #define SETTLE_LATE    3.0f // beside those who stand there for another goal, or behind a corner
+#define SETTLE_AMID    8.0f // beside those who walk, but hardly come past
 
 #define STANDING_SPEED 0.2f   // metres a second: who wants less does not claim a door
 #define YIELD_SPEED    0.5f   // of the top speed
@@ -182,17 +183,17 @@ static bool stands_before_goal(const tl_nav_crowd *crowd, uint32_t k, const crow
     const float diameter = 2.0f * seen->radius[k];
     for (uint32_t n = 0; n < count && neighbors[n].gap < RIM_TOUCH_SHARE * seen->radius[k]; n++) {
         const uint32_t other = neighbors[n].snapshot;
+        const bool is_still = (seen->kind[other] & CROWD_SEEN_STILL) != 0;
         float ox = goal.x - seen->x[other], oz = goal.z - seen->z[other];
-        const bool is_before = (seen->kind[other] & CROWD_SEEN_STILL) != 0 && ox * ox + oz * oz < x * x + z * z;
+        const bool is_before = is_still && ox * ox + oz * oz < x * x + z * z;
         const bool is_near = x * x + z * z < diameter * diameter;
-        if (is_near && crowd->a.stalled[i] > SETTLE_LATE) {
+        if (is_near && crowd->a.stalled[i] > (is_still ? SETTLE_LATE : SETTLE_AMID)) {
             return true;
         }
         // Around a corner the throng before the goal may be farther from it than who comes to its end.
         const float ahead =
             (seen->x[other] - seen->x[k]) * crowd->a.wanted_x[i] + (seen->z[other] - seen->z[k]) * crowd->a.wanted_z[i];
-        const bool is_end =
-            (seen->kind[other] & CROWD_SEEN_STILL) != 0 && ahead > 0.0f && crowd->a.stalled[i] > SETTLE_LATE;
+        const bool is_end = is_still && ahead > 0.0f && crowd->a.stalled[i] > SETTLE_LATE;
         if ((is_before || is_near || is_end) && tl_crowd_has_goal_of(crowd, i, neighbors[n].agent)) {
             return true;
         }
