@@ -15,6 +15,8 @@
 #include <talus/nav_corridor.h>
 #include <talus/nav_crowd.h>
 
+#include <math.h>
+
 enum {
     CROWD_MAX_WALLS = 8,      ///< that an agent keeps
     CROWD_MAX_NEIGHBORS = 32, ///< that a def may ask for
@@ -333,6 +335,14 @@ static inline void tl_crowd_set3(float *items, uint32_t i, tl_vec3 value)
     v[0] = value.x;
     v[1] = value.y;
     v[2] = value.z;
+}
+
+/// Metres from an agent to its goal, in the plan.
+static inline float tl_crowd_distance_to_goal(const tl_nav_crowd *crowd, uint32_t i)
+{
+    const tl_vec3 goal = tl_crowd_get3(crowd->a.goal, i);
+    const float x = goal.x - crowd->a.x[i], z = goal.z - crowd->a.z[i];
+    return sqrtf(x * x + z * z);
 }
 
 /// The group of an agent, or NULL.

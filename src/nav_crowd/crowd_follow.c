@@ -330,5 +330,6 @@ void tl_crowd_follow(const crowd_step *step, uint32_t i, tl_nav_query *query)
     tl_crowd_steer(step, i);
     if (a->status[i] == TL_NAV_AGENT_ARRIVED) { // at the end of a way that is not its slot
         a->status[i] = TL_NAV_AGENT_WALKING;
+        a->stalled[i] = 0.0f;
     }
 }

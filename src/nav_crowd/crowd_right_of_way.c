@@ -201,13 +201,6 @@ static bool stands_before_goal(const tl_nav_crowd *crowd, uint32_t k, const crow
     return false;
 }
 
-static float distance_to_goal(const tl_nav_crowd *crowd, uint32_t i)
-{
-    const tl_vec3 goal = tl_crowd_get3(crowd->a.goal, i);
-    float x = goal.x - crowd->a.x[i], z = goal.z - crowd->a.z[i];
-    return sqrtf(x * x + z * z);
-}
-
 // An agent that stands steps aside for one that it holds up, and walks back to its goal when nobody is there any more.
 static void step_aside(const crowd_step *step, uint32_t k, const crowd_neighbor *neighbors, uint32_t count)
 {
@@ -237,7 +230,7 @@ static void step_aside(const crowd_step *step, uint32_t k, const crowd_neighbor 
         }
     }
     float stay = tl_max_f32(a->stalled[i], a->arrive_distance[i]) + a->radius[i];
-    if (is_free && a->status[i] == TL_NAV_AGENT_ARRIVED && distance_to_goal(crowd, i) > stay) {
+    if (is_free && a->status[i] == TL_NAV_AGENT_ARRIVED && tl_crowd_distance_to_goal(crowd, i) > stay) {
         a->status[i] = TL_NAV_AGENT_WALKING;
         a->stalled[i] = 0.0f;
     }
@@ -263,7 +256,7 @@ void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor 
         a->status[i] = TL_NAV_AGENT_ARRIVED;
         a->wanted_x[i] = 0.0f;
         a->wanted_z[i] = 0.0f;
-        a->stalled[i] = distance_to_goal(crowd, i);
+        a->stalled[i] = tl_crowd_distance_to_goal(crowd, i);
         return;
     }
     ahead[0] /= length;

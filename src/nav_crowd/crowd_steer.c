@@ -60,13 +60,15 @@ void tl_crowd_want_to_stand(const crowd_step *step, uint32_t i)
     want(step, i, 0.0f, 0.0f, 0.0f);
 }
 
-// The end of the corridor is reached.
+// The end of the corridor is reached. Where an edit took the floor of the goal, that is not the goal itself.
 static void arrive(const crowd_step *step, uint32_t i)
 {
     crowd_fields *a = &step->crowd->a;
     const uint32_t flags = a->flags[i];
+    a->stalled[i] = 0.0f;
     if ((flags & CROWD_REACHES) != 0) {
         a->status[i] = TL_NAV_AGENT_ARRIVED;
+        a->stalled[i] = tl_crowd_distance_to_goal(step->crowd, i);
     } else if ((flags & CROWD_IN_QUEUE) != 0) {
         a->status[i] = TL_NAV_AGENT_WAITING;
     } else if ((flags & CROWD_PARTIAL) != 0) {
@@ -77,7 +79,6 @@ static void arrive(const crowd_step *step, uint32_t i)
         a->flags[i] |= CROWD_NEED_PATH;
         a->status[i] = TL_NAV_AGENT_WAITING;
     }
-    a->stalled[i] = 0.0f;
     tl_crowd_want_to_stand(step, i);
 }
 

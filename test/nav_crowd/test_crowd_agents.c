@@ -265,6 +265,30 @@ static void test_edits(void **state)
     test_blob_free(copy);
 }
 
+// The floor of a goal goes: who comes to the nearest place has arrived, and stays arrived half a metre off.
+static void test_goal_gone(void **state)
+{
+    (void)state;
+    static test_level level;
+    memset(&level, 0, sizeof level);
+    audit_floor(&level, -12, -3, 12, 3, 0.0f);
+    tl_navmesh *navmesh = crowd_bake(&level, 60); // tiles of 6 m
+    tl_nav_crowd *crowd = crowd_make(1);
+    const tl_nav_location goal = crowd_place(navmesh, 0.5f, 0, 0);
+    const tl_nav_agent agent = crowd_send(crowd, navmesh, tl_default_nav_agent_def(), -8, 0, 0, &goal);
+    const tl_nav_tile *tile = NULL;
+    TEST_RESULT(tl_navmesh_resolve(navmesh, goal.polygon, &tile, NULL), TL_OK);
+    TEST_RESULT(tl_navmesh_remove_tile(navmesh, tile->tile_x, tile->tile_z), TL_OK);
+    TEST_CHECK(status_after(crowd, navmesh, agent, 300) == TL_NAV_AGENT_ARRIVED);
+    for (uint32_t step = 0; step < 50; step++) {
+        TEST_CHECK(status_after(crowd, navmesh, agent, 1) == TL_NAV_AGENT_ARRIVED);
+    }
+    const tl_nav_agent_state now = look(crowd, agent);
+    TEST_CHECK(now.position.x < 0.1f && now.position.x > -0.5f && tl_length(now.velocity) == 0.0f);
+    tl_nav_crowd_destroy(crowd);
+    tl_navmesh_destroy(navmesh);
+}
+
 // Who is shut off from its goal does not ask for a path after each edit that leaves it so, but once in a while; and at
 // once when a way is there.
 static void test_shut_off(void **state)
@@ -422,6 +446,6 @@ int main(void)
                                         cmocka_unit_test(test_wide),        cmocka_unit_test(test_links),
                                         cmocka_unit_test(test_edits),       cmocka_unit_test(test_near_goals),
                                         cmocka_unit_test(test_let_out),     cmocka_unit_test(test_shut_off),
-                                        cmocka_unit_test(test_fixed) };
+                                        cmocka_unit_test(test_fixed),       cmocka_unit_test(test_goal_gone) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
