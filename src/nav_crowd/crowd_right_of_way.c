@@ -244,11 +244,8 @@ void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor 
     float ahead[2] = { a->wanted_x[i], a->wanted_z[i] };
     float length = sqrtf(ahead[0] * ahead[0] + ahead[1] * ahead[1]);
     a->flags[i] &= ~CROWD_YIELDS;
-    if (tl_crowd_stands(a->status[i])) {
+    if (tl_crowd_stands(a->status[i]) || !(length > 0.0f)) { // in its slot, or waiting for its group: it wants to stand
         step_aside(step, k, neighbors, count);
-        return;
-    }
-    if (!(length > 0.0f)) {
         return;
     }
     if (a->stalled[i] > SETTLE_AFTER && (a->flags[i] & CROWD_REACHES) != 0 &&
