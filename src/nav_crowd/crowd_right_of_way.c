@@ -244,7 +244,9 @@ void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor 
     float ahead[2] = { a->wanted_x[i], a->wanted_z[i] };
     float length = sqrtf(ahead[0] * ahead[0] + ahead[1] * ahead[1]);
     a->flags[i] &= ~CROWD_YIELDS;
-    if (tl_crowd_stands(a->status[i]) || !(length > 0.0f)) { // in its slot, or waiting for its group: it wants to stand
+    // In its slot, beside a leader that is held up, or waiting for its group: it wants to stand.
+    const float slow = tl_crowd_follows(crowd, i) ? STANDING_SPEED : 0.0f;
+    if (tl_crowd_stands(a->status[i]) || length <= slow) {
         step_aside(step, k, neighbors, count);
         return;
     }
