@@ -102,8 +102,8 @@ static void try_edge_of(const tl_mover_item *t, const tl_mover_core *core, int k
 }
 
 // Edges that no point of the core is outside of hold no nearest point, but for their ends, which other edges have.
-static void try_edges(const tl_mover_item *t, const tl_mover_core *core, uint32_t inside_of, double best_sq,
-                      tl_mover_nearest *best)
+static void try_outer_edges(const tl_mover_item *t, const tl_mover_core *core, uint32_t inside_of, double best_sq,
+                            tl_mover_nearest *best)
 {
     nearest_edge edge = { best_sq, { 0, 0, 0 }, { 0, 0, 0 } };
     for (int k = 0; k < 3; k++) {
@@ -195,7 +195,7 @@ static void nearest_of_triangle(const tl_mover_item *t, const tl_mover_core *cor
             best_sq = high * high;
         }
     }
-    try_edges(t, core, in.low & in.top, best_sq, best);
+    try_outer_edges(t, core, in.low & in.top, best_sq, best);
     if (best->distance == 0.0 && tl_vec3d_dot(best->normal, best->normal) == 0.0) {
         best->normal = tl_vec3d_make(0.0, 1.0, 0.0); // a needle through the core
     }

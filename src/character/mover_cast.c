@@ -41,7 +41,7 @@ static swept_box sweep_box(const tl_mover_core *core, tl_vec3d by)
 
 // Whether the capsule stays clear of the item's box along the whole motion. Along one axis `keep` is enough; else as
 // far as a miss, since what comes nearer than that ends a motion already.
-static bool misses_box(const tl_mover_item *item, const swept_box *box, double keep, double miss)
+static bool sweep_misses_box(const tl_mover_item *item, const swept_box *box, double keep, double miss)
 {
     const double x = tl_mover_between(item->low.x, item->high.x, box->low.x, box->high.x);
     const double y = tl_mover_between(item->low.y, item->high.y, box->low.y, box->high.y);
@@ -124,7 +124,7 @@ tl_mover_sweep tl_mover_cast(tl_character_mover *m, tl_vec3d feet, tl_vec3d moti
     const uint32_t first = m->contact_count > 0 ? m->contacts[m->contact_count - 1].item : 0;
     for (uint32_t i = 0; i < m->item_count; i++) {
         const uint32_t index = i == 0 ? first : i <= first ? i - 1 : i;
-        if (m->items[index].instance != m->ignored_instance && !misses_box(&m->items[index], &box, keep, miss)) {
+        if (m->items[index].instance != m->ignored_instance && !sweep_misses_box(&m->items[index], &box, keep, miss)) {
             cast_at_item(m, &core, motion, length, index, &best);
         }
     }
