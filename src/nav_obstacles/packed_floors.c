@@ -299,40 +299,146 @@ static void link_packed_columns(const tl_nav_compact *compact, const uint8_t *li
     }
 }
 
-// Columns with one floor each, as most are, need no loop and no branch on the link.
-static inline void link_packed_pair(const tl_nav_compact *compact, const uint8_t *links, uint32_t column,
-                                    uint32_t beside, uint32_t direction)
+// ---- Linking -----------------------------------------------------------------------------------------------
+
+// Whether the floors of a stretch are linked with those `forward` after them in one direction, each with the one that
+// stands as high in its column: then a floor has a link exactly where the other one has it back.
+static bool are_linked_in_order(const uint8_t *links, uint32_t begin, uint32_t end, int32_t forward, uint32_t direction)
 {
-    const uint32_t a = compact->first_span[column], b = compact->first_span[beside];
-    if (compact->step == NULL || compact->first_span[column + 1] - a != 1 || compact->first_span[beside + 1] - b != 1) {
-        link_packed_columns(compact, links, column, beside, direction);
+    const uint8_t *own = links + begin, *other = own + forward;
+    const uint8_t bit = (uint8_t)(1u << direction), back = (uint8_t)(1u << (direction ^ 2));
+    uint8_t differ = 0;
+    for (uint32_t k = 0; k < end - begin; k++) {
+        differ |= (uint8_t)(((own[k] & bit) == 0) ^ ((other[k] & back) == 0));
+    }
+    return differ == 0;
+}
+
+// The steps of a stretch of floors whose columns, and those all around, have `count` floors each.
+static bool link_even_floors(const tl_nav_compact *compact, const uint8_t *links, uint32_t first_column,
+                             uint32_t end_column, uint32_t count)
+{
+    // By the links of a floor, what is kept of its four steps.
+    static const int16_t kept[16][4] = { { 0, 0, 0, 0 },   { -1, 0, 0, 0 },   { 0, -1, 0, 0 },   { -1, -1, 0, 0 },
+                                         { 0, 0, -1, 0 },  { -1, 0, -1, 0 },  { 0, -1, -1, 0 },  { -1, -1, -1, 0 },
+                                         { 0, 0, 0, -1 },  { -1, 0, 0, -1 },  { 0, -1, 0, -1 },  { -1, -1, 0, -1 },
+                                         { 0, 0, -1, -1 }, { -1, 0, -1, -1 }, { 0, -1, -1, -1 }, { -1, -1, -1, -1 } };
+    const uint32_t *first = compact->first_span, width = compact->width;
+    const uint32_t begin = first[first_column], end = first[end_column];
+    const int32_t to[4] = { -(int32_t)count, (int32_t)(first[first_column + width] - begin), (int32_t)count,
+                            -(int32_t)(begin - first[first_column - width]) };
+    for (uint32_t d = 0; d < 4 && count > 1; d++) {
+        if (!are_linked_in_order(links, begin, end, to[d], d)) {
+            return false;
+        }
+    }
+    const int16_t steps[4] = { (int16_t)to[0], (int16_t)to[1], (int16_t)to[2], (int16_t)to[3] };
+    uint64_t all, mask;
+    memcpy(&all, steps, sizeof all);
+    for (uint32_t i = begin; i < end; i++) {
+        memcpy(&mask, kept[links[i]], sizeof mask);
+        mask &= all;
+        memcpy(compact->step + 4 * (size_t)i, &mask, sizeof mask);
+    }
+    return true;
+}
+
+// How many floors each column of a row has where the columns before and after it on z have as many, else 0.
+static void find_even_columns(const tl_nav_compact *compact, uint32_t z, uint16_t *restrict even)
+{
+    const uint32_t width = compact->width, *row = compact->first_span + (size_t)z * width;
+    if (z == 0 || z + 1 == compact->height) {
+        memset(even, 0, width * sizeof *even);
         return;
     }
-    const int32_t step = (int32_t)(b - a) * (links[a] >> direction & 1);
-    compact->step[4 * (size_t)a + direction] = (int16_t)step;
-    compact->step[4 * (size_t)b + (direction ^ 2)] = (int16_t)-step;
+    const uint32_t *before = row - width, *after = row + width;
+    for (uint32_t x = 0; x < width; x++) {
+        const uint32_t count = row[x + 1] - row[x];
+        const bool is_even = (before[x + 1] - before[x] == count) & (after[x + 1] - after[x] == count);
+        even[x] = (uint16_t)(is_even ? count : 0);
+    }
+}
+
+enum { MIN_EVEN_COLUMNS = 3 };
+
+static void clear_floor_links(const tl_nav_compact *compact, uint32_t begin, uint32_t end)
+{
+    const size_t first = 4 * (size_t)begin, count = 4 * (size_t)(end - begin);
+    if (compact->step != NULL) {
+        memset(compact->step + first, 0, count * sizeof *compact->step);
+    } else {
+        memset(compact->neighbour + first, 0xff, count * sizeof *compact->neighbour); // TL_NAV_NO_SPAN
+    }
+}
+
+// Links the floors of a row's even stretches, leaves 1 in `is_done` for their columns, and clears the links of others.
+static void link_even_columns(const tl_nav_compact *compact, const uint8_t *links, uint32_t z, uint16_t *even,
+                              uint8_t *is_done)
+{
+    const uint32_t width = compact->width, row = z * width, *first = compact->first_span + row;
+    uint32_t cleared = 0;
+    find_even_columns(compact, z, even);
+    for (uint32_t x = 0, end; x < width; x = end) {
+        for (end = x + 1; end < width && even[end] == even[x]; end++) {
+        }
+        if (even[x] != 0 && end - x >= MIN_EVEN_COLUMNS &&
+            link_even_floors(compact, links, row + x + 1, row + end - 1, even[x])) {
+            memset(is_done + x + 1, 1, end - x - 2);
+            clear_floor_links(compact, first[cleared], first[x + 1]);
+            cleared = end - 1;
+        }
+    }
+    clear_floor_links(compact, first[cleared], first[width]);
+}
+
+// The next of `count` columns from `at` on that is not done; `count` when all are.
+static uint32_t next_open_column(const uint8_t *is_done, uint32_t count, uint32_t at)
+{
+    static const uint8_t all_done[8] = { 1, 1, 1, 1, 1, 1, 1, 1 };
+    while (count - at >= sizeof all_done && memcmp(is_done + at, all_done, sizeof all_done) == 0) {
+        at += (uint32_t)sizeof all_done;
+    }
+    while (at < count && is_done[at]) {
+        at++;
+    }
+    return at;
+}
+
+// Links the other columns with those around them. What lies before them on an axis has done so, unless it is one of the
+// even ones, which write their own links only.
+static void link_other_columns(const tl_nav_compact *compact, const uint8_t *links, const uint8_t *is_done)
+{
+    const uint32_t width = compact->width, count = width * compact->height;
+    for (uint32_t c = 0; (c = next_open_column(is_done, count, c)) < count; c++) {
+        const uint32_t x = c % width;
+        if (compact->first_span[c] == compact->first_span[c + 1]) {
+            continue;
+        }
+        if (x + 1 < width) {
+            link_packed_columns(compact, links, c, c + 1, 2);
+        }
+        if (c + width < count) {
+            link_packed_columns(compact, links, c, c + width, 1);
+        }
+        if (x > 0 && is_done[c - 1]) {
+            link_packed_columns(compact, links, c, c - 1, 0);
+        }
+        if (c >= width && is_done[c - width]) {
+            link_packed_columns(compact, links, c, c - width, 3);
+        }
+    }
 }
 
 void tl_floors_link(const tl_floors_scratch *scratch, tl_nav_compact *compact)
 {
-    const uint8_t *links = scratch->links;
-    const size_t links_count = 4 * (size_t)compact->span_count;
-    if (compact->step != NULL) {
-        memset(compact->step, 0, links_count * sizeof *compact->step);
-    } else {
-        memset(compact->neighbour, 0xff, links_count * sizeof *compact->neighbour); // TL_NAV_NO_SPAN
+    memset(scratch->is_done, 0, (size_t)compact->width * compact->height);
+    if (compact->step == NULL) {
+        clear_floor_links(compact, 0, compact->span_count);
     }
-    for (uint32_t z = 0; z < compact->height; z++) {
-        for (uint32_t x = 0; x < compact->width; x++) {
-            const uint32_t column = z * compact->width + x;
-            if (x + 1 < compact->width) {
-                link_packed_pair(compact, links, column, column + 1, 2);
-            }
-            if (z + 1 < compact->height) {
-                link_packed_pair(compact, links, column, column + compact->width, 1);
-            }
-        }
+    for (uint32_t z = 0; z < compact->height && compact->step != NULL; z++) {
+        link_even_columns(compact, scratch->links, z, scratch->even, scratch->is_done + (size_t)z * compact->width);
     }
+    link_other_columns(compact, scratch->links, scratch->is_done);
 }
 
 static void fill_floors(const tl_packed_floors *packed, const tl_nav_compact *compact, uint16_t *counts, uint8_t *links)
@@ -365,8 +471,9 @@ tl_result tl_floors_unpack(const tl_packed_floors *packed, tl_floors_scratch *sc
 {
     const uint64_t columns = (uint64_t)packed->frame.width * packed->frame.height, spans = packed->frame.span_count;
     const uint64_t link_size = 4 * (packed->has_steps ? sizeof(int16_t) : sizeof(uint32_t));
-    // Of a column its begin and its count, of a floor its links twice, its height and its area twice; the gaps between.
-    const uint64_t size = columns * 6 + 4 + spans * (link_size + 5) + 7 * UINT64_C(8);
+    // Of a column its begin, its count and whether it is linked, of a floor its links twice, its height and its area
+    // twice; the gaps between.
+    const uint64_t size = columns * 7 + 4 + spans * (link_size + 5) + 8 * UINT64_C(8);
     if (scratch->size < size) {
         tl_release_array(scratch->allocator, scratch->block, scratch->size, 1);
         scratch->size = 0;
@@ -386,9 +493,11 @@ tl_result tl_floors_unpack(const tl_packed_floors *packed, tl_floors_scratch *sc
     uint16_t *counts = take_bytes(&at, columns * sizeof *counts);
     compact_out->area = take_bytes(&at, spans);
     uint8_t *base_area = take_bytes(&at, spans), *links = take_bytes(&at, spans);
+    scratch->is_done = take_bytes(&at, columns);
     TL_ASSERT(at <= (uint8_t *)scratch->block + scratch->size);
     fill_floors(packed, compact_out, counts, links);
     scratch->links = links;
+    scratch->even = counts; // whose last reader is done
     memcpy(base_area, compact_out->area, spans);
     *base_area_out = base_area;
     return TL_OK;

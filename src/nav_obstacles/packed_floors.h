@@ -34,6 +34,8 @@ typedef struct tl_floors_scratch {
     uint64_t size;
     const tl_allocator *allocator;
     const uint8_t *links; ///< in the block, of the floors that were unpacked last; bit d: there is a neighbour
+    uint8_t *is_done;     ///< in the block, for linking: [columns]
+    uint16_t *even;       ///< in the block, for linking: [columns of a row]
 } tl_floors_scratch;
 
 /// The same floors again, in the scratch's block, where they hold until its next use: they are not freed. They have

@@ -53,7 +53,7 @@ static void check_equal(const tl_nav_compact *a, const tl_nav_compact *b)
 static uint64_t round_trip(const tl_nav_compact *compact)
 {
     const tl_allocator allocator = tl_allocator_or_default(NULL);
-    tl_floors_scratch scratch = { NULL, 0, &allocator, NULL };
+    tl_floors_scratch scratch = { .allocator = &allocator };
     tl_packed_floors packed;
     tl_nav_compact again;
     uint8_t *base_area;
@@ -180,7 +180,7 @@ static void failing_memory_is_reported(void **state)
         tl_packed_floors packed;
         tl_nav_compact again;
         uint8_t *base_area;
-        tl_floors_scratch scratch = { NULL, 0, &memory.allocator, NULL };
+        tl_floors_scratch scratch = { .allocator = &memory.allocator };
         tl_result result = tl_floors_pack(&stages.compact, &memory.allocator, &packed);
         if (result == TL_OK) {
             result = tl_floors_unpack(&packed, &scratch, &again, &base_area);
