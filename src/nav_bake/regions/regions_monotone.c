@@ -17,7 +17,7 @@
 typedef struct row_sweep {
     uint32_t first; // the region that the run touches first in the row before; 0: none
     uint32_t above; // the one region that it touches there; 0 none, MANY several
-    uint32_t links; // floors through which it does
+    uint32_t links; // floors through which it touches the first, before it touches another
     uint32_t region;
 } row_sweep;
 
@@ -39,12 +39,45 @@ static inline uint32_t region_if_same(const monotone *m, uint32_t beside, uint8_
     return m->compact->area[beside] == area && !tl_region_is_border(region) ? region : 0;
 }
 
+// How many floors from `first` on lie as it does: they step as it does, have its area, and what lies before them has
+// one area and one region. Of a row they are one run, which touches the row before in one region.
+static uint32_t count_alike(const monotone *m, uint32_t first, uint32_t end)
+{
+    if (m->compact->step == NULL || m->compact->step[4 * (size_t)first] != -1) {
+        return 1; // others begin a run, or follow a floor that is not the one before them
+    }
+    const int32_t step = m->compact->step[4 * (size_t)first + 3];
+    const uint32_t above = first + (uint32_t)step;
+    const uint8_t *area = m->compact->area;
+    const uint32_t most = tl_nav_steps_alike(m->compact, first, end - first);
+    uint32_t k = 1;
+    while (k < most && area[first + k] == area[first] && area[above + k] == area[above] &&
+           m->region[above + k] == m->region[above]) {
+        k++;
+    }
+    return k;
+}
+
+// A run goes on over `count` floors that lie beside a region of the row before. Past its first region it counts
+// nowhere: that one may still go on in another run.
+static inline void touch_above(row_sweep *s, uint32_t above, uint32_t count)
+{
+    if (s->above == above) {
+        s->links += count;
+    } else if (s->above == 0) {
+        *s = (row_sweep){ above, above, count, 0 };
+    } else {
+        s->above = MANY;
+    }
+}
+
 // Labels the row's floors with runs 1 .. and returns their number + 1. They have no region before.
 static uint32_t make_runs(monotone *m, uint32_t begin, uint32_t end)
 {
     uint32_t next = 1;
-    for (uint32_t i = begin; i < end; i++) {
+    for (uint32_t i = begin, count; i < end; i += count) {
         const uint8_t area = m->compact->area[i];
+        count = 1;
         if (area == TL_NAV_NULL_AREA) {
             continue;
         }
@@ -53,18 +86,16 @@ static uint32_t make_runs(monotone *m, uint32_t begin, uint32_t end)
         const uint32_t above = region_if_same(m, links.to[3], area);
         if (run == 0) {
             run = next++;
-            m->sweeps[run] = (row_sweep){ above, 0, 0, 0 };
+            m->sweeps[run] = (row_sweep){ 0, 0, 0, 0 };
+        } else {
+            count = count_alike(m, i, end);
         }
         if (above != 0) {
-            // Past its first region a run counts nowhere: that one may still go on in another run.
-            row_sweep *s = &m->sweeps[run];
-            s->first = s->first != 0 ? s->first : above;
-            bool same = s->above == 0 || s->above == above;
-            s->above = same ? above : MANY;
-            s->links += same;
-            m->touched[above] += same;
+            touch_above(&m->sweeps[run], above, count);
         }
-        m->region[i] = run;
+        for (uint32_t k = 0; k < count; k++) {
+            m->region[i + k] = run;
+        }
     }
     return next;
 }
@@ -72,6 +103,9 @@ static uint32_t make_runs(monotone *m, uint32_t begin, uint32_t end)
 // Turns runs into regions, and clears the counts.
 static void name_runs(monotone *m, uint32_t begin, uint32_t end, uint32_t run_count)
 {
+    for (uint32_t k = 1; k < run_count; k++) {
+        m->touched[m->sweeps[k].first] += m->sweeps[k].links;
+    }
     for (uint32_t k = 1; k < run_count; k++) {
         row_sweep *s = &m->sweeps[k];
         bool continues = s->above != 0 && s->above != MANY && m->touched[s->above] == s->links;
