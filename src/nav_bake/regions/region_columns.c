@@ -41,23 +41,25 @@ static tl_result append_column(tl_region_work *work, uint32_t *capacity, uint32_
 tl_result tl_stacked_columns_find(tl_region_work *work)
 {
     const tl_nav_compact *compact = work->compact;
-    const uint32_t *region = work->region, *first = compact->first_span;
-    const uint32_t column_count = compact->width * compact->height;
+    const uint32_t *region = work->region, *first = compact->first_span, border = compact->border_size;
     uint32_t capacity = 0, before = 0, before_count = 0; // the floors of the column of several floors before this one
     if (work->stacked.are_known) {
         return TL_OK;
     }
     work->stacked = (tl_stacked_columns){ NULL, 0, false };
-    for (uint32_t c = 0; c < column_count; c++) {
-        const uint32_t begin = first[c], count = first[c + 1] - begin;
-        if (count <= 1) {
-            continue;
+    for (uint32_t z = border; z + border < compact->height; z++) {
+        const uint32_t end = (z + 1) * compact->width - border;
+        for (uint32_t c = z * compact->width + border; c < end; c++) {
+            const uint32_t begin = first[c], count = first[c + 1] - begin;
+            if (count <= 1) {
+                continue;
+            }
+            if (count != before_count || !same_regions(region, before, begin, count)) {
+                TL_TRY(append_column(work, &capacity, c));
+            }
+            before = begin;
+            before_count = count;
         }
-        if (count != before_count || !same_regions(region, before, begin, count)) {
-            TL_TRY(append_column(work, &capacity, c));
-        }
-        before = begin;
-        before_count = count;
     }
     work->stacked.are_known = true;
     return TL_OK;

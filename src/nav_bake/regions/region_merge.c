@@ -264,9 +264,10 @@ static tl_result renumber(region_merger *m)
         }
         new_id[r] = new_id[root];
     }
-    for (uint32_t i = 0; i < work->compact->span_count; i++) {
-        if (!tl_region_is_border(work->region[i])) {
-            work->region[i] = new_id[work->region[i]];
+    for (uint32_t z = 0; z < work->compact->height; z++) {
+        const tl_inner_floors row = tl_inner_floors_of_row(work->compact, z);
+        for (uint32_t i = row.begin; i < row.end; i++) {
+            work->region[i] = tl_region_is_border(work->region[i]) ? work->region[i] : new_id[work->region[i]];
         }
     }
     work->region_count = count;

@@ -77,6 +77,24 @@ static tl_result walk_ring(ring_walk *walk, uint32_t floor)
     return TL_OK;
 }
 
+// Counts the floors of a run, and walks the ring of a region that is met first.
+static tl_result add_region_run(ring_walk *walk, uint32_t first, uint32_t end)
+{
+    const tl_region_work *work = walk->work;
+    tl_region_rings *rings = walk->rings;
+    const uint32_t region = work->region[first];
+    if (region == 0 || tl_region_is_border(region)) {
+        return TL_OK;
+    }
+    const bool is_first = rings->span_count[region] == 0;
+    rings->span_count[region] += end - first;
+    if (!is_first) {
+        return TL_OK;
+    }
+    rings->area[region] = work->compact->area[first];
+    return region_across(work, first, 0) != region ? walk_ring(walk, first) : TL_ERR_CORRUPT;
+}
+
 tl_result tl_region_rings_make(const tl_region_work *work, tl_region_rings *rings_out)
 {
     const tl_nav_compact *compact = work->compact;
@@ -91,22 +109,12 @@ tl_result tl_region_rings_make(const tl_region_work *work, tl_region_rings *ring
         rings_out->head[r] = TL_NO_REGION_RING;
     }
     ring_walk walk = { work, rings_out, 0, 4 * (uint64_t)compact->span_count };
-    // Floors that follow one another are mostly of one region: they are counted a run at a time.
-    for (uint32_t i = 0, end; i < compact->span_count; i = end) {
-        const uint32_t region = work->region[i];
-        for (end = i + 1; end < compact->span_count && work->region[end] == region; end++) {
-        }
-        if (region == 0 || tl_region_is_border(region)) {
-            continue;
-        }
-        const bool is_first = rings_out->span_count[region] == 0;
-        rings_out->span_count[region] += end - i;
-        if (is_first) {
-            rings_out->area[region] = compact->area[i];
-            if (region_across(work, i, 0) == region) {
-                return TL_ERR_CORRUPT;
+    for (uint32_t z = 0; z < compact->height; z++) {
+        const tl_inner_floors row = tl_inner_floors_of_row(compact, z);
+        for (uint32_t i = row.begin, end; i < row.end; i = end) {
+            for (end = i + 1; end < row.end && work->region[end] == work->region[i]; end++) {
             }
-            TL_TRY(walk_ring(&walk, i));
+            TL_TRY(add_region_run(&walk, i, end));
         }
     }
     return TL_OK;

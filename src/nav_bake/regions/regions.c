@@ -12,22 +12,26 @@
 
 #include <string.h>
 
+static void paint_floors(const tl_nav_compact *compact, uint32_t begin, uint32_t end, uint32_t side, uint32_t *region)
+{
+    for (uint32_t i = begin; i < end; i++) {
+        region[i] = compact->area[i] != TL_NAV_NULL_AREA ? TL_NAV_BORDER_REGION | side : 0;
+    }
+}
+
 // The border of a tile belongs to its neighbours. Its four sides are regions of their own, so that contours know
 // where they meet it: 1 x-, 2 x+, 3 z-, 4 z+; a corner belongs to the later side.
 static void paint_border(const tl_nav_compact *compact, uint32_t *region)
 {
-    uint32_t width = compact->width, height = compact->height, border = compact->border_size;
+    const uint32_t width = compact->width, height = compact->height, border = compact->border_size;
     for (uint32_t z = 0; z < height; z++) {
-        for (uint32_t x = 0; x < width; x++) {
-            uint32_t side = z + border >= height ? 4 : z < border ? 3 : x + border >= width ? 2 : x < border ? 1 : 0;
-            if (side == 0) {
-                x = width - border - 1; // on to the right border
-                continue;
-            }
-            size_t column = (size_t)z * width + x;
-            for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
-                region[i] = compact->area[i] != TL_NAV_NULL_AREA ? TL_NAV_BORDER_REGION | side : 0;
-            }
+        const uint32_t *row = compact->first_span + (size_t)z * width;
+        const uint32_t before = border < width ? border : width;
+        if (z + border >= height || z < border) {
+            paint_floors(compact, row[0], row[width], z + border >= height ? 4 : 3, region);
+        } else {
+            paint_floors(compact, row[0], row[before], 1, region);
+            paint_floors(compact, row[width - before], row[width], 2, region);
         }
     }
 }

@@ -53,6 +53,18 @@ tl_result tl_regions_filter_and_merge(tl_region_work *work, uint32_t min_area, u
 
 #define TL_REGIONS_NO_MERGE UINT32_MAX
 
+/// The floors of a row but for the border's: from `begin` on, up to `end`.
+typedef struct tl_inner_floors {
+    uint32_t begin, end;
+} tl_inner_floors;
+
+static inline tl_inner_floors tl_inner_floors_of_row(const tl_nav_compact *compact, uint32_t z)
+{
+    const uint32_t border = compact->border_size, *row = compact->first_span + (size_t)z * compact->width;
+    const bool is_inner = z >= border && z + border < compact->height && compact->width > 2 * border;
+    return is_inner ? (tl_inner_floors){ row[border], row[compact->width - border] } : (tl_inner_floors){ 0, 0 };
+}
+
 static inline bool tl_region_is_border(uint32_t region)
 {
     return (region & TL_NAV_BORDER_REGION) != 0;
