@@ -61,7 +61,9 @@ static void count_waiting(uint32_t index, uint32_t worker, void *user)
     uint32_t *sizes = w->block_sizes + (size_t)index * w->level_stride;
     memset(sizes, 0, w->level_stride * sizeof *sizes);
     for (uint32_t i = index * w->field_block; i < end; i++) {
-        sizes[level_of(w, i)] += waits(w, i);
+        if (waits(w, i)) {
+            sizes[level_of(w, i)]++;
+        }
     }
 }
 
@@ -98,8 +100,11 @@ static void sort_block(uint32_t index, uint32_t worker, void *user)
     const uint32_t first_level = w->sort_first, levels = w->sort_end - w->sort_first;
     uint32_t *order = w->order.floors, *next = w->block_next + (size_t)index * w->level_stride;
     for (uint32_t i = index * w->field_block; i < end; i++) {
+        if (!waits(w, i)) {
+            continue;
+        }
         const uint32_t level = level_of(w, i);
-        if (level - first_level < levels && waits(w, i)) {
+        if (level - first_level < levels) {
             order[next[level]++] = i;
         }
     }
