@@ -81,10 +81,15 @@ static void consider_row(const tl_detail_floors *floors, int64_t x, int64_t z, i
     }
 }
 
-// The nearest column of the region; ties go to the lower z, then x.
+// The nearest column of the region; ties go to the lower z, then x. Mostly it is one of the four beside: outlines run
+// along columns.
 static found_floor find_nearest(const tl_detail_floors *floors, int64_t x, int64_t z)
 {
     found_floor best = { TL_NAV_NO_SPAN, 0, 0, INT64_MAX };
+    static const int8_t beside[4][2] = { { 0, -1 }, { -1, 0 }, { 1, 0 }, { 0, 1 } };
+    for (int k = 0; k < 4 && floors->reach > 0 && best.span == TL_NAV_NO_SPAN; k++) {
+        consider_floor(floors, x, z, beside[k][0], beside[k][1], &best);
+    }
     // A ring at distance r holds nothing nearer than r.
     for (int64_t r = 1; r <= (int64_t)floors->reach && r * r < best.distance_sq; r++) {
         consider_row(floors, x, z, r, -r, &best);
