@@ -15,6 +15,7 @@
 #include "nav_bake/contours/contours.h"
 
 #include "base/assert.h"
+#include "nav_bake/floors/links.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,6 +27,20 @@ static uint32_t steps_around(const tl_contour_work *work)
     return steps < 1e9 ? (uint32_t)steps : 1000000000u;
 }
 
+// The next floor from `at` on that was taken away; span_count: none.
+static uint32_t next_taken(const tl_nav_compact *compact, uint32_t at)
+{
+    static const uint8_t none[32] = { 0 }; // few are taken, so most floors are passed so many at a time
+    const uint32_t count = compact->span_count;
+    while (count - at >= sizeof none && memcmp(compact->taken + at, none, sizeof none) == 0) {
+        at += (uint32_t)sizeof none;
+    }
+    while (at < count && !compact->taken[at]) {
+        at++;
+    }
+    return at;
+}
+
 tl_result tl_contours_find_guarded(tl_contour_work *work)
 {
     const tl_nav_compact *compact = work->compact;
@@ -35,26 +50,23 @@ tl_result tl_contours_find_guarded(tl_contour_work *work)
         return TL_OK;
     }
     uint8_t *near = TL_PUSH_ZERO(work->arena, uint8_t, span_count);
-    uint32_t *queue = TL_PUSH(work->arena, uint32_t, span_count);
+    uint32_t *queue = TL_PUSH(work->arena, uint32_t, (uint64_t)span_count + 1);
     if (near == NULL || queue == NULL) {
         return TL_ERR_MEMORY;
     }
     uint32_t count = 0;
-    for (uint32_t i = 0; i < span_count; i++) {
-        if (compact->taken[i]) {
-            near[i] = 1;
-            queue[count++] = i;
-        }
+    for (uint32_t i = next_taken(compact, 0); i < span_count; i = next_taken(compact, i + 1)) {
+        near[i] = 1;
+        queue[count++] = i;
     }
     uint32_t at = 0;
     for (uint32_t left = steps_around(work); left > 0 && at < count; left--) {
         for (const uint32_t end = count; at < end; at++) { // a ring a step
+            const tl_links links = tl_nav_links_or_self(compact, queue[at]);
             for (uint32_t d = 0; d < 4; d++) {
-                const uint32_t beside = tl_nav_compact_neighbour(compact, queue[at], d);
-                if (beside != TL_NAV_NO_SPAN && !near[beside]) {
-                    near[beside] = 1;
-                    queue[count++] = beside;
-                }
+                queue[count] = links.to[d]; // stays where it was not near yet; the queue has room for one more
+                count += !near[links.to[d]];
+                near[links.to[d]] = 1;
             }
         }
     }

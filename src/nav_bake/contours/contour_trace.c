@@ -125,6 +125,11 @@ static void mark_outlines(uint32_t index, uint32_t worker, void *user)
     const uint32_t begin = index * t->block_size, end = tl_block_end(index, t->block_size, compact->span_count);
     uint8_t *restrict outline = t->outline; // what pointers lead to would else be read again after each byte
     for (uint32_t i = begin, alike; i < end; i += alike) {
+        if (!is_traced(compact->region[i])) {
+            outline[i] = 0;
+            alike = 1;
+            continue;
+        }
         const uint32_t most = end - i < LONGEST_RUN ? end - i : LONGEST_RUN;
         alike = compact->step != NULL ? tl_nav_steps_alike(compact, i, most) : 1;
         if (alike >= MIN_RUN) {
@@ -217,6 +222,14 @@ static trace_corner find_corner(const tl_nav_compact *compact, uint32_t floor, u
     return c;
 }
 
+// Whether a place in the tile without its border is on the line between the two: only there border floors meet others.
+static inline bool is_on_border_line(const tl_nav_compact *compact, const tl_contour_vertex *v)
+{
+    const int64_t border = compact->border_size;
+    return v->x == 0 || v->z == 0 || v->x == (int64_t)compact->width - 2 * border ||
+           v->z == (int64_t)compact->height - 2 * border;
+}
+
 // Two floors of one border side beside two inner floors of one area: the vertex is there only because the outline bends
 // or changes its neighbour on the tile's border. It is removed after merging, so that both tiles have the same edge.
 static bool is_border_vertex(const tl_nav_compact *compact, const trace_corner *c)
@@ -253,7 +266,8 @@ static uint32_t region_flags(uint32_t across)
     if (across == 0) {
         return 0;
     }
-    uint32_t id = ((across & ~TL_NAV_BORDER_REGION) - 1) % 0x7fffu + 1;
+    uint32_t id = across & ~TL_NAV_BORDER_REGION;
+    id = id > 0x7fff ? (id - 1) % 0x7fffu + 1 : id;
     return (across & TL_NAV_BORDER_REGION) != 0 ? id | 0x8000u : id;
 }
 
@@ -288,7 +302,8 @@ static void emit_edge(tracer *t, uint32_t vertex, uint32_t floor, uint32_t direc
     end->x = (int32_t)(x + (direction == 1 || direction == 2)) - (int32_t)compact->border_size;
     end->z = (int32_t)(z + (direction == 0 || direction == 1)) - (int32_t)compact->border_size;
     end->y = (int32_t)c.height;
-    end->flags = is_border_vertex(compact, &c) ? TL_CONTOUR_BORDER_VERTEX : 0;
+    const bool is_border = is_on_border_line(compact, end) && is_border_vertex(compact, &c);
+    end->flags = is_border ? TL_CONTOUR_BORDER_VERTEX : 0;
     if (work->guarded != NULL) {
         work->guarded[vertex] = work->near[floor];
     }
