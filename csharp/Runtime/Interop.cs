@@ -3167,6 +3167,8 @@ namespace Talus.Interop
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_nav_tile_rebake(tl_nav_config* config, tl_nav_compact* compact, byte* base_area, tl_nav_tile_memo** memo, tl_host* host, tl_nav_tile_stack* stack_out, tl_nav_bake_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern byte tl_nav_tile_keeps_bytes(tl_nav_config* config, tl_nav_compact* compact, byte* area_before);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern void tl_nav_tile_memo_free(tl_nav_tile_memo* memo);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern ulong tl_nav_tile_memo_bytes(tl_nav_tile_memo* memo);

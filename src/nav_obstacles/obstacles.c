@@ -489,6 +489,23 @@ static void mark_obstacles(const tl_nav_obstacles *o, uint32_t x, uint32_t z, tl
     }
 }
 
+// TL_NOT_FOUND: all that was marked since is out in the border, and the tile has the bytes that were handed out last.
+static tl_result compare_borders(const tl_nav_obstacles *o, const tile_floors *tile, const tl_nav_config *config,
+                                 const tl_nav_compact *compact, const uint8_t *base_area)
+{
+    if (!tile->is_known || config->partition == TL_NAV_WATERSHED) {
+        return TL_OK;
+    }
+    uint8_t *before = tl_allocate_array(&o->allocator, compact->span_count, sizeof *before);
+    if (before == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_tile_marks_apply(&tile->marks, base_area, compact->span_count, before);
+    const bool same = tl_nav_tile_keeps_bytes(config, compact, before);
+    tl_release_array(&o->allocator, before, compact->span_count, sizeof *before);
+    return same ? TL_NOT_FOUND : TL_OK;
+}
+
 static tl_result rebake_marked(tl_nav_obstacles *o, tile_floors *tile, tl_unpacked_tile *now,
                                tl_nav_rebaked_tile *rebaked, tl_nav_bake_report *report)
 {
@@ -499,11 +516,14 @@ static tl_result rebake_marked(tl_nav_obstacles *o, tile_floors *tile, tl_unpack
     tl_unpacked_tile_link(now);
     tl_nav_compact compact = now->compact;
     TL_TRY(tl_tile_marks_find(now->base_area, compact.area, compact.span_count, &o->allocator, &marks));
-    const tl_host host = { &o->allocator, NULL, NULL };
-    const tl_result result =
-        tl_nav_tile_rebake(&config, &compact, now->base_area, &tile->memo, &host, &rebaked->stack, report);
-    tl_tile_marks_free(result == TL_OK ? &tile->marks : &marks, &o->allocator);
+    tl_result result = compare_borders(o, tile, &config, &compact, now->base_area);
     if (result == TL_OK) {
+        const tl_host host = { &o->allocator, NULL, NULL };
+        result = tl_nav_tile_rebake(&config, &compact, now->base_area, &tile->memo, &host, &rebaked->stack, report);
+    }
+    const bool is_right = result == TL_OK || result == TL_NOT_FOUND;
+    tl_tile_marks_free(is_right ? &tile->marks : &marks, &o->allocator);
+    if (is_right) {
         tile->marks = marks;
     }
     return result;
@@ -525,7 +545,7 @@ static tl_result rebake_with_obstacles(tl_nav_obstacles *o, tile_floors *tile, t
         return TL_NOT_FOUND;
     }
     const tl_result result = rebake_marked(o, tile, now, rebaked, report);
-    if (result != TL_OK) {
+    if (result != TL_OK && result != TL_NOT_FOUND) {
         tl_unpacked_tiles_free(&o->unpacked); // where memory is short
     }
     return result;

@@ -45,6 +45,14 @@ bool tl_tile_marks_hold(const tl_tile_marks *marks, const uint8_t *base_area, co
     return memcmp(base_area + at, area + at, count - at) == 0;
 }
 
+void tl_tile_marks_apply(const tl_tile_marks *marks, const uint8_t *base_area, uint32_t count, uint8_t *area_out)
+{
+    memcpy(area_out, base_area, count);
+    for (uint32_t r = 0; r < marks->run_count; r++) {
+        memset(area_out + marks->runs[r].first, (int)marks->runs[r].area, marks->runs[r].count);
+    }
+}
+
 tl_result tl_tile_marks_find(const uint8_t *base_area, const uint8_t *area, uint32_t count,
                              const tl_allocator *allocator, tl_tile_marks *marks_out)
 {

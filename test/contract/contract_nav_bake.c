@@ -398,6 +398,10 @@ static tl_result nav_tile_rebake(contract_run *run)
         tl_nav_tile_rebake(is_null(run, 0) ? NULL : &level->config, is_null(run, 1) ? NULL : &compact,
                            is_null(run, 2) ? NULL : base, is_null(run, 3) ? NULL : &memo, run->host,
                            run->what == CONTRACT_NULL_OUTPUT ? NULL : &stack, run->wants_report ? &report : NULL);
+    if (run->what == CONTRACT_GOOD) { // the crate stands within the level
+        TEST_CHECK(tl_nav_tile_keeps_bytes(&level->config, &compact, compact.area));
+        TEST_CHECK(!tl_nav_tile_keeps_bytes(&level->config, &compact, base));
+    }
     TEST_CHECK((memo != NULL) == (result == TL_OK) && (memo == NULL || tl_nav_tile_memo_bytes(memo) > 0));
     tl_nav_tile_memo_free(memo);
     return end_stack(run, result, &report, &stack, &compact);
@@ -582,6 +586,7 @@ const contract_entry CONTRACT_TABLE_nav_bake[] = {
     { "tl_nav_tile_bake", STAGE, 2, 1, NULL, nav_tile_bake, NULL },
     { "tl_nav_tile_bake_from_compact", STAGE, 2, 1, NULL, nav_tile_bake_from_compact, NULL },
     { "tl_nav_tile_rebake", STAGE, 4, 1, NULL, nav_tile_rebake, NULL },
+    { "tl_nav_tile_keeps_bytes", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_tile_rebake, NULL },
     { "tl_nav_tile_memo_free", FREES },
     { "tl_nav_tile_memo_bytes", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_tile_rebake, NULL },
     { "tl_nav_bake", STAGE | CONTRACT_BIT(NULL_DEF) | DEFS, 1, 1, DEF_FIELDS, nav_bake, NULL },

@@ -40,11 +40,10 @@ static void test_runs(void **state)
         }
         tl_tile_marks marks;
         TEST_RESULT(tl_tile_marks_find(base, area, count, NULL, &marks), TL_OK);
-        memcpy(again, base, count);
         for (uint32_t r = 0; r < marks.run_count; r++) {
             TEST_CHECK(marks.runs[r].count > 0);
-            memset(again + marks.runs[r].first, (int)marks.runs[r].area, marks.runs[r].count);
         }
+        tl_tile_marks_apply(&marks, base, count, again);
         TEST_CHECK(memcmp(again, area, count) == 0);
         const bool same = memcmp(area, other, count) == 0;
         TEST_CHECK(tl_tile_marks_hold(&marks, base, area, count));

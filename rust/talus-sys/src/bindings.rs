@@ -3321,6 +3321,11 @@ extern "C" {
         stack_out: *mut tl_nav_tile_stack,
         report_out: *mut tl_nav_bake_report,
     ) -> tl_result;
+    pub fn tl_nav_tile_keeps_bytes(
+        config: *const tl_nav_config,
+        compact: *const tl_nav_compact,
+        area_before: *const u8,
+    ) -> bool;
     pub fn tl_nav_tile_memo_free(memo: *mut tl_nav_tile_memo);
     pub fn tl_nav_tile_memo_bytes(memo: *const tl_nav_tile_memo) -> u64;
     pub fn tl_nav_bake(

@@ -20,9 +20,9 @@
 #include <math.h>
 #include <string.h>
 
-static uint32_t steps_around(const tl_contour_work *work)
+uint32_t tl_contours_guard_steps(const tl_nav_config *config)
 {
-    const double columns = (double)work->config->max_simplification_error + 1.5;
+    const double columns = (double)config->max_simplification_error + 1.5;
     const double steps = ceil(1.41421357 * columns) + 1.0;
     return steps < 1e9 ? (uint32_t)steps : 1000000000u;
 }
@@ -60,7 +60,7 @@ tl_result tl_contours_find_guarded(tl_contour_work *work)
         queue[count++] = i;
     }
     uint32_t at = 0;
-    for (uint32_t left = steps_around(work); left > 0 && at < count; left--) {
+    for (uint32_t left = tl_contours_guard_steps(work->config); left > 0 && at < count; left--) {
         for (const uint32_t end = count; at < end; at++) { // a ring a step
             const tl_links links = tl_nav_links_or_self(compact, queue[at]);
             for (uint32_t d = 0; d < 4; d++) {

@@ -48,6 +48,9 @@ typedef struct tl_contour_path {
     uint32_t count;
 } tl_contour_path;
 
+/// How many steps from floor to floor are near.
+uint32_t tl_contours_guard_steps(const tl_nav_config *config);
+
 /// Finds the floors near those that were taken away (compact->taken), where outlines may only draw back. Before the
 /// trace.
 tl_result tl_contours_find_guarded(tl_contour_work *work);
