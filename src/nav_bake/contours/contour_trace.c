@@ -202,11 +202,10 @@ typedef struct trace_corner {
     uint32_t height;
 } trace_corner;
 
-static trace_corner find_corner(const tl_nav_compact *compact, uint32_t floor, uint32_t direction)
+static trace_corner find_corner(const tl_nav_compact *compact, uint32_t floor, uint32_t direction, uint32_t across)
 {
     uint32_t turned = (direction + 1) & 3;
-    trace_corner c = { { floor, tl_nav_compact_neighbour(compact, floor, direction), TL_NAV_NO_SPAN,
-                         tl_nav_compact_neighbour(compact, floor, turned) },
+    trace_corner c = { { floor, across, TL_NAV_NO_SPAN, tl_nav_compact_neighbour(compact, floor, turned) },
                        compact->floor[floor] };
     uint32_t first_way =
         c.floors[1] != TL_NAV_NO_SPAN ? tl_nav_compact_neighbour(compact, c.floors[1], turned) : TL_NAV_NO_SPAN;
@@ -297,7 +296,7 @@ static void emit_edge(tracer *t, uint32_t vertex, uint32_t floor, uint32_t direc
     t->vertex_of[edge_index(t, floor, direction)] = vertex;
     link_twin(t, vertex, beside, direction ^ 2);
 
-    trace_corner c = find_corner(compact, floor, direction);
+    trace_corner c = find_corner(compact, floor, direction, beside);
     tl_contour_vertex *end = &work->vertices[vertex + 1];
     end->x = (int32_t)(x + (direction == 1 || direction == 2)) - (int32_t)compact->border_size;
     end->z = (int32_t)(z + (direction == 0 || direction == 1)) - (int32_t)compact->border_size;

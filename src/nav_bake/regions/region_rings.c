@@ -49,23 +49,27 @@ static tl_result append_ring_entry(ring_walk *walk, uint32_t region)
 
 static tl_result walk_ring(ring_walk *walk, uint32_t floor)
 {
-    const tl_region_work *work = walk->work;
+    const tl_nav_compact *compact = walk->work->compact;
+    const uint32_t *region = walk->work->region;
     tl_region_rings *rings = walk->rings;
-    uint32_t own = work->region[floor], start = floor, direction = 0, begin = rings->entry_count;
+    const uint32_t own = region[floor], start = floor, begin = rings->entry_count;
+    uint32_t direction = 0, last = own; // of the entries; none is of its own region
     do {
         if (walk->steps_left-- == 0) {
             return TL_ERR_CORRUPT;
         }
-        uint32_t across = region_across(work, floor, direction);
-        if (across != own) {
-            if (rings->entry_count == begin || rings->entries[rings->entry_count - 1].region != across) {
-                TL_TRY(append_ring_entry(walk, across));
-            }
-            direction = (direction + 1) & 3;
-        } else {
-            floor = tl_nav_compact_neighbour(work->compact, floor, direction);
+        const uint32_t beside = tl_nav_compact_neighbour(compact, floor, direction);
+        const uint32_t across = beside != TL_NAV_NO_SPAN ? region[beside] : 0;
+        if (across == own) {
+            floor = beside;
             direction = (direction + 3) & 3;
+            continue;
         }
+        if (across != last) {
+            TL_TRY(append_ring_entry(walk, across));
+            last = across;
+        }
+        direction = (direction + 1) & 3;
     } while (floor != start || direction != 0);
     // The last stretch may continue into the first.
     if (rings->entry_count - begin > 1 &&
