@@ -13,7 +13,10 @@
 
 #include <string.h>
 
-enum { MARKS_BLOCK = 64 }; // floors that are compared at once
+enum {
+    MARKS_BLOCK = 64, // floors that are compared at once
+    FIRST_RUNS = 64
+};
 
 // The next run from floor `at` on; its count is 0 where there is none.
 static tl_marked_run next_marked_run(const uint8_t *base_area, const uint8_t *area, uint32_t count, uint32_t at)
@@ -56,10 +59,14 @@ void tl_tile_marks_apply(const tl_tile_marks *marks, const uint8_t *base_area, u
 tl_result tl_tile_marks_find(const uint8_t *base_area, const uint8_t *area, uint32_t count,
                              const tl_allocator *allocator, tl_tile_marks *marks_out)
 {
+    tl_marked_run first_runs[FIRST_RUNS]; // mostly all; else they are looked for once more
     tl_tile_marks marks = { NULL, 0 };
     *marks_out = marks;
     for (uint32_t at = 0; at < count;) {
         const tl_marked_run run = next_marked_run(base_area, area, count, at);
+        if (run.count > 0 && marks.run_count < FIRST_RUNS) {
+            first_runs[marks.run_count] = run;
+        }
         marks.run_count += run.count > 0;
         at = run.first + run.count;
     }
@@ -70,10 +77,11 @@ tl_result tl_tile_marks_find(const uint8_t *base_area, const uint8_t *area, uint
     if (marks.runs == NULL) {
         return TL_ERR_MEMORY;
     }
-    uint32_t at = 0;
-    for (uint32_t r = 0; r < marks.run_count; r++) {
-        marks.runs[r] = next_marked_run(base_area, area, count, at);
-        at = marks.runs[r].first + marks.runs[r].count;
+    uint32_t known = marks.run_count < FIRST_RUNS ? marks.run_count : FIRST_RUNS;
+    memcpy(marks.runs, first_runs, known * sizeof *marks.runs);
+    for (uint32_t at = marks.runs[known - 1].first + marks.runs[known - 1].count; known < marks.run_count; known++) {
+        marks.runs[known] = next_marked_run(base_area, area, count, at);
+        at = marks.runs[known].first + marks.runs[known].count;
     }
     *marks_out = marks;
     return TL_OK;

@@ -27,31 +27,27 @@ static bool same_areas(const tl_nav_compact *compact, const uint8_t *before, uin
     return memcmp(compact->area + begin, before + begin, end - begin) == 0;
 }
 
-// Adds those columns of a row whose floors have changed.
+// Makes a box reach the first and the last column of a row in which floors have changed; there is one.
 static void add_changed_of_row(const tl_nav_compact *compact, const uint8_t *before, uint32_t z, column_box *changed)
 {
     const uint32_t *row = compact->first_span + (size_t)z * compact->width;
-    for (uint32_t x = 0; x < compact->width; x++) {
-        if (!same_areas(compact, before, row[x], row[x + 1])) {
-            changed->min_x = x < changed->min_x ? x : changed->min_x;
-            changed->max_x = x > changed->max_x ? x : changed->max_x;
-            changed->min_z = z < changed->min_z ? z : changed->min_z;
-            changed->max_z = z;
-        }
+    uint32_t first = row[0], last = row[compact->width] - 1, first_x = 0, last_x = compact->width - 1;
+    while (compact->area[first] == before[first]) {
+        first++;
     }
-}
-
-// A box around all columns whose floors have changed.
-static column_box find_changed(const tl_nav_compact *compact, const uint8_t *before)
-{
-    column_box changed = { UINT32_MAX, UINT32_MAX, 0, 0 };
-    for (uint32_t z = 0; z < compact->height; z++) {
-        const uint32_t *row = compact->first_span + (size_t)z * compact->width;
-        if (!same_areas(compact, before, row[0], row[compact->width])) {
-            add_changed_of_row(compact, before, z, &changed);
-        }
+    while (compact->area[last] == before[last]) {
+        last--;
     }
-    return changed;
+    while (row[first_x + 1] <= first) {
+        first_x++;
+    }
+    while (row[last_x] > last) {
+        last_x--;
+    }
+    changed->min_x = first_x < changed->min_x ? first_x : changed->min_x;
+    changed->max_x = last_x > changed->max_x ? last_x : changed->max_x;
+    changed->min_z = z < changed->min_z ? z : changed->min_z;
+    changed->max_z = z;
 }
 
 // Whether a box of columns is beyond the rings of the border that a tile sees. A box that reaches around the tile on
@@ -107,10 +103,16 @@ static bool is_wall_near(const tl_nav_compact *compact, const column_box *box, u
 
 bool tl_nav_tile_keeps_bytes(const tl_nav_config *config, const tl_nav_compact *compact, const uint8_t *area_before)
 {
-    const column_box changed = find_changed(compact, area_before);
-    if (changed.min_x > changed.max_x) {
-        return true;
+    column_box changed = { UINT32_MAX, UINT32_MAX, 0, 0 };
+    for (uint32_t z = 0; z < compact->height; z++) {
+        const uint32_t *row = compact->first_span + (size_t)z * compact->width;
+        if (same_areas(compact, area_before, row[0], row[compact->width])) {
+            continue;
+        }
+        add_changed_of_row(compact, area_before, z, &changed);
+        if (config->partition == TL_NAV_WATERSHED || !is_out_of_sight(compact, &changed)) {
+            return false;
+        }
     }
-    return config->partition != TL_NAV_WATERSHED && is_out_of_sight(compact, &changed) &&
-           !is_wall_near(compact, &changed, tl_contours_guard_steps(config));
+    return changed.min_x > changed.max_x || !is_wall_near(compact, &changed, tl_contours_guard_steps(config));
 }
