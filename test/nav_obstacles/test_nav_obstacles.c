@@ -190,13 +190,15 @@ static void test_random_edits(void **state)
 {
     (void)state;
     enum { EDITS = 1000, CAPACITY = 24 };
+    const char *asked = getenv("TALUS_EDITS"); // many more, and others
+    const int edits = asked != NULL ? atoi(asked) : EDITS;
     world w, other;
     make_world(&w, NULL);
     tl_nav_obstacle there[CAPACITY];
     tl_nav_obstacle_id ids[CAPACITY], other_id;
     uint32_t count = 0, added = 0, moved = 0, removed = 0, compared = 0;
-    test_random random = { 3 };
-    for (int edit = 0; edit < EDITS; edit++) {
+    test_random random = { asked != NULL ? (uint64_t)edits : 3 };
+    for (int edit = 0; edit < edits; edit++) {
         uint32_t what = test_random_below(&random, 3);
         if (count == 0 || (what == 0 && count < CAPACITY)) {
             there[count] = random_obstacle_at_any_pose(&random);
@@ -414,6 +416,22 @@ static int divide(void **state)
     return 0;
 }
 
+static int use_monotone(void **state)
+{
+    (void)state;
+    tile_height = 0.0f;
+    partition = TL_NAV_MONOTONE;
+    return 0;
+}
+
+static int use_layers(void **state)
+{
+    (void)state;
+    tile_height = 0.0f;
+    partition = TL_NAV_LAYERS;
+    return 0;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -427,6 +445,10 @@ int main(void)
         cmocka_unit_test_setup(test_random_edits, divide),
         cmocka_unit_test_setup(test_rebake, divide),
         cmocka_unit_test_setup(test_out_of_memory, divide),
+        cmocka_unit_test_setup(test_volumes, use_monotone),
+        cmocka_unit_test_setup(test_random_edits, use_monotone),
+        cmocka_unit_test_setup(test_out_of_memory, use_monotone),
+        cmocka_unit_test_setup(test_random_edits, use_layers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,12 +14,14 @@ enum { CELLS = 20 };
 
 /// Of all navmeshes that are made; 0: no layers.
 static float tile_height;
+static tl_nav_partition partition = TL_NAV_WATERSHED;
 
 static inline tl_nav_def make_def(void)
 {
     tl_nav_def def = tl_default_nav_def();
     def.tile_size = CELLS;
     def.tile_height = tile_height;
+    def.partition = partition;
     def.bounds.min = tl_vec3_make(-1, -3, -1);
     def.bounds.max = tl_vec3_make(26, 9, 20);
     return def;
