@@ -471,9 +471,10 @@ tl_result tl_floors_unpack(const tl_packed_floors *packed, tl_floors_scratch *sc
 {
     const uint64_t columns = (uint64_t)packed->frame.width * packed->frame.height, spans = packed->frame.span_count;
     const uint64_t link_size = 4 * (packed->has_steps ? sizeof(int16_t) : sizeof(uint32_t));
-    // Of a column its begin, its count and whether it is linked, of a floor its links twice, its height and its area
-    // twice; the gaps between.
-    const uint64_t size = columns * 7 + 4 + spans * (link_size + 5) + 8 * UINT64_C(8);
+    // Of a column its begin and its count, of a floor its links twice, its height and its area twice; of a row what
+    // linking takes besides the counts' room, which it uses again; the gaps between.
+    const uint64_t row_size = packed->frame.width * sizeof(uint16_t);
+    const uint64_t size = columns * 6 + row_size + 4 + spans * (link_size + 5) + 7 * UINT64_C(8);
     if (scratch->size < size) {
         tl_release_array(scratch->allocator, scratch->block, scratch->size, 1);
         scratch->size = 0;
@@ -490,14 +491,14 @@ tl_result tl_floors_unpack(const tl_packed_floors *packed, tl_floors_scratch *sc
     compact_out->neighbour = packed->has_steps ? NULL : (uint32_t *)links_out;
     compact_out->first_span = take_bytes(&at, (columns + 1) * sizeof *compact_out->first_span);
     compact_out->floor = take_bytes(&at, spans * sizeof *compact_out->floor);
-    uint16_t *counts = take_bytes(&at, columns * sizeof *counts);
+    uint16_t *counts = take_bytes(&at, columns * sizeof *counts + row_size);
     compact_out->area = take_bytes(&at, spans);
     uint8_t *base_area = take_bytes(&at, spans), *links = take_bytes(&at, spans);
-    scratch->is_done = take_bytes(&at, columns);
     TL_ASSERT(at <= (uint8_t *)scratch->block + scratch->size);
     fill_floors(packed, compact_out, counts, links);
     scratch->links = links;
     scratch->even = counts; // whose last reader is done
+    scratch->is_done = (uint8_t *)(counts + packed->frame.width);
     memcpy(base_area, compact_out->area, spans);
     *base_area_out = base_area;
     return TL_OK;
