@@ -359,6 +359,29 @@ static void slits_end_in_corners(void **state)
     tl_nav_query_destroy(query);
 }
 
+// Random pairs, for which the exact search must end as find_path does, with at most so many nodes. Returns how many of
+// them have a path.
+static uint32_t check_random_pairs(tl_nav_query *query, const tl_navmesh *navmesh, test_random *random, uint32_t count,
+                                   uint32_t most_nodes)
+{
+    const fixture_refs all = fixture_all_refs(navmesh);
+    uint32_t reached = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_nav_path_request request = { NULL, fixture_random_location(navmesh, &all, random),
+                                              fixture_random_location(navmesh, &all, random) };
+        tl_nav_path path;
+        tl_nav_ref polygons[1024];
+        tl_nav_shortest_path shortest;
+        TEST_RESULT(tl_nav_query_find_path(query, navmesh, &request, polygons, 1024, &path), TL_OK);
+        TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &request, NULL, &shortest), TL_OK);
+        TEST_CHECK(path.status == shortest.status);
+        TEST_CHECK(shortest.node_count <= most_nodes);
+        reached += path.status == TL_NAV_PATH_COMPLETE;
+    }
+    free(all.refs);
+    return reached;
+}
+
 // Where floors fork, over one another or at ramps along tiles' borders, the exact search reaches what find_path does.
 static void forks_are_passed(void **state)
 {
@@ -370,19 +393,7 @@ static void forks_are_passed(void **state)
         fixture_level level = fixture_random(&random, 5, 24);
         level.tile_cells = round % 2 == 0 ? 24 : 4;
         tl_navmesh *navmesh = fixture_build(&level, NULL);
-        const fixture_refs all = fixture_all_refs(navmesh);
-        for (uint32_t i = 0; i < 20; i++) {
-            const tl_nav_path_request request = { NULL, fixture_random_location(navmesh, &all, &random),
-                                                  fixture_random_location(navmesh, &all, &random) };
-            tl_nav_path path;
-            tl_nav_ref polygons[1024];
-            tl_nav_shortest_path shortest;
-            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &request, polygons, 1024, &path), TL_OK);
-            TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &request, NULL, &shortest), TL_OK);
-            TEST_CHECK(path.status == shortest.status);
-            reached += path.status == TL_NAV_PATH_COMPLETE;
-        }
-        free(all.refs);
+        reached += check_random_pairs(query, navmesh, &random, 20, UINT32_MAX);
         tl_navmesh_destroy(navmesh);
     }
     TEST_CHECK(reached > 1000);
@@ -395,22 +406,7 @@ static void check_pairs_arrive(tl_nav_query *query, uint64_t seed, uint32_t tile
     fixture_level level = fixture_random(&random, 5, 12);
     level.tile_cells = tile_cells;
     tl_navmesh *navmesh = fixture_build(&level, NULL);
-    const fixture_refs all = fixture_all_refs(navmesh);
-    uint32_t reached = 0;
-    for (uint32_t i = 0; i < 40; i++) {
-        const tl_nav_path_request request = { NULL, fixture_random_location(navmesh, &all, &random),
-                                              fixture_random_location(navmesh, &all, &random) };
-        tl_nav_path path;
-        tl_nav_ref polygons[1024];
-        tl_nav_shortest_path shortest;
-        TEST_RESULT(tl_nav_query_find_path(query, navmesh, &request, polygons, 1024, &path), TL_OK);
-        TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &request, NULL, &shortest), TL_OK);
-        TEST_CHECK(path.status == shortest.status);
-        TEST_CHECK(shortest.node_count < 2500);
-        reached += path.status == TL_NAV_PATH_COMPLETE;
-    }
-    TEST_CHECK(reached > 20);
-    free(all.refs);
+    TEST_CHECK(check_random_pairs(query, navmesh, &random, 40, 2500) > 20);
     tl_navmesh_destroy(navmesh);
 }
 
