@@ -1,78 +1,41 @@
 // SPDX-License-Identifier: MIT
 //
-// The compact heightfield of every tile, the obstacles on them, and the tiles that wait to be rebaked.
+// The compact heightfield of every tile, the obstacles on them, and the tiles that wait to be rebaked
+// (obstacle_rebake.c).
 //
 // Source of the idea: DetourTileCache (Mikko Mononen), which keeps compressed layers of heights and cuts obstacles out
 // of those. Here the whole compact field is kept, packed (packed_floors.c): floors over one another need no layers, and
 // a tile is the same as a bake of the level with those volumes.
 
-#include "nav_obstacles/footprint.h"
-#include "nav_obstacles/tile_marks.h"
-#include "nav_obstacles/unpacked_tiles.h"
+#include "nav_obstacles/obstacle_tiles.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "nav_obstacles/footprint.h"
 
 #include <string.h>
-
-// A tile's floors, with the areas that the bake gave.
-typedef struct tile_floors {
-    tl_packed_floors floors;
-    tl_nav_tile_memo *memo; // NULL until the tile is first made again
-    tl_tile_marks marks;    // as it was last handed out, with is_known
-    uint32_t next_waiting;  // in the queue, while it waits
-    bool is_there, waits;
-    bool is_known; // the caller has this tile
-} tile_floors;
-
-typedef struct obstacle_slot {
-    tl_nav_obstacle obstacle;
-    tl_nav_tile_range range; // the tiles that it touches
-    tl_aabb box;
-    uint32_t generation; // odd: in use
-    uint32_t next_free;
-} obstacle_slot;
-
-struct tl_nav_obstacles {
-    tl_allocator allocator;
-    tl_nav_def def; // without host
-    uint32_t tiles_x, tiles_z;
-    tile_floors *tiles; // [tiles_x * tiles_z]
-    obstacle_slot *slots;
-    uint32_t slot_count, slot_capacity, first_free, used_count;
-    uint32_t first_waiting, last_waiting, waiting_count;
-    tl_unpacked_tiles unpacked; // of the tiles that were made again last
-};
-
-#define NO_SLOT UINT32_MAX
 
 static uint64_t tile_count(const tl_nav_obstacles *o)
 {
     return (uint64_t)o->tiles_x * o->tiles_z;
 }
 
-static tile_floors *tile_at(const tl_nav_obstacles *o, uint32_t x, uint32_t z)
-{
-    return &o->tiles[(uint64_t)z * o->tiles_x + x];
-}
-
 // ---------------------------------------------------------------------------------------------------------
 // Waiting tiles: a queue through the tiles themselves, so that nothing has to be allocated.
 
-// Those whose floors can be in the box; NULL: all.
-static void let_wait(tl_nav_obstacles *o, const tl_nav_tile_range *range, const tl_aabb *box)
+void tl_obstacles_let_wait(tl_nav_obstacles *o, const tl_nav_tile_range *range, const tl_aabb *box)
 {
     for (uint32_t z = range->z; z < range->z + range->count_z; z++) {
         for (uint32_t x = range->x; x < range->x + range->count_x; x++) {
-            tile_floors *tile = tile_at(o, x, z);
+            tile_floors *tile = tl_obstacles_tile_at(o, x, z);
             if (tile->waits || !tile->is_there || (box != NULL && !tl_packed_floors_reach(&tile->floors, *box))) {
                 continue;
             }
             uint32_t index = z * o->tiles_x + x;
             tile->waits = true;
-            tile->next_waiting = NO_SLOT;
-            if (o->last_waiting == NO_SLOT) {
+            tile->next_waiting = OBSTACLE_NO_SLOT;
+            if (o->last_waiting == OBSTACLE_NO_SLOT) {
                 o->first_waiting = index;
             } else {
                 o->tiles[o->last_waiting].next_waiting = index;
@@ -83,11 +46,11 @@ static void let_wait(tl_nav_obstacles *o, const tl_nav_tile_range *range, const 
     }
 }
 
-static void end_wait(tl_nav_obstacles *o)
+void tl_obstacles_end_wait(tl_nav_obstacles *o)
 {
     tile_floors *tile = &o->tiles[o->first_waiting];
     o->first_waiting = tile->next_waiting;
-    o->last_waiting = o->first_waiting == NO_SLOT ? NO_SLOT : o->last_waiting;
+    o->last_waiting = o->first_waiting == OBSTACLE_NO_SLOT ? OBSTACLE_NO_SLOT : o->last_waiting;
     tile->waits = false;
     o->waiting_count--;
 }
@@ -138,7 +101,7 @@ static void install(tl_nav_obstacles *o, const floors_taker *taker)
 {
     for (uint32_t z = 0; z < taker->range.count_z; z++) {
         for (uint32_t x = 0; x < taker->range.count_x; x++) {
-            tile_floors *tile = tile_at(o, taker->range.x + x, taker->range.z + z);
+            tile_floors *tile = tl_obstacles_tile_at(o, taker->range.x + x, taker->range.z + z);
             free_floors(tile, &o->allocator);
             tl_unpacked_tiles_forget(&o->unpacked, (uint32_t)(tile - o->tiles));
             tile->floors = taker->fresh[(uint64_t)z * taker->range.count_x + x].floors;
@@ -186,7 +149,7 @@ static tl_result bake_range(tl_nav_obstacles *o, const tl_host *host, const tl_n
 // ---------------------------------------------------------------------------------------------------------
 // Making and ending.
 
-static tl_report *begin_report(tl_nav_bake_report *report, const char *stage)
+tl_report *tl_obstacles_report_begin(tl_nav_bake_report *report, const char *stage)
 {
     if (report == NULL) {
         return NULL;
@@ -229,7 +192,7 @@ static tl_result create(const tl_nav_def *def, tl_nav_obstacles **out, tl_report
     memset(&o->def.host, 0, sizeof o->def.host);
     o->tiles_x = tiles_x;
     o->tiles_z = tiles_z;
-    o->first_free = o->first_waiting = o->last_waiting = NO_SLOT;
+    o->first_free = o->first_waiting = o->last_waiting = OBSTACLE_NO_SLOT;
     o->tiles = tl_allocate_array(&allocator, tile_count(o), sizeof *o->tiles);
     if (o->tiles == NULL) {
         tl_release_array(&allocator, o, 1, sizeof *o);
@@ -244,7 +207,7 @@ static tl_result create(const tl_nav_def *def, tl_nav_obstacles **out, tl_report
 tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input, tl_nav_obstacles **obstacles_out,
                                 tl_nav_tile_block *block_out, tl_nav_bake_report *report_out)
 {
-    tl_report *base = begin_report(report_out, "obstacles");
+    tl_report *base = tl_obstacles_report_begin(report_out, "obstacles");
     tl_nav_obstacles *o = NULL;
     tl_nav_tile_block block;
     memset(&block, 0, sizeof block);
@@ -277,7 +240,7 @@ tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input
     if (block_out != NULL) {
         *block_out = block;
     } else {
-        let_wait(o, &block.range, NULL);
+        tl_obstacles_let_wait(o, &block.range, NULL);
         tl_nav_tile_block_free(&block);
     }
     *obstacles_out = o;
@@ -288,7 +251,7 @@ tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_inpu
                                   tl_nav_bake_report *report_out)
 {
     static const tl_host alone = { NULL, NULL, NULL };
-    tl_report *base = begin_report(report_out, "rebake");
+    tl_report *base = tl_obstacles_report_begin(report_out, "rebake");
     TL_REFUSE_NULL(obstacles, base);
     TL_REFUSE_NULL(input, base);
     tl_nav_obstacles *o = obstacles;
@@ -302,7 +265,7 @@ tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_inpu
         result = bake_range(o, &alone, input, range, &block, &report);
         if (result == TL_OK) {
             tl_nav_tile_block_free(&block); // made again with the obstacles
-            let_wait(o, &range, NULL);
+            tl_obstacles_let_wait(o, &range, NULL);
         }
     }
     if (report_out != NULL) {
@@ -356,19 +319,19 @@ static void place_obstacle(tl_nav_obstacles *o, obstacle_slot *slot, const tl_na
     slot->obstacle = *obstacle;
     slot->range = *range;
     slot->box = *box;
-    let_wait(o, range, box);
+    tl_obstacles_let_wait(o, range, box);
 }
 
 static tl_result take_slot(tl_nav_obstacles *o, uint32_t *slot_out)
 {
-    if (o->first_free != NO_SLOT) {
+    if (o->first_free != OBSTACLE_NO_SLOT) {
         *slot_out = o->first_free;
         o->first_free = o->slots[o->first_free].next_free;
         return TL_OK;
     }
     if (o->slot_count == o->slot_capacity) {
         uint32_t capacity = o->slot_capacity > 0 ? 2 * o->slot_capacity : 16;
-        if (capacity < o->slot_capacity || capacity == NO_SLOT) {
+        if (capacity < o->slot_capacity || capacity == OBSTACLE_NO_SLOT) {
             return TL_ERR_LIMIT;
         }
         obstacle_slot *slots = tl_allocate_array(&o->allocator, capacity, sizeof *slots);
@@ -421,7 +384,7 @@ tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id 
         return tl_report_fail(report_out, TL_ERR_STALE, "obstacle", id, "it was removed, or never was");
     }
     TL_TRY(range_of(obstacles, obstacle, &range, &box, report_out));
-    let_wait(obstacles, &slot->range, &slot->box);
+    tl_obstacles_let_wait(obstacles, &slot->range, &slot->box);
     place_obstacle(obstacles, slot, obstacle, &range, &box);
     return TL_OK;
 }
@@ -433,7 +396,7 @@ tl_result tl_nav_obstacles_remove(tl_nav_obstacles *obstacles, tl_nav_obstacle_i
     if (slot == NULL) {
         return TL_ERR_STALE;
     }
-    let_wait(obstacles, &slot->range, &slot->box);
+    tl_obstacles_let_wait(obstacles, &slot->range, &slot->box);
     slot->generation++;
     // A name is not used again: a slot whose generations are used up is given up.
     if (slot->generation != 0) {
@@ -452,158 +415,6 @@ uint32_t tl_nav_obstacles_count(const tl_nav_obstacles *obstacles)
 uint32_t tl_nav_obstacles_waiting(const tl_nav_obstacles *obstacles)
 {
     return obstacles->waiting_count;
-}
-
-// ---------------------------------------------------------------------------------------------------------
-// Making tiles again.
-
-static bool range_holds(const tl_nav_tile_range *range, uint32_t x, uint32_t z)
-{
-    return x >= range->x && x - range->x < range->count_x && z >= range->z && z - range->z < range->count_z;
-}
-
-// Marks all of one area, and finds the next higher area of those that touch the tile; NONE: there is none.
-static uint32_t mark_area(const tl_nav_obstacles *o, uint32_t x, uint32_t z, uint32_t area, tl_nav_compact *compact)
-{
-    uint32_t next = NO_SLOT;
-    for (uint32_t i = 0; i < o->slot_count; i++) {
-        const obstacle_slot *slot = &o->slots[i];
-        if ((slot->generation & 1u) == 0 || !range_holds(&slot->range, x, z)) {
-            continue;
-        }
-        if (slot->obstacle.area == area) {
-            tl_obstacle_mark(&slot->obstacle, o->def.agent_radius, o->def.agent_height, compact);
-        } else if (slot->obstacle.area > area && slot->obstacle.area < next) {
-            next = slot->obstacle.area;
-        }
-    }
-    return next;
-}
-
-// By area, not by who came first: where areas overlap the highest number counts, and a body always cuts. A floor that
-// is cut stays cut, so the bodies, whose area is 0, come first.
-static void mark_obstacles(const tl_nav_obstacles *o, uint32_t x, uint32_t z, tl_nav_compact *compact)
-{
-    for (uint32_t area = TL_NAV_NULL_AREA; area != NO_SLOT;) {
-        area = mark_area(o, x, z, area, compact);
-    }
-}
-
-// TL_NOT_FOUND: all that was marked since is out in the border, and the tile has the bytes that were handed out last.
-static tl_result compare_borders(const tl_nav_obstacles *o, const tile_floors *tile, const tl_nav_config *config,
-                                 const tl_nav_compact *compact, const uint8_t *base_area)
-{
-    if (!tile->is_known || config->partition == TL_NAV_WATERSHED) {
-        return TL_OK;
-    }
-    uint8_t *before = tl_allocate_array(&o->allocator, compact->span_count, sizeof *before);
-    if (before == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    tl_tile_marks_apply(&tile->marks, base_area, compact->span_count, before);
-    const bool same = tl_nav_tile_keeps_bytes(config, compact, before);
-    tl_release_array(&o->allocator, before, compact->span_count, sizeof *before);
-    return same ? TL_NOT_FOUND : TL_OK;
-}
-
-static tl_result rebake_marked(tl_nav_obstacles *o, tile_floors *tile, tl_unpacked_tile *now,
-                               tl_nav_rebaked_tile *rebaked, tl_nav_bake_report *report)
-{
-    const uint32_t x = (uint32_t)rebaked->tile_x, z = (uint32_t)rebaked->tile_z;
-    tl_nav_config config;
-    tl_tile_marks marks;
-    TL_TRY(tl_nav_config_from_def(&o->def, o->def.bounds, x, z, &config, report != NULL ? &report->base : NULL));
-    tl_unpacked_tile_link(now);
-    tl_nav_compact compact = now->compact;
-    TL_TRY(tl_tile_marks_find(now->base_area, compact.area, compact.span_count, &o->allocator, &marks));
-    tl_result result = compare_borders(o, tile, &config, &compact, now->base_area);
-    if (result == TL_OK) {
-        const tl_host host = { &o->allocator, NULL, NULL };
-        result = tl_nav_tile_rebake(&config, &compact, now->base_area, &tile->memo, &host, &rebaked->stack, report);
-    }
-    const bool is_right = result == TL_OK || result == TL_NOT_FOUND;
-    tl_tile_marks_free(is_right ? &tile->marks : &marks, &o->allocator);
-    if (is_right) {
-        tile->marks = marks;
-    }
-    return result;
-}
-
-// Makes a tile with what stands on it now; TL_NOT_FOUND: it is as it was handed out last.
-static tl_result rebake_with_obstacles(tl_nav_obstacles *o, tile_floors *tile, tl_nav_rebaked_tile *rebaked,
-                                       tl_nav_bake_report *report)
-{
-    tl_unpacked_tile *now = NULL;
-    if (tile->floors.frame.span_count == 0) {
-        return tile->is_known ? TL_NOT_FOUND : TL_OK;
-    }
-    const uint32_t index = (uint32_t)(tile - o->tiles);
-    TL_TRY(tl_unpacked_tiles_take(&o->unpacked, index, &tile->floors, &o->allocator, &now));
-    mark_obstacles(o, (uint32_t)rebaked->tile_x, (uint32_t)rebaked->tile_z, &now->compact);
-    if (tile->is_known &&
-        tl_tile_marks_hold(&tile->marks, now->base_area, now->compact.area, now->compact.span_count)) {
-        return TL_NOT_FOUND;
-    }
-    const tl_result result = rebake_marked(o, tile, now, rebaked, report);
-    if (result != TL_OK && result != TL_NOT_FOUND) {
-        tl_unpacked_tiles_free(&o->unpacked); // where memory is short
-    }
-    return result;
-}
-
-tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked_tile *rebaked_out,
-                                     tl_nav_bake_report *report_out)
-{
-    tl_nav_obstacles *o = obstacles;
-    tl_report *base = begin_report(report_out, "rebake");
-    TL_REFUSE_NULL(rebaked_out, base);
-    memset(rebaked_out, 0, sizeof *rebaked_out);
-    TL_REFUSE_NULL(obstacles, base);
-    tl_result result = TL_NOT_FOUND;
-    while (result == TL_NOT_FOUND && o->first_waiting != NO_SLOT) {
-        tile_floors *tile = &o->tiles[o->first_waiting];
-        rebaked_out->tile_x = (int32_t)(o->first_waiting % o->tiles_x);
-        rebaked_out->tile_z = (int32_t)(o->first_waiting / o->tiles_x);
-        result = rebake_with_obstacles(o, tile, rebaked_out, report_out);
-        if (result == TL_OK || result == TL_NOT_FOUND) {
-            tile->is_known = true;
-            end_wait(o);
-        }
-    }
-    if (result != TL_OK) {
-        memset(rebaked_out, 0, sizeof *rebaked_out);
-    }
-    return result;
-}
-
-tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t max_tiles,
-                                  uint32_t *waiting_out, tl_nav_bake_report *report_out)
-{
-    tl_report *base = begin_report(report_out, "rebake");
-    if (waiting_out != NULL) {
-        *waiting_out = 0;
-    }
-    TL_REFUSE_NULL(obstacles, base);
-    TL_REFUSE_NULL(navmesh, base);
-    tl_nav_obstacles *o = obstacles;
-    tl_result result = TL_OK;
-    for (uint32_t i = 0; i < max_tiles && result == TL_OK && o->first_waiting != NO_SLOT; i++) {
-        tl_nav_rebaked_tile rebaked;
-        result = tl_nav_obstacles_bake_next(o, &rebaked, report_out);
-        if (result != TL_OK) {
-            break;
-        }
-        result = tl_navmesh_replace_tiles(navmesh, rebaked.tile_x, rebaked.tile_z, &rebaked.stack);
-        if (result != TL_OK) {
-            const tl_nav_tile_range again = { (uint32_t)rebaked.tile_x, (uint32_t)rebaked.tile_z, 1, 1 };
-            tile_at(o, again.x, again.z)->is_known = false;
-            let_wait(o, &again, NULL);
-        }
-    }
-    if (waiting_out != NULL) {
-        *waiting_out = o->waiting_count;
-    }
-    return result == TL_NOT_FOUND ? TL_OK : result;
 }
 
 uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles)

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+//
+// Tiles made again with what stands on them now, one by one as they wait. Most that an edit reaches need not be baked:
+// where it marks no other floors, or only floors of the border that the tile does not see, the tile has the bytes that
+// were handed out last.
+
+#include "nav_obstacles/obstacle_tiles.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/host.h"
+#include "nav_obstacles/footprint.h"
+
+#include <string.h>
+
+static bool range_holds(const tl_nav_tile_range *range, uint32_t x, uint32_t z)
+{
+    return x >= range->x && x - range->x < range->count_x && z >= range->z && z - range->z < range->count_z;
+}
+
+// Marks all of one area, and finds the next higher area of those that touch the tile; OBSTACLE_NO_SLOT: none.
+static uint32_t mark_area(const tl_nav_obstacles *o, uint32_t x, uint32_t z, uint32_t area, tl_nav_compact *compact)
+{
+    uint32_t next = OBSTACLE_NO_SLOT;
+    for (uint32_t i = 0; i < o->slot_count; i++) {
+        const obstacle_slot *slot = &o->slots[i];
+        if ((slot->generation & 1u) == 0 || !range_holds(&slot->range, x, z)) {
+            continue;
+        }
+        if (slot->obstacle.area == area) {
+            tl_obstacle_mark(&slot->obstacle, o->def.agent_radius, o->def.agent_height, compact);
+        } else if (slot->obstacle.area > area && slot->obstacle.area < next) {
+            next = slot->obstacle.area;
+        }
+    }
+    return next;
+}
+
+// By area, not by who came first: where areas overlap the highest number counts, and a body always cuts. A floor that
+// is cut stays cut, so the bodies, whose area is 0, come first.
+static void mark_obstacles(const tl_nav_obstacles *o, uint32_t x, uint32_t z, tl_nav_compact *compact)
+{
+    for (uint32_t area = TL_NAV_NULL_AREA; area != OBSTACLE_NO_SLOT;) {
+        area = mark_area(o, x, z, area, compact);
+    }
+}
+
+// TL_NOT_FOUND: all that was marked since is out in the border, and the tile has the bytes that were handed out last.
+static tl_result compare_borders(const tl_nav_obstacles *o, const tile_floors *tile, const tl_nav_config *config,
+                                 const tl_nav_compact *compact, const uint8_t *base_area)
+{
+    if (!tile->is_known || config->partition == TL_NAV_WATERSHED) {
+        return TL_OK;
+    }
+    uint8_t *before = tl_allocate_array(&o->allocator, compact->span_count, sizeof *before);
+    if (before == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_tile_marks_apply(&tile->marks, base_area, compact->span_count, before);
+    const bool same = tl_nav_tile_keeps_bytes(config, compact, before);
+    tl_release_array(&o->allocator, before, compact->span_count, sizeof *before);
+    return same ? TL_NOT_FOUND : TL_OK;
+}
+
+static tl_result rebake_marked(tl_nav_obstacles *o, tile_floors *tile, tl_unpacked_tile *now,
+                               tl_nav_rebaked_tile *rebaked, tl_nav_bake_report *report)
+{
+    const uint32_t x = (uint32_t)rebaked->tile_x, z = (uint32_t)rebaked->tile_z;
+    tl_nav_config config;
+    tl_tile_marks marks;
+    TL_TRY(tl_nav_config_from_def(&o->def, o->def.bounds, x, z, &config, report != NULL ? &report->base : NULL));
+    tl_unpacked_tile_link(now);
+    tl_nav_compact compact = now->compact;
+    TL_TRY(tl_tile_marks_find(now->base_area, compact.area, compact.span_count, &o->allocator, &marks));
+    tl_result result = compare_borders(o, tile, &config, &compact, now->base_area);
+    if (result == TL_OK) {
+        const tl_host host = { &o->allocator, NULL, NULL };
+        result = tl_nav_tile_rebake(&config, &compact, now->base_area, &tile->memo, &host, &rebaked->stack, report);
+    }
+    tl_tile_marks_free(tl_is_error(result) ? &marks : &tile->marks, &o->allocator);
+    if (!tl_is_error(result)) {
+        tile->marks = marks;
+    }
+    return result;
+}
+
+// Makes a tile with what stands on it now; TL_NOT_FOUND: it is as it was handed out last.
+static tl_result rebake_with_obstacles(tl_nav_obstacles *o, tile_floors *tile, tl_nav_rebaked_tile *rebaked,
+                                       tl_nav_bake_report *report)
+{
+    tl_unpacked_tile *now = NULL;
+    if (tile->floors.frame.span_count == 0) {
+        return tile->is_known ? TL_NOT_FOUND : TL_OK;
+    }
+    const uint32_t index = (uint32_t)(tile - o->tiles);
+    TL_TRY(tl_unpacked_tiles_take(&o->unpacked, index, &tile->floors, &o->allocator, &now));
+    mark_obstacles(o, (uint32_t)rebaked->tile_x, (uint32_t)rebaked->tile_z, &now->compact);
+    if (tile->is_known &&
+        tl_tile_marks_hold(&tile->marks, now->base_area, now->compact.area, now->compact.span_count)) {
+        return TL_NOT_FOUND;
+    }
+    const tl_result result = rebake_marked(o, tile, now, rebaked, report);
+    if (tl_is_error(result)) {
+        tl_unpacked_tiles_free(&o->unpacked); // where memory is short
+    }
+    return result;
+}
+
+tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked_tile *rebaked_out,
+                                     tl_nav_bake_report *report_out)
+{
+    tl_nav_obstacles *o = obstacles;
+    tl_report *base = tl_obstacles_report_begin(report_out, "rebake");
+    TL_REFUSE_NULL(rebaked_out, base);
+    memset(rebaked_out, 0, sizeof *rebaked_out);
+    TL_REFUSE_NULL(obstacles, base);
+    tl_result result = TL_NOT_FOUND;
+    while (result == TL_NOT_FOUND && o->first_waiting != OBSTACLE_NO_SLOT) {
+        tile_floors *tile = &o->tiles[o->first_waiting];
+        rebaked_out->tile_x = (int32_t)(o->first_waiting % o->tiles_x);
+        rebaked_out->tile_z = (int32_t)(o->first_waiting / o->tiles_x);
+        result = rebake_with_obstacles(o, tile, rebaked_out, report_out);
+        if (!tl_is_error(result)) {
+            tile->is_known = true;
+            tl_obstacles_end_wait(o);
+        }
+    }
+    if (result != TL_OK) {
+        memset(rebaked_out, 0, sizeof *rebaked_out);
+    }
+    return result;
+}
+
+tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t max_tiles,
+                                  uint32_t *waiting_out, tl_nav_bake_report *report_out)
+{
+    tl_report *base = tl_obstacles_report_begin(report_out, "rebake");
+    if (waiting_out != NULL) {
+        *waiting_out = 0;
+    }
+    TL_REFUSE_NULL(obstacles, base);
+    TL_REFUSE_NULL(navmesh, base);
+    tl_nav_obstacles *o = obstacles;
+    tl_result result = TL_OK;
+    for (uint32_t i = 0; i < max_tiles && result == TL_OK && o->first_waiting != OBSTACLE_NO_SLOT; i++) {
+        tl_nav_rebaked_tile rebaked;
+        result = tl_nav_obstacles_bake_next(o, &rebaked, report_out);
+        if (result != TL_OK) {
+            break;
+        }
+        result = tl_navmesh_replace_tiles(navmesh, rebaked.tile_x, rebaked.tile_z, &rebaked.stack);
+        if (result != TL_OK) {
+            const tl_nav_tile_range again = { (uint32_t)rebaked.tile_x, (uint32_t)rebaked.tile_z, 1, 1 };
+            tl_obstacles_tile_at(o, again.x, again.z)->is_known = false;
+            tl_obstacles_let_wait(o, &again, NULL);
+        }
+    }
+    if (waiting_out != NULL) {
+        *waiting_out = o->waiting_count;
+    }
+    return result == TL_NOT_FOUND ? TL_OK : result;
+}
