@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The functions of nav_bake.h under the contract.
+// The functions of nav_bake.h under the contract. Those of triangles by place stand in contract_nav_triangles.c.
 
-#include "contract.h"
-
-#include <talus/nav_bake.h>
-
-#include <string.h>
-
-static const tl_aabb LEVEL_BOUNDS = { { 0, -1, 0 }, { 20, 4, 20 } };
+#include "contract_nav_def.h"
 
 // The level baked as one tile, with all that lies in between. Made once, from malloc.
 typedef struct baked_level {
@@ -23,8 +17,8 @@ static const baked_level *baked(void)
     static baked_level level;
     if (level.tile == NULL) {
         level.def = tl_default_nav_def();
-        level.def.bounds = LEVEL_BOUNDS;
-        TEST_RESULT(tl_nav_config_from_def(&level.def, LEVEL_BOUNDS, 0, 0, &level.config, NULL), TL_OK);
+        level.def.bounds = CONTRACT_LEVEL_BOUNDS;
+        TEST_RESULT(tl_nav_config_from_def(&level.def, CONTRACT_LEVEL_BOUNDS, 0, 0, &level.config, NULL), TL_OK);
         TEST_RESULT(
             tl_nav_tile_bake(&level.config, &contract_level_get()->nav_input, NULL, &level.stages, &level.tile, NULL),
             TL_OK);
@@ -41,11 +35,6 @@ static tl_nav_compact make_compact(void)
     TEST_RESULT(tl_nav_erode(&level->config, NULL, &compact, NULL), TL_OK);
     TEST_RESULT(tl_nav_distance_field(NULL, &compact, NULL), TL_OK);
     return compact;
-}
-
-static bool is_null(const contract_run *run, uint32_t input)
-{
-    return run->what == CONTRACT_NULL_INPUT && run->variant == input;
 }
 
 static uint64_t compact_hash(const tl_nav_compact *compact)
@@ -67,74 +56,13 @@ static uint64_t tile_hash(const tl_nav_tile *tile, uint64_t seed)
 
 // ---- Defs ----------------------------------------------------------------------------------------------------
 
-static const char *const DEF_FIELDS[] = { "cell_size",
-                                          "cell_height",
-                                          "agent_height",
-                                          "agent_radius",
-                                          "agent_max_climb",
-                                          "agent_max_slope",
-                                          "region_min_size",
-                                          "region_merge_size",
-                                          "edge_max_len",
-                                          "edge_max_error",
-                                          "tile_height",
-                                          "detail_sample_dist",
-                                          "partition",
-                                          "detail_sample_max_error",
-                                          "polygon_method",
-                                          "max_verts_per_poly",
-                                          NULL };
-
-static void spoil(tl_nav_def *def, uint32_t field)
-{
-    float *const floats[] = {
-        &def->cell_size,
-        &def->cell_height,
-        &def->agent_height,
-        &def->agent_radius,
-        &def->agent_max_climb,
-        &def->agent_max_slope,
-        &def->region_min_size,
-        &def->region_merge_size,
-        &def->edge_max_len,
-        &def->edge_max_error,
-        &def->tile_height,
-        &def->detail_sample_dist,
-        NULL,
-        &def->detail_sample_max_error,
-    };
-    if (field < sizeof floats / sizeof *floats && floats[field] != NULL) {
-        *floats[field] = -1.0f;
-    } else if (field == 12) {
-        def->partition = (tl_nav_partition)9;
-    } else if (field == 14) {
-        def->polygon_method = (tl_partition_method)9;
-    } else {
-        def->max_verts_per_poly = 2;
-    }
-}
-
-static tl_nav_def make_def(const contract_run *run, uint32_t tile_size)
-{
-    tl_nav_def def = tl_default_nav_def();
-    def.tile_size = tile_size;
-    def.bounds = LEVEL_BOUNDS;
-    if (run->what == CONTRACT_BAD_FIELD) {
-        spoil(&def, run->variant);
-    } else if (run->what == CONTRACT_ZEROED_DEF) {
-        memset(&def, 0, sizeof def);
-    }
-    def.host = *run->host;
-    return def;
-}
-
 static tl_result nav_tile_grid(contract_run *run)
 {
-    tl_nav_def def = make_def(run, 0);
+    tl_nav_def def = contract_nav_def(run, 0);
     uint32_t x = 9, z = 9;
     const bool no_x = run->what == CONTRACT_NULL_OUTPUT && run->variant == 0;
     const bool no_z = run->what == CONTRACT_NULL_OUTPUT && run->variant == 1;
-    const tl_result result = tl_nav_tile_grid(run->what == CONTRACT_NULL_DEF ? NULL : &def, LEVEL_BOUNDS,
+    const tl_result result = tl_nav_tile_grid(run->what == CONTRACT_NULL_DEF ? NULL : &def, CONTRACT_LEVEL_BOUNDS,
                                               no_x ? NULL : &x, no_z ? NULL : &z, run->report);
     run->is_clear = no_x || no_z || (x == 0 && z == 0);
     run->answer = 1000 * x + z;
@@ -143,11 +71,12 @@ static tl_result nav_tile_grid(contract_run *run)
 
 static tl_result nav_config_from_def(contract_run *run)
 {
-    tl_nav_def def = make_def(run, 0);
+    tl_nav_def def = contract_nav_def(run, 0);
     tl_nav_config config;
     memset(&config, 0x55, sizeof config);
-    const tl_result result = tl_nav_config_from_def(run->what == CONTRACT_NULL_DEF ? NULL : &def, LEVEL_BOUNDS, 0, 0,
-                                                    run->what == CONTRACT_NULL_OUTPUT ? NULL : &config, run->report);
+    const tl_result result =
+        tl_nav_config_from_def(run->what == CONTRACT_NULL_DEF ? NULL : &def, CONTRACT_LEVEL_BOUNDS, 0, 0,
+                               run->what == CONTRACT_NULL_OUTPUT ? NULL : &config, run->report);
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&config, sizeof config);
     run->answer = config.width + 1000u * config.walkable_height;
     return result;
@@ -155,11 +84,11 @@ static tl_result nav_config_from_def(contract_run *run)
 
 static tl_result nav_tiles_in_box(contract_run *run)
 {
-    tl_nav_def def = make_def(run, 0);
+    tl_nav_def def = contract_nav_def(run, 0);
     const tl_aabb box = { { 1, 0, 1 }, { 2, 1, 2 } };
     tl_nav_tile_range range = { 9, 9, 9, 9 };
-    const tl_result result = tl_nav_tiles_in_box(run->what == CONTRACT_NULL_DEF ? NULL : &def, LEVEL_BOUNDS, box,
-                                                 run->what == CONTRACT_NULL_OUTPUT ? NULL : &range, run->report);
+    const tl_result result = tl_nav_tiles_in_box(run->what == CONTRACT_NULL_DEF ? NULL : &def, CONTRACT_LEVEL_BOUNDS,
+                                                 box, run->what == CONTRACT_NULL_OUTPUT ? NULL : &range, run->report);
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&range, sizeof range);
     run->answer = range.count_x + range.count_z;
     return result;
@@ -173,8 +102,9 @@ static tl_result nav_rasterize(contract_run *run)
     tl_nav_heightfield field;
     memset(&field, 0x55, sizeof field);
     const tl_result result =
-        tl_nav_rasterize(is_null(run, 0) ? NULL : &level->config, is_null(run, 1) ? NULL : &contract_level_get()->view,
-                         NULL, run->host, run->what == CONTRACT_NULL_OUTPUT ? NULL : &field, run->report);
+        tl_nav_rasterize(contract_input_is_null(run, 0) ? NULL : &level->config,
+                         contract_input_is_null(run, 1) ? NULL : &contract_level_get()->view, NULL, run->host,
+                         run->what == CONTRACT_NULL_OUTPUT ? NULL : &field, run->report);
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&field, sizeof field);
     if (result == TL_OK) {
         run->answer = contract_hash(field.spans, field.span_count * sizeof *field.spans, 0);
@@ -204,9 +134,9 @@ static tl_result compact_by(contract_run *run, compact_fn *fn)
     const baked_level *level = baked();
     tl_nav_compact compact;
     memset(&compact, 0x55, sizeof compact);
-    const tl_result result =
-        fn(is_null(run, 0) ? NULL : &level->config, is_null(run, 1) ? NULL : &level->stages.heightfield, run->host,
-           run->what == CONTRACT_NULL_OUTPUT ? NULL : &compact, run->report);
+    const tl_result result = fn(contract_input_is_null(run, 0) ? NULL : &level->config,
+                                contract_input_is_null(run, 1) ? NULL : &level->stages.heightfield, run->host,
+                                run->what == CONTRACT_NULL_OUTPUT ? NULL : &compact, run->report);
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&compact, sizeof compact);
     if (result == TL_OK) {
         run->answer = compact_hash(&compact);
@@ -237,23 +167,24 @@ static tl_result nav_erode(contract_run *run)
 {
     const baked_level *level = baked();
     tl_nav_compact compact = make_compact();
-    const tl_result result = tl_nav_erode(is_null(run, 0) ? NULL : &level->config, run->host,
-                                          is_null(run, 1) ? NULL : &compact, run->report);
+    const tl_result result = tl_nav_erode(contract_input_is_null(run, 0) ? NULL : &level->config, run->host,
+                                          contract_input_is_null(run, 1) ? NULL : &compact, run->report);
     return end_compact(run, result, &compact);
 }
 
 static tl_result nav_distance_field(contract_run *run)
 {
     tl_nav_compact compact = make_compact();
-    return end_compact(run, tl_nav_distance_field(run->host, is_null(run, 0) ? NULL : &compact, run->report), &compact);
+    return end_compact(
+        run, tl_nav_distance_field(run->host, contract_input_is_null(run, 0) ? NULL : &compact, run->report), &compact);
 }
 
 static tl_result nav_bake_regions(contract_run *run)
 {
     const baked_level *level = baked();
     tl_nav_compact compact = make_compact();
-    const tl_result result = tl_nav_bake_regions(is_null(run, 0) ? NULL : &level->config, run->host,
-                                                 is_null(run, 1) ? NULL : &compact, run->report);
+    const tl_result result = tl_nav_bake_regions(contract_input_is_null(run, 0) ? NULL : &level->config, run->host,
+                                                 contract_input_is_null(run, 1) ? NULL : &compact, run->report);
     return end_compact(run, result, &compact);
 }
 
@@ -267,7 +198,7 @@ static tl_result nav_mark_areas(contract_run *run)
     volume.area = 7;
     volume.radius = volume.height = 1.0f;
     volume.base = tl_vec3_make(4, 0, 4);
-    tl_nav_mark_box_area(&compact, LEVEL_BOUNDS, 5);
+    tl_nav_mark_box_area(&compact, CONTRACT_LEVEL_BOUNDS, 5);
     tl_nav_mark_polygon_area(&compact, points, 3, -1.0f, 1.0f, 6);
     tl_nav_mark_cylinder_area(&compact, tl_vec3_make(5, 0, 5), 1.0f, 1.0f, 7);
     tl_nav_mark_volume_area(&compact, &volume);
@@ -280,8 +211,9 @@ static tl_result nav_bake_contours(contract_run *run)
     tl_nav_contours contours;
     memset(&contours, 0x55, sizeof contours);
     const tl_result result =
-        tl_nav_bake_contours(is_null(run, 0) ? NULL : &level->config, is_null(run, 1) ? NULL : &level->stages.compact,
-                             run->host, run->what == CONTRACT_NULL_OUTPUT ? NULL : &contours, run->report);
+        tl_nav_bake_contours(contract_input_is_null(run, 0) ? NULL : &level->config,
+                             contract_input_is_null(run, 1) ? NULL : &level->stages.compact, run->host,
+                             run->what == CONTRACT_NULL_OUTPUT ? NULL : &contours, run->report);
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&contours, sizeof contours);
     if (result == TL_OK) {
         run->answer =
@@ -297,8 +229,9 @@ static tl_result nav_bake_detail(contract_run *run)
     tl_nav_detail detail;
     memset(&detail, 0x55, sizeof detail);
     const tl_result result =
-        tl_nav_bake_detail(is_null(run, 0) ? NULL : &level->config, is_null(run, 1) ? NULL : &level->stages.compact,
-                           is_null(run, 2) ? NULL : &level->stages.polygons, run->host,
+        tl_nav_bake_detail(contract_input_is_null(run, 0) ? NULL : &level->config,
+                           contract_input_is_null(run, 1) ? NULL : &level->stages.compact,
+                           contract_input_is_null(run, 2) ? NULL : &level->stages.polygons, run->host,
                            run->what == CONTRACT_NULL_OUTPUT ? NULL : &detail, run->report);
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&detail, sizeof detail);
     if (result == TL_OK) {
@@ -326,8 +259,9 @@ static tl_result nav_assign_layers(contract_run *run)
     config.layer_height = 8;
     TEST_CHECK(level->stages.polygons.polygon_count <= 64);
     const tl_result result =
-        tl_nav_assign_layers(is_null(run, 0) ? NULL : &config, is_null(run, 1) ? NULL : &level->stages.polygons,
-                             run->host->allocator, run->what == CONTRACT_NULL_OUTPUT ? NULL : layers, run->report);
+        tl_nav_assign_layers(contract_input_is_null(run, 0) ? NULL : &config,
+                             contract_input_is_null(run, 1) ? NULL : &level->stages.polygons, run->host->allocator,
+                             run->what == CONTRACT_NULL_OUTPUT ? NULL : layers, run->report);
     run->is_clear = contract_is_zero(layers, sizeof layers);
     run->answer = contract_hash(layers, sizeof layers, 0);
     return result;
@@ -342,9 +276,10 @@ static tl_result nav_tile_bake(contract_run *run)
     tl_nav_stages stages;
     memset(&stages, 0x55, sizeof stages);
     tl_nav_bake_report report = { 0 };
-    const tl_result result = tl_nav_tile_bake(
-        is_null(run, 0) ? NULL : &level->config, is_null(run, 1) ? NULL : &contract_level_get()->nav_input, run->host,
-        &stages, run->what == CONTRACT_NULL_OUTPUT ? NULL : &tile, run->wants_report ? &report : NULL);
+    const tl_result result =
+        tl_nav_tile_bake(contract_input_is_null(run, 0) ? NULL : &level->config,
+                         contract_input_is_null(run, 1) ? NULL : &contract_level_get()->nav_input, run->host, &stages,
+                         run->what == CONTRACT_NULL_OUTPUT ? NULL : &tile, run->wants_report ? &report : NULL);
     run->own_report = report.base;
     run->is_clear = contract_is_zero(&stages, sizeof stages) && (run->what == CONTRACT_NULL_OUTPUT || tile == NULL);
     if (result == TL_OK) {
@@ -376,8 +311,8 @@ static tl_result nav_tile_bake_from_compact(contract_run *run)
     memset(&stack, 0x55, sizeof stack);
     tl_nav_bake_report report = { 0 };
     const tl_result result = tl_nav_tile_bake_from_compact(
-        is_null(run, 0) ? NULL : &level->config, is_null(run, 1) ? NULL : &compact, run->host,
-        run->what == CONTRACT_NULL_OUTPUT ? NULL : &stack, run->wants_report ? &report : NULL);
+        contract_input_is_null(run, 0) ? NULL : &level->config, contract_input_is_null(run, 1) ? NULL : &compact,
+        run->host, run->what == CONTRACT_NULL_OUTPUT ? NULL : &stack, run->wants_report ? &report : NULL);
     return end_stack(run, result, &report, &stack, &compact);
 }
 
@@ -394,10 +329,10 @@ static tl_result nav_tile_rebake(contract_run *run)
     tl_nav_tile_stack stack;
     memset(&stack, 0x55, sizeof stack);
     tl_nav_bake_report report = { 0 };
-    const tl_result result =
-        tl_nav_tile_rebake(is_null(run, 0) ? NULL : &level->config, is_null(run, 1) ? NULL : &compact,
-                           is_null(run, 2) ? NULL : base, is_null(run, 3) ? NULL : &memo, run->host,
-                           run->what == CONTRACT_NULL_OUTPUT ? NULL : &stack, run->wants_report ? &report : NULL);
+    const tl_result result = tl_nav_tile_rebake(
+        contract_input_is_null(run, 0) ? NULL : &level->config, contract_input_is_null(run, 1) ? NULL : &compact,
+        contract_input_is_null(run, 2) ? NULL : base, contract_input_is_null(run, 3) ? NULL : &memo, run->host,
+        run->what == CONTRACT_NULL_OUTPUT ? NULL : &stack, run->wants_report ? &report : NULL);
     if (run->what == CONTRACT_GOOD) { // the crate stands within the level
         TEST_CHECK(tl_nav_tile_keeps_bytes(&level->config, &compact, compact.area));
         TEST_CHECK(!tl_nav_tile_keeps_bytes(&level->config, &compact, base));
@@ -409,16 +344,17 @@ static tl_result nav_tile_rebake(contract_run *run)
 
 static tl_result nav_bake(contract_run *run)
 {
-    tl_nav_def def = make_def(run, 0);
+    tl_nav_def def = contract_nav_def(run, 0);
     if (run->what != CONTRACT_ZEROED_DEF) {
         def.bounds = tl_aabb_empty(); // as the default, for the case of NULL
     }
     tl_nav_tiles tiles;
     memset(&tiles, 0x55, sizeof tiles);
     tl_nav_bake_report report = { 0 };
-    const tl_result result = tl_nav_bake(
-        run->what == CONTRACT_NULL_DEF ? NULL : &def, is_null(run, 0) ? NULL : &contract_level_get()->nav_input,
-        run->what == CONTRACT_NULL_OUTPUT ? NULL : &tiles, run->wants_report ? &report : NULL);
+    const tl_result result =
+        tl_nav_bake(run->what == CONTRACT_NULL_DEF ? NULL : &def,
+                    contract_input_is_null(run, 0) ? NULL : &contract_level_get()->nav_input,
+                    run->what == CONTRACT_NULL_OUTPUT ? NULL : &tiles, run->wants_report ? &report : NULL);
     run->own_report = report.base;
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&tiles, sizeof tiles);
     if (result == TL_OK) {
@@ -442,79 +378,28 @@ static tl_result end_block(contract_run *run, tl_result result, const tl_nav_bak
 
 static tl_result nav_bake_range(contract_run *run)
 {
-    tl_nav_def def = make_def(run, 32);
+    tl_nav_def def = contract_nav_def(run, 32);
     const tl_nav_tile_range range = { 0, 0, 1, 1 };
     tl_nav_tile_block block;
     memset(&block, 0x55, sizeof block);
     tl_nav_bake_report report = { 0 };
     const tl_result result =
-        tl_nav_bake_range(&def, is_null(run, 0) ? NULL : &contract_level_get()->nav_input, range, NULL,
+        tl_nav_bake_range(&def, contract_input_is_null(run, 0) ? NULL : &contract_level_get()->nav_input, range, NULL,
                           run->what == CONTRACT_NULL_OUTPUT ? NULL : &block, run->wants_report ? &report : NULL);
     return end_block(run, result, &report, &block);
 }
 
 static tl_result nav_rebake(contract_run *run)
 {
-    tl_nav_def def = make_def(run, 32);
+    tl_nav_def def = contract_nav_def(run, 32);
     const tl_aabb changed = { { 1, 0, 1 }, { 2, 1, 2 } };
     tl_nav_tile_block block;
     memset(&block, 0x55, sizeof block);
     tl_nav_bake_report report = { 0 };
     const tl_result result =
-        tl_nav_rebake(&def, is_null(run, 0) ? NULL : &contract_level_get()->nav_input, changed,
+        tl_nav_rebake(&def, contract_input_is_null(run, 0) ? NULL : &contract_level_get()->nav_input, changed,
                       run->what == CONTRACT_NULL_OUTPUT ? NULL : &block, run->wants_report ? &report : NULL);
     return end_block(run, result, &report, &block);
-}
-
-static tl_result nav_triangles_create(contract_run *run)
-{
-    const tl_nav_def def = make_def(run, 32);
-    tl_nav_triangles *triangles = (tl_nav_triangles *)(uintptr_t)1;
-    const tl_result result =
-        tl_nav_triangles_create(&def, is_null(run, 0) ? NULL : &contract_level_get()->nav_input.mesh,
-                                run->what == CONTRACT_NULL_OUTPUT ? NULL : &triangles, run->report);
-    run->is_clear = run->what == CONTRACT_NULL_OUTPUT || triangles == NULL;
-    if (result == TL_OK) {
-        run->answer = tl_nav_triangles_bytes(triangles);
-        tl_nav_triangles_destroy(triangles);
-    }
-    return result;
-}
-
-static tl_nav_triangles *make_triangles(void)
-{
-    tl_nav_def def = tl_default_nav_def();
-    def.bounds = LEVEL_BOUNDS;
-    tl_nav_triangles *triangles;
-    TEST_RESULT(tl_nav_triangles_create(&def, &contract_level_get()->nav_input.mesh, &triangles, NULL), TL_OK);
-    return triangles;
-}
-
-static tl_result nav_triangles_change(contract_run *run)
-{
-    tl_nav_triangles *triangles = make_triangles();
-    const uint32_t changed = 0;
-    const tl_result result = tl_nav_triangles_change(is_null(run, 0) ? NULL : triangles,
-                                                     is_null(run, 1) ? NULL : &contract_level_get()->nav_input.mesh,
-                                                     is_null(run, 2) ? NULL : &changed, 1, run->report);
-    run->is_clear = true;
-    tl_nav_triangles_destroy(triangles);
-    return result;
-}
-
-static tl_result nav_triangles_near(contract_run *run)
-{
-    tl_nav_triangles *triangles = make_triangles();
-    const tl_aabb box = { { 1, 0, 1 }, { 2, 1, 2 } };
-    tl_nav_near_triangles near;
-    memset(&near, 0x55, sizeof near);
-    const tl_result result = tl_nav_triangles_near(is_null(run, 0) ? NULL : triangles,
-                                                   is_null(run, 1) ? NULL : &contract_level_get()->nav_input, box,
-                                                   run->what == CONTRACT_NULL_OUTPUT ? NULL : &near, run->report);
-    run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&near, sizeof near);
-    run->answer = result == TL_OK ? near.input.mesh.triangle_count : 0;
-    tl_nav_triangles_destroy(triangles);
-    return result;
 }
 
 static tl_result nav_bake_frees(contract_run *run)
@@ -545,23 +430,17 @@ static tl_result nav_bake_frees(contract_run *run)
     tl_nav_tile_block_free(NULL);
     tl_nav_tile_block_free(&block);
     tl_nav_tile_memo_free(NULL);
-    tl_nav_triangles_destroy(NULL);
     return TL_OK;
 }
 
-#define DEFS   (CONTRACT_BIT(ZEROED_DEF) | CONTRACT_BIT(BAD_FIELD))
-#define CALLS  (CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT))
-#define INPUT  CONTRACT_BIT(NULL_INPUT)
-#define OUTPUT CONTRACT_BIT(NULL_OUTPUT)
-#define WORKS  (CONTRACT_BIT(NO_MEMORY) | CONTRACT_BIT(CANCELLED))
-#define STAGE  (CALLS | INPUT | OUTPUT | WORKS)
-#define FREES  CONTRACT_BIT(NULL_FREE), 0, 0, NULL, nav_bake_frees, NULL
+#define FREES CONTRACT_BIT(NULL_FREE), 0, 0, NULL, nav_bake_frees, NULL
 
 const contract_entry CONTRACT_TABLE_nav_bake[] = {
     { "tl_default_nav_def", 0, 0, 0, NULL, NULL, "returns the defaults" },
-    { "tl_nav_tile_grid", CALLS | CONTRACT_BIT(NULL_DEF) | DEFS | OUTPUT, 0, 2, DEF_FIELDS, nav_tile_grid, NULL },
-    { "tl_nav_config_from_def", CALLS | CONTRACT_BIT(NULL_DEF) | DEFS | OUTPUT, 0, 1, DEF_FIELDS, nav_config_from_def,
+    { "tl_nav_tile_grid", CALLS | CONTRACT_BIT(NULL_DEF) | DEFS | OUTPUT, 0, 2, CONTRACT_NAV_DEF_FIELDS, nav_tile_grid,
       NULL },
+    { "tl_nav_config_from_def", CALLS | CONTRACT_BIT(NULL_DEF) | DEFS | OUTPUT, 0, 1, CONTRACT_NAV_DEF_FIELDS,
+      nav_config_from_def, NULL },
     { "tl_nav_rasterize", STAGE, 2, 1, NULL, nav_rasterize, NULL },
     { "tl_nav_heightfield_free", FREES },
     { "tl_nav_filter_low_hanging_obstacles", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_filters, NULL },
@@ -589,17 +468,12 @@ const contract_entry CONTRACT_TABLE_nav_bake[] = {
     { "tl_nav_tile_keeps_bytes", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_tile_rebake, NULL },
     { "tl_nav_tile_memo_free", FREES },
     { "tl_nav_tile_memo_bytes", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_tile_rebake, NULL },
-    { "tl_nav_bake", STAGE | CONTRACT_BIT(NULL_DEF) | DEFS, 1, 1, DEF_FIELDS, nav_bake, NULL },
+    { "tl_nav_bake", STAGE | CONTRACT_BIT(NULL_DEF) | DEFS, 1, 1, CONTRACT_NAV_DEF_FIELDS, nav_bake, NULL },
     { "tl_nav_tiles_free", FREES },
-    { "tl_nav_tiles_in_box", CALLS | CONTRACT_BIT(NULL_DEF) | DEFS | OUTPUT, 0, 1, DEF_FIELDS, nav_tiles_in_box, NULL },
-    { "tl_nav_bake_range", STAGE | DEFS, 1, 1, DEF_FIELDS, nav_bake_range, NULL },
-    { "tl_nav_triangles_create", CALLS | INPUT | OUTPUT | DEFS | CONTRACT_BIT(NO_MEMORY), 1, 1, DEF_FIELDS,
-      nav_triangles_create, NULL },
-    { "tl_nav_triangles_destroy", FREES },
-    { "tl_nav_triangles_change", CALLS | INPUT, 3, 0, NULL, nav_triangles_change, NULL },
-    { "tl_nav_triangles_near", CALLS | INPUT | OUTPUT, 2, 1, NULL, nav_triangles_near, NULL },
-    { "tl_nav_triangles_bytes", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_triangles_create, NULL },
-    { "tl_nav_rebake", STAGE | DEFS, 1, 1, DEF_FIELDS, nav_rebake, NULL },
+    { "tl_nav_tiles_in_box", CALLS | CONTRACT_BIT(NULL_DEF) | DEFS | OUTPUT, 0, 1, CONTRACT_NAV_DEF_FIELDS,
+      nav_tiles_in_box, NULL },
+    { "tl_nav_bake_range", STAGE | DEFS, 1, 1, CONTRACT_NAV_DEF_FIELDS, nav_bake_range, NULL },
+    { "tl_nav_rebake", STAGE | DEFS, 1, 1, CONTRACT_NAV_DEF_FIELDS, nav_rebake, NULL },
     { "tl_nav_tile_block_free", FREES },
     { 0 },
 };
