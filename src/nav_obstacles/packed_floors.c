@@ -394,14 +394,8 @@ static void link_even_columns(const tl_nav_compact *compact, const uint8_t *link
 // The next of `count` columns from `at` on that is not done; `count` when all are.
 static uint32_t next_open_column(const uint8_t *is_done, uint32_t count, uint32_t at)
 {
-    static const uint8_t all_done[8] = { 1, 1, 1, 1, 1, 1, 1, 1 };
-    while (count - at >= sizeof all_done && memcmp(is_done + at, all_done, sizeof all_done) == 0) {
-        at += (uint32_t)sizeof all_done;
-    }
-    while (at < count && is_done[at]) {
-        at++;
-    }
-    return at;
+    const uint8_t *open = memchr(is_done + at, 0, count - at);
+    return open != NULL ? (uint32_t)(open - is_done) : count;
 }
 
 // Links the other columns with those around them. What lies before them on an axis has done so, unless it is one of the

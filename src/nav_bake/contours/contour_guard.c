@@ -30,15 +30,8 @@ uint32_t tl_contours_guard_steps(const tl_nav_config *config)
 // The next floor from `at` on that was taken away; span_count: none.
 static uint32_t next_taken(const tl_nav_compact *compact, uint32_t at)
 {
-    static const uint8_t none[64] = { 0 }; // few are taken, so most floors are passed so many at a time
-    const uint32_t count = compact->span_count;
-    while (count - at >= sizeof none && memcmp(compact->taken + at, none, sizeof none) == 0) {
-        at += (uint32_t)sizeof none;
-    }
-    while (at < count && !compact->taken[at]) {
-        at++;
-    }
-    return at;
+    const uint8_t *taken = memchr(compact->taken + at, 1, compact->span_count - at);
+    return taken != NULL ? (uint32_t)(taken - compact->taken) : compact->span_count;
 }
 
 tl_result tl_contours_find_guarded(tl_contour_work *work)

@@ -13,6 +13,8 @@
 
 #include "nav_bake/contours/contours.h"
 
+#include "base/min_max.h"
+
 #include <string.h>
 
 enum { SEEN_RINGS = 1 };
@@ -44,9 +46,9 @@ static void add_changed_of_row(const tl_nav_compact *compact, const uint8_t *bef
     while (row[last_x] > last) {
         last_x--;
     }
-    changed->min_x = first_x < changed->min_x ? first_x : changed->min_x;
-    changed->max_x = last_x > changed->max_x ? last_x : changed->max_x;
-    changed->min_z = z < changed->min_z ? z : changed->min_z;
+    changed->min_x = tl_min_u32(first_x, changed->min_x);
+    changed->max_x = tl_max_u32(last_x, changed->max_x);
+    changed->min_z = tl_min_u32(z, changed->min_z);
     changed->max_z = z;
 }
 
@@ -71,25 +73,15 @@ static bool has_wall(const tl_nav_compact *compact, uint32_t floor)
     return false;
 }
 
-static uint32_t max_u32(uint32_t a, uint32_t b)
-{
-    return a > b ? a : b;
-}
-
-static uint32_t min_u32(uint32_t a, uint32_t b)
-{
-    return a < b ? a : b;
-}
-
 // Whether one of the tile's floors within so many columns of a box has a wall. Steps go from column to column, so no
 // floor within as many steps is farther.
 static bool is_wall_near(const tl_nav_compact *compact, const column_box *box, uint32_t steps)
 {
     const uint32_t border = compact->border_size;
-    const uint32_t first_x = max_u32(border, box->min_x - min_u32(box->min_x, steps));
-    const uint32_t first_z = max_u32(border, box->min_z - min_u32(box->min_z, steps));
-    const uint32_t end_x = min_u32(compact->width - border, box->max_x + 1 + min_u32(steps, compact->width));
-    const uint32_t end_z = min_u32(compact->height - border, box->max_z + 1 + min_u32(steps, compact->height));
+    const uint32_t first_x = tl_max_u32(border, box->min_x - tl_min_u32(box->min_x, steps));
+    const uint32_t first_z = tl_max_u32(border, box->min_z - tl_min_u32(box->min_z, steps));
+    const uint32_t end_x = tl_min_u32(compact->width - border, box->max_x + 1 + tl_min_u32(steps, compact->width));
+    const uint32_t end_z = tl_min_u32(compact->height - border, box->max_z + 1 + tl_min_u32(steps, compact->height));
     for (uint32_t z = first_z; z < end_z && first_x < end_x; z++) {
         const uint32_t *row = compact->first_span + (size_t)z * compact->width;
         for (uint32_t i = row[first_x]; i < row[end_x]; i++) {
