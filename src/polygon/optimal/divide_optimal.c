@@ -27,11 +27,6 @@
 // A piece has at most 2 * PIECE_TRIANGLES + 1 triangles.
 #define PIECE_TRIANGLES 32
 
-static uint32_t next_in_triangle(uint32_t edge)
-{
-    return edge % 3 < 2 ? edge + 1 : edge - 2;
-}
-
 static tl_result solve_exactly(tl_arena *arena, const tl_triangulated_outline *outline, uint32_t max_corners,
                                tl_convex_parts *parts, bool *found)
 {
@@ -138,7 +133,7 @@ static bool trace_piece(tl_arena *arena, const tl_lattice_point *points, const t
     out->count = 0;
     do {
         uint32_t corner = out->count++;
-        for (edge = next_in_triangle(edge);; edge = next_in_triangle(all->twins[edge])) {
+        for (edge = tl_triangle_edge_next(edge);; edge = tl_triangle_edge_next(all->twins[edge])) {
             out->triangles[3 * rank[edge / 3] + edge % 3] = corner;
             if (is_piece_border(all->twins, members->piece, edge)) {
                 break;

@@ -15,11 +15,6 @@
 
 #include <string.h>
 
-static uint32_t triangle_edge_next(uint32_t edge)
-{
-    return edge % 3 < 2 ? edge + 1 : edge - 2;
-}
-
 // How many open edges start at each corner: as often as the outline passes there.
 static tl_result count_passes(tl_arena *arena, const uint32_t *corners, const uint32_t *twins, uint32_t edge_count,
                               uint8_t **passes_out)
@@ -50,7 +45,8 @@ tl_result tl_pair_edges(tl_arena *arena, const uint32_t *corners, uint32_t *twin
     tl_key_table table;
     uint32_t bridge_count = 0;
     for (uint32_t edge = 0; edge < edge_count && bridges != NULL; edge++) {
-        if (twins[edge] == TL_NO_EDGE && (passes[corners[edge]] > 1 || passes[corners[triangle_edge_next(edge)]] > 1)) {
+        if (twins[edge] == TL_NO_EDGE &&
+            (passes[corners[edge]] > 1 || passes[corners[tl_triangle_edge_next(edge)]] > 1)) {
             bridges[bridge_count++] = edge;
         }
     }
@@ -58,7 +54,7 @@ tl_result tl_pair_edges(tl_arena *arena, const uint32_t *corners, uint32_t *twin
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < bridge_count; i++) {
-        const uint32_t edge = bridges[i], from = corners[edge], to = corners[triangle_edge_next(edge)];
+        const uint32_t edge = bridges[i], from = corners[edge], to = corners[tl_triangle_edge_next(edge)];
         uint32_t *back = tl_key_table_at(&table, tl_pair_key(to, from));
         if (*back != TL_NO_VALUE) {
             twins[edge] = *back;

@@ -34,11 +34,6 @@ typedef struct viewer {
     uint64_t steps, max_steps;
 } viewer;
 
-static uint32_t next_edge_of_triangle(uint32_t edge)
-{
-    return edge % 3 < 2 ? edge + 1 : edge - 2;
-}
-
 static uint32_t opposite_corner(const viewer *v, uint32_t edge)
 {
     return v->triangles[edge % 3 > 0 ? edge - 1 : edge + 2];
@@ -70,8 +65,8 @@ static bool look_through(viewer *v, uint32_t eye, gate_edge gate)
         uint32_t apex = opposite_corner(v, twin);
         bool above_low = tl_turn(p, v->points[at.low], v->points[apex]) > 0;
         bool below_high = tl_turn(p, v->points[apex], v->points[at.high]) > 0;
-        uint32_t early = next_edge_of_triangle(twin);
-        gate_edge late_gate = { next_edge_of_triangle(early), above_low ? apex : at.low, at.high };
+        uint32_t early = tl_triangle_edge_next(twin);
+        gate_edge late_gate = { tl_triangle_edge_next(early), above_low ? apex : at.low, at.high };
         gate_edge early_gate = { early, at.low, below_high ? apex : at.high };
         if (below_high) {
             v->stack[depth++] = late_gate;
@@ -93,11 +88,11 @@ static bool look_from_corner(viewer *v, uint32_t eye, uint32_t edge)
     if (v->count == v->limit) {
         return false;
     }
-    uint32_t last = v->triangles[next_edge_of_triangle(edge)];
+    uint32_t last = v->triangles[tl_triangle_edge_next(edge)];
     v->to[v->count++] = last;
     while (edge != TL_NO_EDGE && last > eye) {
-        uint32_t across = next_edge_of_triangle(edge);
-        uint32_t corner = v->triangles[next_edge_of_triangle(across)];
+        uint32_t across = tl_triangle_edge_next(edge);
+        uint32_t corner = v->triangles[tl_triangle_edge_next(across)];
         gate_edge gate = { across, last, corner };
         if (!look_through(v, eye, gate)) {
             return false;
@@ -109,7 +104,7 @@ static bool look_from_corner(viewer *v, uint32_t eye, uint32_t edge)
             v->to[v->count++] = corner;
         }
         last = corner;
-        edge = v->twins[next_edge_of_triangle(across)];
+        edge = v->twins[tl_triangle_edge_next(across)];
     }
     return true;
 }

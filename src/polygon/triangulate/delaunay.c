@@ -50,11 +50,6 @@ bool tl_in_circle(tl_lattice_point a, tl_lattice_point b, tl_lattice_point c, tl
     return cos_b < 0 ? b_is_larger : d_is_larger;
 }
 
-static uint32_t edge_after(uint32_t edge)
-{
-    return edge % 3 < 2 ? edge + 1 : edge - 2;
-}
-
 static void link(uint32_t *twins, uint32_t edge, uint32_t twin)
 {
     twins[edge] = twin;
@@ -99,8 +94,8 @@ static uint32_t dequeue(edge_queue *q)
 static void flip_diagonal(uint32_t *corners, uint32_t *twins, uint32_t edge)
 {
     uint32_t twin = twins[edge];
-    uint32_t cd = edge_after(edge), da = edge_after(cd);
-    uint32_t ab = edge_after(twin), bc = edge_after(ab);
+    uint32_t cd = tl_triangle_edge_next(edge), da = tl_triangle_edge_next(cd);
+    uint32_t ab = tl_triangle_edge_next(twin), bc = tl_triangle_edge_next(ab);
     uint32_t beyond_cd = twins[cd], beyond_ab = twins[ab];
     uint32_t b = corners[bc], d = corners[da];
     // Triangle of `edge`: b, d, a -> at edge: b to d, at cd: d to a, at da: a to b. The other: d, b, c.
@@ -136,17 +131,17 @@ tl_result tl_make_delaunay(tl_arena *scratch, const tl_lattice_point *points, ui
         if (twin == TL_NO_EDGE) { // a flip has put an edge of the outline here
             continue;
         }
-        uint32_t c = edge_after(edge), a = edge_after(twin);
-        tl_lattice_point d = points[corners[edge_after(c)]];
-        tl_lattice_point b = points[corners[edge_after(a)]];
+        uint32_t c = tl_triangle_edge_next(edge), a = tl_triangle_edge_next(twin);
+        tl_lattice_point d = points[corners[tl_triangle_edge_next(c)]];
+        tl_lattice_point b = points[corners[tl_triangle_edge_next(a)]];
         if (!tl_in_circle(points[corners[a]], b, points[corners[c]], d)) {
             continue;
         }
         flip_diagonal(corners, twins, edge);
         enqueue(&q, twins, c);
-        enqueue(&q, twins, edge_after(c));
+        enqueue(&q, twins, tl_triangle_edge_next(c));
         enqueue(&q, twins, a);
-        enqueue(&q, twins, edge_after(a));
+        enqueue(&q, twins, tl_triangle_edge_next(a));
     }
     return TL_OK;
 }

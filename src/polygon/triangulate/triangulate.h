@@ -35,11 +35,17 @@ typedef struct tl_triangulate_input {
 /// Edges may coincide there and back (bridges to holes) and points may coincide, but no point lies inside an edge, no
 /// two edges cross, and no point is a spike's tip: what tl_outline_prepare hands out.
 /// Triangle t has the corners triangles_out[3t .. 3t + 2], indices of points, in the order (before, cut corner, after);
-/// triangles come in the order they were cut, unless places_out is given. twins_out[3t + k] is the number (3 * triangle
-/// + edge) of the same partition edge seen from the other triangle, or TL_NO_EDGE on the outline; edge k runs from
-/// corner k to corner k
-/// + 1. TL_ERR_SELF_INTERSECTION: no valid partition was left, so the outline was not as described.
+/// triangles come in the order they were cut, unless places_out is given. Edge k of triangle t runs from corner k to
+/// the next one, and its number is 3t + k. twins_out[3t + k] is the number of the same partition edge seen from the
+/// other triangle, or TL_NO_EDGE on the outline. TL_ERR_SELF_INTERSECTION: no valid partition was left, so the outline
+/// was not as described.
 tl_result tl_triangulate(tl_arena *scratch, const tl_triangulate_input *input, uint32_t *triangles_out,
                          uint32_t *twins_out);
+
+/// The edge of the same triangle that begins where `edge` ends.
+static inline uint32_t tl_triangle_edge_next(uint32_t edge)
+{
+    return edge % 3 < 2 ? edge + 1 : edge - 2;
+}
 
 #endif
