@@ -15,16 +15,6 @@
 // Vertices between two calls of progress: with some dozen edges each they take a few milliseconds.
 enum { SETTLED_PER_CALL = 4096 };
 
-static bool is_nearer(tl_nav_open_vertex a, tl_nav_open_vertex b)
-{
-    return a.length < b.length || (a.length == b.length && a.vertex < b.vertex);
-}
-
-#define TL_HEAP(name)                 open_vertex_##name
-#define TL_HEAP_ITEM                  tl_nav_open_vertex
-#define TL_HEAP_BEFORE(context, a, b) is_nearer(a, b)
-#include "base/heap.inl"
-
 tl_result tl_nav_dijkstra_init(const tl_allocator *allocator, const tl_nav_visibility_graph *graph, tl_stage *stage,
                                tl_nav_dijkstra *lengths_out)
 {
@@ -51,31 +41,18 @@ void tl_nav_dijkstra_free(const tl_allocator *allocator, tl_nav_dijkstra *length
                      sizeof *lengths->heap);
 }
 
-void tl_nav_dijkstra_open(tl_nav_dijkstra *lengths, uint32_t vertex)
+static void open_vertex(tl_nav_dijkstra *lengths, uint32_t vertex)
 {
     const tl_nav_open_vertex item = { lengths->length[vertex], vertex };
-    open_vertex_push(lengths->heap, &lengths->heap_count, item, NULL);
+    tl_nav_open_vertex_push(lengths->heap, &lengths->heap_count, item, NULL);
 }
 
-tl_result tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint32_t source_count)
-{
-    for (uint32_t i = 0; i < lengths->graph->vertex_count; i++) {
-        lengths->length[i] = (double)INFINITY;
-    }
-    for (uint32_t i = 0; i < source_count; i++) {
-        lengths->length[sources[i]] = 0.0;
-        lengths->before[sources[i]] = sources[i];
-        tl_nav_dijkstra_open(lengths, sources[i]);
-    }
-    return tl_nav_dijkstra_spread(lengths);
-}
-
-tl_result tl_nav_dijkstra_spread(tl_nav_dijkstra *lengths)
+static tl_result spread_lengths(tl_nav_dijkstra *lengths)
 {
     const tl_nav_visibility_graph *graph = lengths->graph;
     uint32_t settled = 0;
     while (lengths->heap_count > 0) {
-        const tl_nav_open_vertex next = open_vertex_pop(lengths->heap, &lengths->heap_count, NULL);
+        const tl_nav_open_vertex next = tl_nav_open_vertex_pop(lengths->heap, &lengths->heap_count, NULL);
         if (next.length > lengths->length[next.vertex]) {
             continue;
         }
@@ -89,9 +66,22 @@ tl_result tl_nav_dijkstra_spread(tl_nav_dijkstra *lengths)
             if (length < lengths->length[edge->to]) {
                 lengths->length[edge->to] = length;
                 lengths->before[edge->to] = next.vertex;
-                tl_nav_dijkstra_open(lengths, edge->to);
+                open_vertex(lengths, edge->to);
             }
         }
     }
     return TL_OK;
+}
+
+tl_result tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint32_t source_count)
+{
+    for (uint32_t i = 0; i < lengths->graph->vertex_count; i++) {
+        lengths->length[i] = (double)INFINITY;
+    }
+    for (uint32_t i = 0; i < source_count; i++) {
+        lengths->length[sources[i]] = 0.0;
+        lengths->before[sources[i]] = sources[i];
+        open_vertex(lengths, sources[i]);
+    }
+    return spread_lengths(lengths);
 }

@@ -8,10 +8,21 @@
 #include "base/stage.h"
 #include "nav_query/prepared/visibility_graph.h"
 
+/// A corner vertex that waits for its turn, by its distance; ties go to the lower vertex.
 typedef struct tl_nav_open_vertex {
     double length;
     uint32_t vertex;
 } tl_nav_open_vertex;
+
+static inline bool tl_nav_opens_before(tl_nav_open_vertex a, tl_nav_open_vertex b)
+{
+    return a.length < b.length || (a.length == b.length && a.vertex < b.vertex);
+}
+
+#define TL_HEAP(name)                 tl_nav_open_vertex_##name
+#define TL_HEAP_ITEM                  tl_nav_open_vertex
+#define TL_HEAP_BEFORE(context, a, b) tl_nav_opens_before(a, b)
+#include "base/heap.inl"
 
 typedef struct tl_nav_dijkstra {
     const tl_nav_visibility_graph *graph;
@@ -37,10 +48,5 @@ void tl_nav_dijkstra_free(const tl_allocator *allocator, tl_nav_dijkstra *length
 /// Measures from `source_count` corner vertices, from the nearest of them to each. Calls progress and adds nothing to
 /// it: TL_ERR_CANCELLED, after which only tl_nav_dijkstra_free may be called.
 tl_result tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint32_t source_count);
-
-/// Opens a corner vertex at the length that it has.
-void tl_nav_dijkstra_open(tl_nav_dijkstra *lengths, uint32_t vertex);
-/// Lowers the lengths of all to what leads over corner vertices that are open. Errors as above.
-tl_result tl_nav_dijkstra_spread(tl_nav_dijkstra *lengths);
 
 #endif

@@ -148,22 +148,17 @@ typedef struct landmark_mend {
     uint32_t heap_count;
 } landmark_mend;
 
-#define TL_HEAP(name)                 lowered_##name
-#define TL_HEAP_ITEM                  tl_nav_open_vertex
-#define TL_HEAP_BEFORE(context, a, b) ((a).length < (b).length)
-#include "base/heap.inl"
-
 static void open_lowered(landmark_mend *m, uint32_t vertex, uint32_t landmark)
 {
     const tl_nav_open_vertex item = { (double)m->graph->landmarks[vertex][landmark], vertex };
-    lowered_push(m->heap, &m->heap_count, item, NULL);
+    tl_nav_open_vertex_push(m->heap, &m->heap_count, item, NULL);
 }
 
 // Lowers one landmark's distances from open vertices on.
 static void spread_lowered(landmark_mend *m, uint32_t landmark)
 {
     while (m->heap_count > 0) {
-        const tl_nav_open_vertex next = lowered_pop(m->heap, &m->heap_count, NULL);
+        const tl_nav_open_vertex next = tl_nav_open_vertex_pop(m->heap, &m->heap_count, NULL);
         if (next.length > (double)m->graph->landmarks[next.vertex][landmark]) {
             continue;
         }
