@@ -21,14 +21,17 @@
 
 enum { MAX_ADVANCES = 64 };
 
-// The box of a core along a whole motion.
-typedef struct swept_box {
+// What a cast is to all items: the box of the core along the whole motion, and what it keeps from them.
+typedef struct cast_sweep {
     tl_vec3d low, high;
-} swept_box;
+    double length; // of the motion
+    double keep, miss;
+} cast_sweep;
 
-static swept_box sweep_box(const tl_mover_core *core, tl_vec3d by)
+static cast_sweep sweep_core(const tl_character_mover *m, const tl_mover_core *core, tl_vec3d by)
 {
-    swept_box box = { core->low, core->low };
+    const double keep = m->radius + CAST_SHARE * m->gap;
+    cast_sweep box = { core->low, core->low, tl_vec3d_length(by), keep, keep + MISS_SHARE * m->gap };
     box.high.y += core->length;
     box.low.x = by.x < 0.0 ? box.low.x + by.x : box.low.x;
     box.low.y = by.y < 0.0 ? box.low.y + by.y : box.low.y;
@@ -41,12 +44,13 @@ static swept_box sweep_box(const tl_mover_core *core, tl_vec3d by)
 
 // Whether the capsule stays clear of the item's box along the whole motion. Along one axis `keep` is enough; else as
 // far as a miss, since what comes nearer than that ends a motion already.
-static bool sweep_misses_box(const tl_mover_item *item, const swept_box *box, double keep, double miss)
+static bool sweep_misses_box(const tl_mover_item *item, const cast_sweep *sweep)
 {
-    const double x = tl_mover_between(item->low.x, item->high.x, box->low.x, box->high.x);
-    const double y = tl_mover_between(item->low.y, item->high.y, box->low.y, box->high.y);
-    const double z = tl_mover_between(item->low.z, item->high.z, box->low.z, box->high.z);
-    return x > keep || y > keep || z > keep || x * x + y * y + z * z > miss * miss;
+    const double x = tl_mover_between(item->low.x, item->high.x, sweep->low.x, sweep->high.x);
+    const double y = tl_mover_between(item->low.y, item->high.y, sweep->low.y, sweep->high.y);
+    const double z = tl_mover_between(item->low.z, item->high.z, sweep->low.z, sweep->high.z);
+    const double keep = sweep->keep;
+    return x > keep || y > keep || z > keep || x * x + y * y + z * z > sweep->miss * sweep->miss;
 }
 
 // The time at which the core may first be within reach of the triangle's plane; INFINITY: it never is.
@@ -64,20 +68,19 @@ static double reaches_plane(const tl_mover_item *t, const tl_mover_core *core, t
     return 0.0;
 }
 
-static void cast_at_item(const tl_character_mover *m, const tl_mover_core *core, tl_vec3d motion, double length,
-                         uint32_t index, tl_mover_sweep *best)
+static void cast_at_item(const tl_character_mover *m, const tl_mover_core *core, tl_vec3d motion,
+                         const cast_sweep *sweep, uint32_t index, tl_mover_sweep *best)
 {
     tl_mover_item *item = &m->items[index];
-    double keep = m->radius + CAST_SHARE * m->gap;
+    double keep = sweep->keep;
     tl_mover_know(item);
-    const double miss = keep + MISS_SHARE * m->gap;
     double t = item->shape == NULL ? reaches_plane(item, core, motion, keep) : 0.0;
     bool started = t > 0.0;
     for (uint32_t i = 0; t < best->t; i++) {
         tl_mover_core at = *core;
         at.low = tl_vec3d_mul_add(core->low, motion, t);
         tl_mover_nearest nearest;
-        tl_mover_nearest_of(item, &at, miss + (best->t - t) * length, &nearest);
+        tl_mover_nearest_of(item, &at, sweep->miss + (best->t - t) * sweep->length, &nearest);
         double closing = nearest.distance < (double)INFINITY ? -tl_vec3d_dot(nearest.normal, motion) : 0.0;
         if (!(closing > 0.0)) {
             return;
@@ -116,16 +119,14 @@ tl_mover_sweep tl_mover_cast(tl_character_mover *m, tl_vec3d feet, tl_vec3d moti
     double z = share_within(feet.z, motion.z, m->feet_low.z, m->feet_high.z);
     best.t = x < y ? x : y;
     best.t = z < best.t ? z : best.t;
-    const double length = tl_vec3d_length(motion), keep = m->radius + CAST_SHARE * m->gap;
-    const double miss = keep + MISS_SHARE * m->gap;
-    const swept_box box = sweep_box(&core, motion);
+    const cast_sweep sweep = sweep_core(m, &core, motion);
     m->report->sweeps++;
     // What it was in contact with last is likely to be met first, and then most others are told off at once.
     const uint32_t first = m->contact_count > 0 ? m->contacts[m->contact_count - 1].item : 0;
     for (uint32_t i = 0; i < m->item_count; i++) {
         const uint32_t index = i == 0 ? first : i <= first ? i - 1 : i;
-        if (m->items[index].instance != m->ignored_instance && !sweep_misses_box(&m->items[index], &box, keep, miss)) {
-            cast_at_item(m, &core, motion, length, index, &best);
+        if (m->items[index].instance != m->ignored_instance && !sweep_misses_box(&m->items[index], &sweep)) {
+            cast_at_item(m, &core, motion, &sweep, index, &best);
         }
     }
     return best;
