@@ -11,11 +11,6 @@ typedef struct js_corridor {
     tl_nav_ref path[];
 } js_corridor;
 
-static const tl_nav_filter *filter_in_use(int32_t filtered)
-{
-    return filtered ? &tl_js_nav_filter : NULL;
-}
-
 /// NULL: out of memory.
 js_corridor *TL_JS_EXPORT(js_corridor_create)(uint32_t capacity)
 {
@@ -34,7 +29,7 @@ void TL_JS_EXPORT(js_corridor_free)(js_corridor *self)
 /// Slot: the place.
 void TL_JS_EXPORT(js_corridor_reset)(js_corridor *self)
 {
-    const tl_nav_location at = { tl_js_u64(0), tl_js_vec3(1) };
+    const tl_nav_location at = tl_js_place(0);
     tl_nav_corridor_reset(&self->corridor, &at);
 }
 
@@ -53,9 +48,9 @@ static tl_result put_search(tl_result result, const tl_nav_path *path)
 }
 
 /// Slot: the goal; then status, cost, nodes.
-tl_result TL_JS_EXPORT(js_corridor_find)(js_corridor *self, tl_js_navmesh *navmesh, int32_t filtered)
+tl_result TL_JS_EXPORT(js_corridor_find)(js_corridor *self, tl_js_navmesh *navmesh, uint32_t flags)
 {
-    const tl_nav_location goal = { tl_js_u64(0), tl_js_vec3(1) };
+    const tl_nav_location goal = tl_js_place(0);
     tl_nav_query *query;
     const tl_result result = tl_js_navmesh_query(navmesh, &query);
     if (result != TL_OK) {
@@ -63,11 +58,11 @@ tl_result TL_JS_EXPORT(js_corridor_find)(js_corridor *self, tl_js_navmesh *navme
     }
     tl_nav_path path;
     return put_search(
-        tl_nav_corridor_find(&self->corridor, query, navmesh->navmesh, filter_in_use(filtered), &goal, &path), &path);
+        tl_nav_corridor_find(&self->corridor, query, navmesh->navmesh, tl_js_filter_of(flags), &goal, &path), &path);
 }
 
 /// Slot: status, cost, nodes. TL_NOT_FOUND: no polygon is near the agent.
-tl_result TL_JS_EXPORT(js_corridor_repair)(js_corridor *self, tl_js_navmesh *navmesh, int32_t filtered, float hx,
+tl_result TL_JS_EXPORT(js_corridor_repair)(js_corridor *self, tl_js_navmesh *navmesh, uint32_t flags, float hx,
                                            float hy, float hz)
 {
     tl_nav_query *query;
@@ -76,7 +71,7 @@ tl_result TL_JS_EXPORT(js_corridor_repair)(js_corridor *self, tl_js_navmesh *nav
         return result;
     }
     tl_nav_path path;
-    return put_search(tl_nav_corridor_repair(&self->corridor, query, navmesh->navmesh, filter_in_use(filtered),
+    return put_search(tl_nav_corridor_repair(&self->corridor, query, navmesh->navmesh, tl_js_filter_of(flags),
                                              tl_vec3_make(hx, hy, hz), &path),
                       &path);
 }
@@ -96,7 +91,7 @@ tl_result TL_JS_EXPORT(js_corridor_corners)(const js_corridor *self, const tl_js
 }
 
 /// Moves the agent, or the target.
-tl_result TL_JS_EXPORT(js_corridor_move)(js_corridor *self, tl_js_navmesh *navmesh, int32_t filtered, int32_t of_target,
+tl_result TL_JS_EXPORT(js_corridor_move)(js_corridor *self, tl_js_navmesh *navmesh, uint32_t flags, int32_t of_target,
                                          float x, float y, float z)
 {
     tl_nav_query *query;
@@ -105,7 +100,7 @@ tl_result TL_JS_EXPORT(js_corridor_move)(js_corridor *self, tl_js_navmesh *navme
         return result;
     }
     return (of_target ? tl_nav_corridor_move_target : tl_nav_corridor_move)(
-        &self->corridor, query, navmesh->navmesh, filter_in_use(filtered), tl_vec3_make(x, y, z));
+        &self->corridor, query, navmesh->navmesh, tl_js_filter_of(flags), tl_vec3_make(x, y, z));
 }
 
 /// Slot: the link, and the places where it begins and ends. TL_NOT_FOUND: there is none ahead.
@@ -116,31 +111,31 @@ tl_result TL_JS_EXPORT(js_corridor_pass_link)(js_corridor *self, const tl_js_nav
     const tl_result result = tl_nav_corridor_pass_link(&self->corridor, navmesh->navmesh, ends, &link);
     uint32_t at = tl_js_put_u64(0, link);
     for (uint32_t i = 0; i < 2; i++) {
-        at = tl_js_put_vec3(tl_js_put_u64(at, ends[i].polygon), ends[i].point);
+        at = tl_js_put_place(at, &ends[i]);
     }
     return result;
 }
 
 /// Slot: whether it changed.
-tl_result TL_JS_EXPORT(js_corridor_shorten)(js_corridor *self, const tl_js_navmesh *navmesh, int32_t filtered,
+tl_result TL_JS_EXPORT(js_corridor_shorten)(js_corridor *self, const tl_js_navmesh *navmesh, uint32_t flags,
                                             float range)
 {
     bool changed = false;
     const tl_result result =
-        tl_nav_corridor_shorten(&self->corridor, navmesh->navmesh, filter_in_use(filtered), range, &changed);
+        tl_nav_corridor_shorten(&self->corridor, navmesh->navmesh, tl_js_filter_of(flags), range, &changed);
     tl_js_put(0, changed);
     return result;
 }
 
 /// Slot: whether it changed.
-tl_result TL_JS_EXPORT(js_corridor_improve)(js_corridor *self, tl_js_navmesh *navmesh, int32_t filtered, uint32_t ahead,
+tl_result TL_JS_EXPORT(js_corridor_improve)(js_corridor *self, tl_js_navmesh *navmesh, uint32_t flags, uint32_t ahead,
                                             uint32_t max_steps)
 {
     bool changed = false;
     tl_nav_query *query;
     tl_result result = tl_js_navmesh_query(navmesh, &query);
     if (result == TL_OK) {
-        result = tl_nav_corridor_improve(&self->corridor, query, navmesh->navmesh, filter_in_use(filtered), ahead,
+        result = tl_nav_corridor_improve(&self->corridor, query, navmesh->navmesh, tl_js_filter_of(flags), ahead,
                                          max_steps, &changed);
     }
     tl_js_put(0, changed);
@@ -148,8 +143,8 @@ tl_result TL_JS_EXPORT(js_corridor_improve)(js_corridor *self, tl_js_navmesh *na
 }
 
 /// How many of its first entries are valid.
-uint32_t TL_JS_EXPORT(js_corridor_check)(const js_corridor *self, const tl_js_navmesh *navmesh, int32_t filtered,
+uint32_t TL_JS_EXPORT(js_corridor_check)(const js_corridor *self, const tl_js_navmesh *navmesh, uint32_t flags,
                                          uint32_t max_count)
 {
-    return tl_nav_corridor_check(&self->corridor, navmesh->navmesh, filter_in_use(filtered), max_count);
+    return tl_nav_corridor_check(&self->corridor, navmesh->navmesh, tl_js_filter_of(flags), max_count);
 }

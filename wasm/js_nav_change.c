@@ -62,7 +62,7 @@ int32_t TL_JS_EXPORT(js_offmesh_next)(const tl_js_navmesh *self, uint32_t cursor
     uint32_t at = tl_js_put_offmesh(tl_js_put_u64(tl_js_put(0, cursor), ref), &state.offmesh);
     at = tl_js_put(tl_js_put(tl_js_put(at, state.anchored), (double)state.length), (double)state.cost);
     for (uint32_t end = 0; end < 2; end++) {
-        at = tl_js_put_vec3(tl_js_put_u64(at, state.ends[end].polygon), state.ends[end].point);
+        at = tl_js_put_place(at, &state.ends[end]);
     }
     return 1;
 }

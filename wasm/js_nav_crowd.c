@@ -53,9 +53,9 @@ void TL_JS_FULL_EXPORT(js_crowd_free)(tl_nav_crowd *crowd)
 }
 
 /// The filter that was set last, or the default one, at a place.
-tl_result TL_JS_FULL_EXPORT(js_crowd_set_filter)(tl_nav_crowd *crowd, uint32_t place, int32_t filtered)
+tl_result TL_JS_FULL_EXPORT(js_crowd_set_filter)(tl_nav_crowd *crowd, uint32_t place, uint32_t flags)
 {
-    return tl_nav_crowd_set_filter(crowd, place, filtered ? &tl_js_nav_filter : NULL);
+    return tl_nav_crowd_set_filter(crowd, place, tl_js_filter_of(flags));
 }
 
 /// Slot: what the step did.
@@ -118,7 +118,7 @@ tl_result TL_JS_FULL_EXPORT(js_crowd_remove)(tl_nav_crowd *crowd)
 /// Slot: the agent, then a place.
 tl_result TL_JS_FULL_EXPORT(js_crowd_set_goal)(tl_nav_crowd *crowd, int32_t has_goal)
 {
-    const tl_nav_location goal = { .polygon = tl_js_u64(1), .point = tl_js_vec3(2) };
+    const tl_nav_location goal = tl_js_place(1);
     return tl_nav_crowd_set_goal(crowd, tl_js_u64(0), has_goal ? &goal : NULL);
 }
 

@@ -8,12 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILTERED = 4, WITH_POLYGONS = 8 };
-
-static const tl_nav_filter *filter_of(uint32_t flags)
-{
-    return (flags & FILTERED) != 0 ? &tl_js_nav_filter : NULL;
-}
+enum { WITH_POLYGONS = 8 };
 
 static tl_result find_place(const tl_js_navmesh *self, uint32_t flags, uint32_t which, tl_vec3 point,
                             tl_vec3 half_extents, tl_nav_location *place_out)
@@ -23,12 +18,7 @@ static tl_result find_place(const tl_js_navmesh *self, uint32_t flags, uint32_t 
         place_out->point = point;
         return TL_OK;
     }
-    return tl_navmesh_find_nearest(self->navmesh, filter_of(flags), point, half_extents, place_out);
-}
-
-static uint32_t put_place(uint32_t at, const tl_nav_location *place)
-{
-    return tl_js_put_vec3(tl_js_put_u64(at, place->polygon), place->point);
+    return tl_navmesh_find_nearest(self->navmesh, tl_js_filter_of(flags), point, half_extents, place_out);
 }
 
 /// Slot: the place.
@@ -37,7 +27,7 @@ tl_result TL_JS_EXPORT(js_find_nearest)(const tl_js_navmesh *self, uint32_t flag
 {
     tl_nav_location place;
     const tl_result result = find_place(self, flags, 0, tl_vec3_make(x, y, z), tl_vec3_make(hx, hy, hz), &place);
-    put_place(0, &place);
+    tl_js_put_place(0, &place);
     return result;
 }
 
@@ -45,9 +35,9 @@ tl_result TL_JS_EXPORT(js_find_nearest)(const tl_js_navmesh *self, uint32_t flag
 tl_result TL_JS_EXPORT(js_find_reachable)(const tl_js_navmesh *self, uint32_t flags, float x, float y, float z)
 {
     tl_nav_location place;
-    const tl_result result =
-        tl_navmesh_find_nearest_reachable(self->navmesh, filter_of(flags), tl_js_u64(0), tl_vec3_make(x, y, z), &place);
-    put_place(0, &place);
+    const tl_result result = tl_navmesh_find_nearest_reachable(self->navmesh, tl_js_filter_of(flags), tl_js_u64(0),
+                                                               tl_vec3_make(x, y, z), &place);
+    tl_js_put_place(0, &place);
     return result;
 }
 
@@ -127,7 +117,7 @@ tl_result TL_JS_EXPORT(js_find_path)(tl_js_navmesh *self, uint32_t flags, float 
 {
     const tl_vec3 half = tl_vec3_make(hx, hy, hz);
     tl_nav_path_request request;
-    request.filter = filter_of(flags);
+    request.filter = tl_js_filter_of(flags);
     tl_nav_query *query;
     tl_result result = tl_js_navmesh_query(self, &query);
     if (result == TL_OK) {
@@ -153,7 +143,7 @@ tl_result TL_JS_EXPORT(js_find_path)(tl_js_navmesh *self, uint32_t flags, float 
     } while (result == TL_INCOMPLETE);
     uint32_t at = tl_js_put(0, path.status);
     at = tl_js_put(tl_js_put(tl_js_put(at, path.length), path.lower_bound), path.surface_length);
-    at = put_place(put_place(tl_js_put(at, path.node_count), &request.start), &request.goal);
+    at = tl_js_put_place(tl_js_put_place(tl_js_put(at, path.node_count), &request.start), &request.goal);
     at = tl_js_put_pointer(tl_js_put(at, polygons), self->polygons);
     return result == TL_OK ? tl_js_put_corners(at, self->corners, path.corner_count) : result;
 }
@@ -162,7 +152,7 @@ tl_result TL_JS_EXPORT(js_find_path)(tl_js_navmesh *self, uint32_t flags, float 
 tl_result TL_JS_EXPORT(js_find_route)(tl_js_navmesh *self, uint32_t flags, float sx, float sy, float sz, float gx,
                                       float gy, float gz, float hx, float hy, float hz)
 {
-    const tl_nav_route_request request = { filter_of(flags), tl_vec3_make(sx, sy, sz), tl_vec3_make(gx, gy, gz),
+    const tl_nav_route_request request = { tl_js_filter_of(flags), tl_vec3_make(sx, sy, sz), tl_vec3_make(gx, gy, gz),
                                            tl_vec3_make(hx, hy, hz) };
     tl_nav_query *query;
     tl_result result = tl_js_navmesh_query(self, &query);
@@ -188,7 +178,7 @@ tl_result TL_JS_EXPORT(js_find_route)(tl_js_navmesh *self, uint32_t flags, float
     }
     uint32_t at = tl_js_put(0, route.path.status);
     at = tl_js_put(tl_js_put(tl_js_put(at, plane), (double)route.path.cost), (double)route.length);
-    at = put_place(put_place(tl_js_put(at, route.path.node_count), &route.start), &route.goal);
+    at = tl_js_put_place(tl_js_put_place(tl_js_put(at, route.path.node_count), &route.start), &route.goal);
     at = tl_js_put_pointer(tl_js_put(at, route.path.polygon_count), self->polygons);
     return result == TL_OK ? tl_js_put_corners(at, self->corners, route.corner_count) : result;
 }
@@ -199,7 +189,7 @@ tl_result TL_JS_EXPORT(js_find_wide_path)(tl_js_navmesh *self, uint32_t flags, f
 {
     const tl_vec3 half = tl_vec3_make(hx, hy, hz);
     tl_nav_path_request request;
-    request.filter = filter_of(flags);
+    request.filter = tl_js_filter_of(flags);
     tl_nav_query *query;
     tl_result result = tl_js_navmesh_query(self, &query);
     if (result == TL_OK) {
@@ -223,7 +213,7 @@ tl_result TL_JS_EXPORT(js_find_wide_path)(tl_js_navmesh *self, uint32_t flags, f
     } while (result == TL_INCOMPLETE);
     uint32_t at = tl_js_put(0, path.status);
     at = tl_js_put(tl_js_put(tl_js_put(at, path.length), path.wall_distance), path.surface_length);
-    at = put_place(put_place(tl_js_put(at, path.node_count), &request.start), &request.goal);
+    at = tl_js_put_place(tl_js_put_place(tl_js_put(at, path.node_count), &request.start), &request.goal);
     at = tl_js_put_pointer(tl_js_put(at, 0), NULL);
     return result == TL_OK ? tl_js_put_corners(at, self->corners, path.corner_count) : result;
 }
@@ -244,19 +234,13 @@ tl_result TL_JS_EXPORT(js_prepare)(tl_js_navmesh *self)
 // ---------------------------------------------------------------------------------------------------------
 // Around a place. Slot: the place that is asked about, reference and point.
 
-static tl_nav_location place_at(uint32_t at)
-{
-    const tl_nav_location place = { tl_js_u64(at), tl_js_vec3(at + 1) };
-    return place;
-}
-
 /// Slot: the start; then hit, t, point, normal, polygon.
 tl_result TL_JS_EXPORT(js_surface_ray)(const tl_js_navmesh *self, uint32_t flags, float x, float y, float z)
 {
-    const tl_nav_location start = place_at(0);
+    const tl_nav_location start = tl_js_place(0);
     tl_nav_ray_hit hit;
     const tl_result result =
-        tl_navmesh_cast_ray(self->navmesh, filter_of(flags), &start, tl_vec3_make(x, y, z), NULL, 0, &hit);
+        tl_navmesh_cast_ray(self->navmesh, tl_js_filter_of(flags), &start, tl_vec3_make(x, y, z), NULL, 0, &hit);
     uint32_t at = tl_js_put(tl_js_put(0, hit.hit), (double)hit.t);
     at = tl_js_put_vec3(tl_js_put_vec3(at, hit.point), hit.normal);
     tl_js_put_u64(at, hit.polygon);
@@ -266,7 +250,7 @@ tl_result TL_JS_EXPORT(js_surface_ray)(const tl_js_navmesh *self, uint32_t flags
 /// Slot: the start; then the end.
 tl_result TL_JS_EXPORT(js_move)(tl_js_navmesh *self, uint32_t flags, float x, float y, float z)
 {
-    const tl_nav_move_request request = { filter_of(flags), place_at(0), tl_vec3_make(x, y, z) };
+    const tl_nav_move_request request = { tl_js_filter_of(flags), tl_js_place(0), tl_vec3_make(x, y, z) };
     tl_nav_query *query;
     tl_nav_move move;
     memset(&move, 0, sizeof move);
@@ -274,14 +258,14 @@ tl_result TL_JS_EXPORT(js_move)(tl_js_navmesh *self, uint32_t flags, float x, fl
     if (result == TL_OK) {
         result = tl_nav_query_move_along_surface(query, self->navmesh, &request, NULL, 0, &move);
     }
-    put_place(0, &move.end);
+    tl_js_put_place(0, &move.end);
     return result;
 }
 
 /// Slot: the center; then hit, distance, point, normal, polygon.
 tl_result TL_JS_EXPORT(js_find_wall)(tl_js_navmesh *self, uint32_t flags, float radius)
 {
-    const tl_nav_around_request request = { filter_of(flags), place_at(0), radius };
+    const tl_nav_around_request request = { tl_js_filter_of(flags), tl_js_place(0), radius };
     tl_nav_query *query;
     tl_nav_wall wall;
     memset(&wall, 0, sizeof wall);
@@ -298,7 +282,7 @@ tl_result TL_JS_EXPORT(js_find_wall)(tl_js_navmesh *self, uint32_t flags, float 
 /// Slot: the center; then the place.
 tl_result TL_JS_EXPORT(js_find_wide_place)(tl_js_navmesh *self, uint32_t flags, float radius, float agent_radius)
 {
-    const tl_nav_around_request request = { filter_of(flags), place_at(0), radius };
+    const tl_nav_around_request request = { tl_js_filter_of(flags), tl_js_place(0), radius };
     tl_nav_query *query;
     tl_nav_location place;
     memset(&place, 0, sizeof place);
@@ -306,7 +290,7 @@ tl_result TL_JS_EXPORT(js_find_wide_place)(tl_js_navmesh *self, uint32_t flags, 
     if (result == TL_OK) {
         result = tl_nav_query_find_wide_place(query, self->navmesh, &request, agent_radius, &place);
     }
-    put_place(0, &place);
+    tl_js_put_place(0, &place);
     return result;
 }
 
@@ -318,15 +302,15 @@ tl_result TL_JS_EXPORT(js_random_point)(tl_js_navmesh *self, uint32_t flags, int
     memset(&place, 0, sizeof place);
     tl_result result;
     if (around) {
-        const tl_nav_around_request request = { filter_of(flags), place_at(2), radius };
+        const tl_nav_around_request request = { tl_js_filter_of(flags), tl_js_place(2), radius };
         tl_nav_query *query;
         result = tl_js_navmesh_query(self, &query);
         if (result == TL_OK) {
             result = tl_nav_query_random_reachable(query, self->navmesh, &request, random, &place);
         }
     } else {
-        result = tl_navmesh_random_point(self->navmesh, filter_of(flags), random, &place);
+        result = tl_navmesh_random_point(self->navmesh, tl_js_filter_of(flags), random, &place);
     }
-    put_place(0, &place);
+    tl_js_put_place(0, &place);
     return result;
 }

@@ -74,6 +74,12 @@ tl_transform tl_js_pose(uint32_t at)
     return pose;
 }
 
+tl_nav_location tl_js_place(uint32_t at)
+{
+    const tl_nav_location place = { tl_js_u64(at), tl_js_vec3(at + 1) };
+    return place;
+}
+
 uint32_t tl_js_put(uint32_t at, double value)
 {
     tl_js_slot[at] = value;
@@ -97,6 +103,11 @@ uint32_t tl_js_put_vec3(uint32_t at, tl_vec3 value)
 uint32_t tl_js_put_aabb(uint32_t at, tl_aabb value)
 {
     return tl_js_put_vec3(tl_js_put_vec3(at, value.min), value.max);
+}
+
+uint32_t tl_js_put_place(uint32_t at, const tl_nav_location *place)
+{
+    return tl_js_put_vec3(tl_js_put_u64(at, place->polygon), place->point);
 }
 
 uint32_t tl_js_put_pointer(uint32_t at, const void *pointer)

@@ -32,6 +32,15 @@ extern tl_report tl_js_report;
 /// The filter that JavaScript set last, for polygons.
 extern tl_nav_filter tl_js_nav_filter;
 
+/// In the flags of a call: it is under that filter.
+enum { TL_JS_FILTERED = 4 };
+
+/// What a call is under; NULL: nothing.
+static inline const tl_nav_filter *tl_js_filter_of(uint32_t flags)
+{
+    return (flags & TL_JS_FILTERED) != 0 ? &tl_js_nav_filter : NULL;
+}
+
 /// A host whose progress goes to JavaScript, and whose tasks run on the module's threads.
 const tl_host *tl_js_host(void);
 
@@ -44,12 +53,15 @@ tl_vec3 tl_js_vec3(uint32_t at);
 tl_aabb tl_js_aabb(uint32_t at);
 /// Rotation x, y, z, w, then position.
 tl_transform tl_js_pose(uint32_t at);
+/// The reference, then the point.
+tl_nav_location tl_js_place(uint32_t at);
 
 // The other way round; each gives the entry behind what it wrote.
 uint32_t tl_js_put(uint32_t at, double value);
 uint32_t tl_js_put_u64(uint32_t at, uint64_t value);
 uint32_t tl_js_put_vec3(uint32_t at, tl_vec3 value);
 uint32_t tl_js_put_aabb(uint32_t at, tl_aabb value);
+uint32_t tl_js_put_place(uint32_t at, const tl_nav_location *place);
 uint32_t tl_js_put_pointer(uint32_t at, const void *pointer);
 
 /// Bytes that grow: one for all exports, valid until the next call that uses it.

@@ -2,15 +2,10 @@
 //
 // Corridors: the polygons from an agent to its target, kept while both move and tiles come and go (wasm/js_corridor.c).
 
-import { argumentError } from './error.js';
+import { wholeNumber } from './error.js';
 import { Handle, PRIVATE, refuseNew } from './handle.js';
 import { HALF_EXTENTS, PATH_STATUS, filterFlag, locate, putLocation, readCorners, readLocation, refsAt } from './nav_query.js';
 import { F64, SLOT, TL_ERR_MEMORY, TL_INCOMPLETE, U64, check, fail, ready, slotVec3, wasm } from './module.js';
-
-function wholeNumber(name, value, least, most) {
-  if (!Number.isInteger(value) || value < least || value > most) throw argumentError(name, `give a whole number from ${least} to ${most}`);
-  return value;
-}
 
 const readSearch = () => ({ status: PATH_STATUS[F64[SLOT]], cost: F64[SLOT + 1], nodeCount: F64[SLOT + 2] });
 
@@ -35,9 +30,11 @@ export class Corridor extends Handle {
     return corridor;
   }
 
-  #call(name, options, ...args) {
-    const corridor = this._address, navmesh = this.#navmesh._address, flags = filterFlag(options.filter);
-    return check(wasm[name](corridor, navmesh, flags, ...args));
+  /** Calls with the navmesh, a filter, and a place in the slot where one is given. */
+  #call(name, { filter }, args = [], place = null) {
+    const corridor = this._address, navmesh = this.#navmesh._address, flags = filterFlag(filter);
+    if (place !== null) putLocation(0, place);
+    return wasm[name](corridor, navmesh, flags, ...args);
   }
 
   /** Writes the corridor's state into the slot. */
@@ -81,9 +78,7 @@ export class Corridor extends Handle {
   find(goal, options = {}) {
     const location = locate(this.#navmesh, goal, options);
     if (location === null) return null;
-    const corridor = this._address, navmesh = this.#navmesh._address, flags = filterFlag(options.filter);
-    putLocation(0, location);
-    check(wasm.js_corridor_find(corridor, navmesh, flags));
+    check(this.#call('js_corridor_find', options, [], location));
     return readSearch();
   }
 
@@ -94,12 +89,12 @@ export class Corridor extends Handle {
   }
 
   move(to, options = {}) {
-    this.#call('js_corridor_move', options, 0, to[0], to[1], to[2]);
+    check(this.#call('js_corridor_move', options, [0, to[0], to[1], to[2]]));
     return this.position;
   }
 
   moveTarget(to, options = {}) {
-    this.#call('js_corridor_move', options, 1, to[0], to[1], to[2]);
+    check(this.#call('js_corridor_move', options, [1, to[0], to[1], to[2]]));
     return this.target;
   }
 
@@ -109,22 +104,21 @@ export class Corridor extends Handle {
   }
 
   shorten(range = 20, options = {}) {
-    this.#call('js_corridor_shorten', options, range);
+    check(this.#call('js_corridor_shorten', options, [range]));
     return F64[SLOT] !== 0;
   }
 
   improve({ ahead = 32, maxSteps = 256, ...options } = {}) {
-    this.#call('js_corridor_improve', options, wholeNumber('ahead', ahead, 0, 0xffffffff), wholeNumber('maxSteps', maxSteps, 0, 0xffffffff));
+    check(this.#call('js_corridor_improve', options, [wholeNumber('ahead', ahead), wholeNumber('maxSteps', maxSteps)]));
     return F64[SLOT] !== 0;
   }
 
   validCount(maxCount = 0xffffffff, options = {}) {
-    const corridor = this._address, navmesh = this.#navmesh._address, flags = filterFlag(options.filter);
-    return wasm.js_corridor_check(corridor, navmesh, flags, wholeNumber('maxCount', maxCount, 0, 0xffffffff)) >>> 0;
+    return this.#call('js_corridor_check', options, [wholeNumber('maxCount', maxCount)]) >>> 0;
   }
 
   repair(options = {}) {
     const h = options.halfExtents ?? HALF_EXTENTS;
-    return this.#call('js_corridor_repair', options, h[0], h[1], h[2]) === 0 ? readSearch() : null;
+    return check(this.#call('js_corridor_repair', options, [h[0], h[1], h[2]])) === 0 ? readSearch() : null;
   }
 }

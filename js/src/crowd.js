@@ -3,7 +3,7 @@
 // Crowds: agents that walk a navmesh, avoid one another, and follow a leader in groups. wasm/js_nav_crowd.c has the order
 // of numbers in the slot.
 
-import { argumentError } from './error.js';
+import { argumentError, wholeNumber } from './error.js';
 import { Handle, PRIVATE, refuseNew } from './handle.js';
 import { filterFlag, locate, putLocation } from './nav_query.js';
 import { shortest } from './nav_options.js';
@@ -25,8 +25,7 @@ function putNumber(at, name, value) {
 
 function putCount(at, name, value) {
   if (value === undefined) return;
-  if (!Number.isInteger(value) || value < 0 || value > 0xffffffff) throw argumentError(name, 'give a whole number >= 0');
-  F64[SLOT + at] = value;
+  F64[SLOT + at] = wholeNumber(name, value);
 }
 
 function putCrowd(options) {

@@ -30,6 +30,12 @@ export function resultError(name, text, report) {
   return new TalusError(name, message, { ...report, field, advice });
 }
 
+/** The value, or an error where it is no whole number between two. */
+export function wholeNumber(name, value, least = 0, most = 0xffffffff) {
+  if (Number.isInteger(value) && value >= least && value <= most) return value;
+  throw argumentError(name, most === 0xffffffff ? `give a whole number >= ${least}` : `give a whole number from ${least} to ${most}`);
+}
+
 export function argumentError(field, advice) {
   return new TalusError('TL_ERR_ARGUMENT', `an argument is wrong (TL_ERR_ARGUMENT), ${field}: ${advice}`, { field, advice });
 }

@@ -2,7 +2,7 @@
 //
 // Options of a navmesh: in the slot in the order of tl_js_nav_def (wasm/js_mesh.c).
 
-import { argumentError } from './error.js';
+import { argumentError, wholeNumber } from './error.js';
 import { F64, SLOT, check, putAabb, ready, slotAabb, wasm } from './module.js';
 
 const NUMBERS = ['cellSize', 'cellHeight', 'agentHeight', 'agentRadius', 'agentMaxClimb', 'agentMaxSlope', 'regionMinSize',
@@ -52,18 +52,13 @@ function number(name, value) {
   return value;
 }
 
-function count(name, value) {
-  if (!Number.isInteger(value) || value < 0 || value > 0xffffffff) throw argumentError(name, 'give a whole number >= 0');
-  return value;
-}
-
 /** Writes options; those that are left out or undefined are the defaults. */
 export function putNavOptions(at, options = {}) {
   const all = defaultNavOptions();
   for (const name of NAMES) if (options[name] !== undefined) all[name] = options[name];
   let s = SLOT + at;
   for (const name of NUMBERS) F64[s++] = number(name, all[name]);
-  for (const name of COUNTS) F64[s++] = count(name, all[name]);
+  for (const name of COUNTS) F64[s++] = wholeNumber(name, all[name]);
   for (const [name, words] of Object.entries(WORDS)) {
     const word = words.indexOf(all[name]);
     if (word < 0) throw argumentError(name, `one of ${words.join(', ')}`);
