@@ -394,7 +394,7 @@ static void link_even_columns(const tl_nav_compact *compact, const uint8_t *link
 // The next of `count` columns from `at` on that is not done; `count` when all are.
 static uint32_t next_open_column(const uint8_t *is_done, uint32_t count, uint32_t at)
 {
-    const uint8_t *open = memchr(is_done + at, 0, count - at);
+    const uint8_t *open = (const uint8_t *)memchr(is_done + at, 0, count - at);
     return open != NULL ? (uint32_t)(open - is_done) : count;
 }
 

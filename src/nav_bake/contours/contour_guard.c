@@ -30,7 +30,7 @@ uint32_t tl_contours_guard_steps(const tl_nav_config *config)
 // The next floor from `at` on that was taken away; span_count: none.
 static uint32_t next_taken(const tl_nav_compact *compact, uint32_t at)
 {
-    const uint8_t *taken = memchr(compact->taken + at, 1, compact->span_count - at);
+    const uint8_t *taken = (const uint8_t *)memchr(compact->taken + at, 1, compact->span_count - at);
     return taken != NULL ? (uint32_t)(taken - compact->taken) : compact->span_count;
 }
 
