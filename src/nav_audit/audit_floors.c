@@ -112,6 +112,17 @@ static bool is_missing(const tl_audit_job *job, const floor_job *floors, tl_vec3
            tl_audit_is_certain(job, window, point);
 }
 
+// Whether so many columns of floor can lead to navmesh at all: in the middle of what is missing, none is so near.
+static bool is_near_navmesh(const tl_audit_job *job, tl_vec3 point, uint32_t columns, float slack)
+{
+    const tl_nav_config *config = &job->scene.config;
+    const float steps = (float)(columns + 1), side = config->cell_size * steps;
+    const float height = slack + config->cell_height * (float)config->walkable_climb * steps;
+    tl_nav_location location;
+    return job->scene.navmesh != NULL && tl_navmesh_find_nearest(job->scene.navmesh, NULL, point,
+                                                                 tl_vec3_make(side, height, side), &location) == TL_OK;
+}
+
 // The polygon to which columns of certain floor lead straight from a missing place, or TL_NAV_NO_REF.
 static tl_nav_ref find_polygon_beside(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
 {
@@ -121,7 +132,10 @@ static tl_nav_ref find_polygon_beside(const tl_audit_job *job, const floor_job *
     const uint32_t columns = (uint32_t)ceilf(floors->cut / config->cell_size) + COLUMNS_TO_NAVMESH;
     // Not of another storey.
     const tl_vec3 right_there = { 0.0f, tl_minf(floors->slack, 0.5f * config->agent_height), 0.0f };
-    for (int d = 0; d < 4 && job->scene.navmesh != NULL; d++) {
+    if (!is_near_navmesh(job, point, columns, right_there.y)) {
+        return TL_NAV_NO_REF;
+    }
+    for (int d = 0; d < 4; d++) {
         tl_vec3 at = point;
         bool goes_on = true;
         for (uint32_t i = 0; i < columns && goes_on; i++) {
