@@ -63,7 +63,7 @@ static void test_shards_and_threads(void **state)
 {
     (void)state;
     static const int counts[] = { 1, 3, 7 };
-    cli_do(0, "sample world -n 50000 -o land");
+    cli_do(0, "sample world -n 20000 -o land");
     for (int c = 0; c < 3; c++) {
         char line[256];
         double tiles = 0, planned;

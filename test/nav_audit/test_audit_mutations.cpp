@@ -202,8 +202,9 @@ void try_removals(mutated_level *l, const tl_soup *soup, test_random *random, ta
     for (uint32_t i = 0; i < l->tiles.tile_count; i++) {
         polygons += l->tiles.tiles[i]->polygon_count;
     }
-    const uint32_t at_once = polygons / 8 + 1;
-    while (done < changes_per_level) {
+    // Each round is an audit of the whole level.
+    const uint32_t at_once = polygons / 6 + 1, rounds = changes_per_level / 10;
+    for (uint32_t round = 0; done < changes_per_level && round < rounds; round++) {
         std::vector<tl_nav_tile *> tiles;
         remove_some(l, random, at_once, &tiles);
         tl_navmesh *navmesh = assemble(tiles);

@@ -187,7 +187,7 @@ void ask_level(const level &source, tally *t)
 void test_points(void **)
 {
     tally t = {};
-    for (const level &l : all_levels(4000, { "nav_test", "dungeon", "house", "office" })) {
+    for (const level &l : all_levels(1500, { "nav_test", "dungeon", "house", "office" })) {
         const tally before = t;
         ask_level(l, &t);
         std::printf("%-18s %u points, %u walkable, %u proven, %u smaller changes tried\n", l.name.c_str(),

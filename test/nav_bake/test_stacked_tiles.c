@@ -12,7 +12,7 @@
 #include <talus/nav_prepare.h>
 #include <talus/nav_wide.h>
 
-enum { MAX_LINKS = 256, PAIRS = 60 };
+enum { MAX_LINKS = 256, PAIRS = 40 };
 
 // ---------------------------------------------------------------------------------------------------------
 // Two navmeshes and which polygon of the one is which of the other.

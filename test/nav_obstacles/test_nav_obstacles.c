@@ -142,7 +142,11 @@ static void test_marks(void **state)
             double z = (double)def.bounds.min.z + ((double)(column / compact->width) + 0.5) * (double)def.cell_size;
             bool beside = x < (double)bounds.min.x || x > (double)bounds.max.x || z < (double)bounds.min.z ||
                           z > (double)bounds.max.z;
-            double distance = beside && !body ? 1e9 : outline_distance(&o, x, z);
+            // Most columns lie far away; in some rounds they are asked all the same.
+            bool far = x < (double)bounds.min.x - 1.0 || x > (double)bounds.max.x + 1.0 ||
+                       z < (double)bounds.min.z - 1.0 || z > (double)bounds.max.z + 1.0;
+            bool skip = body ? far && round % 16 != 0 : beside;
+            double distance = skip ? 1e9 : outline_distance(&o, x, z);
             if (body && distance >= grow && distance < grow + 0.75 * (double)def.cell_size) {
                 distance = square_distance(&o, x, z, (double)def.cell_size, distance);
             } else if (body && distance >= grow) {

@@ -257,7 +257,7 @@ struct comparison {
     }
 };
 
-enum { PAIRS = 10000 };
+enum { PAIRS = 4000 };
 
 void paths_agree(void **)
 {
@@ -305,7 +305,7 @@ void paths_agree(void **)
             unreachable += own_bake.pairs - own_bake.complete;
         }
     }
-    TEST_CHECK(!wanted_files.empty() || (complete > 40000 && unreachable > 10000));
+    TEST_CHECK(!wanted_files.empty() || (complete > 16000 && unreachable > 4000));
 }
 
 // Pairs with the answers of a newer Detour on its own bake, as text: a header, then a line a pair, start and end in the

@@ -233,7 +233,7 @@ static void test_progress_is_called_often(void **state)
         for (uint32_t shuffled = 0; shuffled < 2; shuffled++) {
             uint32_t calls[2];
             for (uint32_t size = 0; size < 2; size++) {
-                model m = model_terrain(size == 0 ? 128 : 512, 3, tl_vec3_make(0, 0, 0), 9);
+                model m = model_terrain(size == 0 ? 96 : 288, 3, tl_vec3_make(0, 0, 0), 9);
                 if (shuffled) {
                     shuffle_triangles(&m);
                 }
