@@ -259,7 +259,8 @@ static void test_cases(void **state)
     }
 }
 
-// Every allocation that fails, every byte of a file that is one of two or three others, and every length: an error or a sound mesh.
+// Every allocation that fails, every byte of a file that is one of two or three others, and every length: an error or a
+// sound mesh.
 static void test_damage(void **state)
 {
     (void)state;

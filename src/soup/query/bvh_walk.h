@@ -10,12 +10,16 @@
 //              compute a key a lane and the mask of lanes to enter; tl_walk_enter(&walk, &boxes, mask, keys); }
 //   }
 //
-// Boxes are plain floats in arrays over the lanes, so that a compiler vectorizes a query's loop over sixteen lanes
-// without an instruction set of its own: unlike rays, these queries spend their time in leaves.
+// Boxes are plain floats in arrays over the lanes, read where they lie in the node, so that a compiler vectorizes a
+// query's loop over sixteen lanes without an instruction set of its own: unlike rays, these queries spend their time in
+// leaves. Where a loop is vectorized, let it write a byte a lane, of which tl_walk_mask makes bits. Where it is not,
+// shift the bits together: eight bytes that were stored one by one are slow to read at once.
 
 #ifndef TALUS_SRC_SOUP_BVH_WALK_H
 #define TALUS_SRC_SOUP_BVH_WALK_H
 
+#include "base/byte_order.h"
+#include "base/lowest_bit.h"
 #include "math/tolerance.h"
 #include "soup/layout/compact_layout.h"
 
@@ -30,11 +34,38 @@ enum {
 
 /// The children of a node.
 typedef struct tl_walk_boxes {
-    float min[3][TL_WALK_WIDTH]; ///< of a lane without a child INFINITY
-    float max[3][TL_WALK_WIDTH]; ///< of a lane without a child -INFINITY
-    uint32_t mask;               ///< bit i: lane i has a child
-    uint32_t child[TL_WALK_WIDTH];
+    const float *planes;   ///< in the node, or in `expanded`; see tl_walk_min, tl_walk_max
+    const uint32_t *child; ///< words, one a lane
+    uint32_t mask;         ///< bit i: lane i has a child
+    float expanded[6 * TL_WALK_WIDTH];
 } tl_walk_boxes;
+
+/// The low sides of the boxes along an axis, one a lane; of a lane without a child INFINITY.
+static inline const float *tl_walk_min(const tl_walk_boxes *boxes, uint32_t axis)
+{
+    return boxes->planes + 2 * (size_t)axis * TL_WALK_WIDTH;
+}
+
+/// The high sides; of a lane without a child -INFINITY.
+static inline const float *tl_walk_max(const tl_walk_boxes *boxes, uint32_t axis)
+{
+    return boxes->planes + (2 * (size_t)axis + 1) * TL_WALK_WIDTH;
+}
+
+/// Bit i is lanes[i], which is 0 or 1, of eight: each product with a power of two moves one byte's bit to its place in
+/// the highest byte, and no two of them meet.
+static inline uint32_t tl_walk_mask8(const uint8_t lanes[8])
+{
+    const uint64_t gather = TL_BIG_ENDIAN ? 0x8040201008040201u : 0x0102040810204080u;
+    uint64_t bytes;
+    memcpy(&bytes, lanes, sizeof bytes);
+    return (uint32_t)(bytes * gather >> 56);
+}
+
+static inline uint32_t tl_walk_mask(const uint8_t lanes[TL_WALK_WIDTH])
+{
+    return tl_walk_mask8(lanes) | tl_walk_mask8(lanes + 8) << 8;
+}
 
 typedef struct tl_walk {
     const tl_soup *soup;
@@ -74,15 +105,15 @@ static inline bool tl_walk_next(tl_walk *walk, float limit, uint32_t *child_out)
 
 static inline void tl_walk_read_compact_boxes(const tl_compact_node *node, tl_walk_boxes *boxes)
 {
-    for (uint32_t axis = 0; axis < 3; axis++) {
+    for (uint32_t row = 0; row < 6; row++) {
+        const float none = row % 2 == 0 ? INFINITY : -INFINITY;
         for (uint32_t lane = 0; lane < TL_WALK_WIDTH; lane++) {
-            bool is_child = (node->mask >> lane & 1u) != 0;
-            boxes->min[axis][lane] = is_child ? tl_compact_plane(node, axis, node->plane[2 * axis][lane]) : INFINITY;
-            boxes->max[axis][lane] =
-                is_child ? tl_compact_plane(node, axis, node->plane[2 * axis + 1][lane]) : -INFINITY;
+            const float plane = tl_compact_plane(node, row / 2, node->plane[row][lane]);
+            boxes->expanded[row * TL_WALK_WIDTH + lane] = node->child[lane] != 0 ? plane : none;
         }
     }
-    memcpy(boxes->child, node->child, sizeof boxes->child);
+    boxes->planes = boxes->expanded;
+    boxes->child = node->child;
     boxes->mask = node->mask;
 }
 
@@ -94,36 +125,40 @@ static inline void tl_walk_read_boxes(const tl_walk *walk, uint32_t node_index, 
         return;
     }
     const tl_soup_node *node = &tl_soup_nodes(walk->soup)[node_index];
-    for (uint32_t axis = 0; axis < 3; axis++) {
-        memcpy(boxes->min[axis], node->plane[2 * axis], sizeof boxes->min[axis]);
-        memcpy(boxes->max[axis], node->plane[2 * axis + 1], sizeof boxes->max[axis]);
-    }
+    boxes->planes = node->plane[0];
+    boxes->child = node->child;
     boxes->mask = 0;
     for (uint32_t lane = 0; lane < TL_WALK_WIDTH; lane++) {
-        boxes->child[lane] = node->child[lane];
         boxes->mask |= (uint32_t)(node->child[lane] != 0) << lane;
     }
 }
 
 static inline tl_aabb tl_walk_box(const tl_walk_boxes *boxes, uint32_t lane)
 {
-    tl_aabb box = { { boxes->min[0][lane], boxes->min[1][lane], boxes->min[2][lane] },
-                    { boxes->max[0][lane], boxes->max[1][lane], boxes->max[2][lane] } };
+    tl_aabb box = { { tl_walk_min(boxes, 0)[lane], tl_walk_min(boxes, 1)[lane], tl_walk_min(boxes, 2)[lane] },
+                    { tl_walk_max(boxes, 0)[lane], tl_walk_max(boxes, 1)[lane], tl_walk_max(boxes, 2)[lane] } };
     return box;
 }
 
-/// Pushes the children in `mask`, the one with the smallest key (>= 0) on top; of equal keys, and when
-/// `keys` is NULL, the lowest lane.
+/// Pushes the children in `mask`, the lowest lane on top.
+static inline void tl_walk_enter_all(tl_walk *walk, const tl_walk_boxes *boxes, uint32_t mask)
+{
+    for (uint32_t left = mask & boxes->mask; left != 0;) {
+        const uint32_t lane = tl_highest_bit(left);
+        left ^= 1u << lane;
+        walk->entries[walk->count++] = boxes->child[lane];
+    }
+}
+
+/// Pushes the children in `mask`, the one with the smallest key (>= 0) on top; of equal keys the lowest lane.
 static inline void tl_walk_enter(tl_walk *walk, const tl_walk_boxes *boxes, uint32_t mask, const float *keys)
 {
     uint64_t *base = walk->entries + walk->count;
     uint32_t count = 0;
     for (uint32_t lane = TL_WALK_WIDTH; lane-- > 0;) {
         if ((mask & boxes->mask) >> lane & 1u) {
-            uint32_t bits = 0;
-            if (keys != NULL) {
-                memcpy(&bits, &keys[lane], sizeof bits);
-            }
+            uint32_t bits;
+            memcpy(&bits, &keys[lane], sizeof bits);
             uint64_t entry = (uint64_t)bits << 32 | boxes->child[lane];
             uint32_t place = count++;
             for (; place > 0 && base[place - 1] >> 32 < bits; place--) {
@@ -171,6 +206,31 @@ static inline bool tl_walk_read_triangle(const tl_walk_leaf *leaf, uint32_t lane
     triangle->leaf = leaf;
     triangle->lane = lane;
     return true;
+}
+
+/// Bit i: the own box of the triangle of lane i shares a point with `box`; of lanes without a triangle unspecified.
+static inline uint32_t tl_walk_lanes_in_box(const tl_walk_leaf *leaf, tl_aabb box)
+{
+    const uint32_t n = leaf->view.pair_count;
+    const float low[3] = { box.min.x, box.min.y, box.min.z }, high[3] = { box.max.x, box.max.y, box.max.z };
+    float gap[2 * TL_SOUP_LEAF_PAIRS] = { 0.0f }; // above 0: they are apart along an axis, and the difference is not 0
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        // Behind a short leaf's arrays there is something to read, which `in` leaves out.
+        const float *a = leaf->view.floats + 4 * (size_t)axis * n, *c = a + n, *b = c + n, *d = b + n;
+        for (uint32_t i = 0; i < TL_SOUP_LEAF_PAIRS; i++) {
+            const float min = tl_minf(a[i], c[i]), max = tl_maxf(a[i], c[i]);
+            const float first = tl_maxf(tl_minf(min, b[i]) - high[axis], low[axis] - tl_maxf(max, b[i]));
+            const float second = tl_maxf(tl_minf(min, d[i]) - high[axis], low[axis] - tl_maxf(max, d[i]));
+            gap[i] = tl_maxf(gap[i], first);
+            gap[TL_SOUP_LEAF_PAIRS + i] = tl_maxf(gap[TL_SOUP_LEAF_PAIRS + i], second);
+        }
+    }
+    uint8_t in[2 * TL_SOUP_LEAF_PAIRS];
+    for (uint32_t i = 0; i < 2 * TL_SOUP_LEAF_PAIRS; i++) {
+        in[i] = (uint8_t)((gap[i] <= 0.0f) & (i % TL_SOUP_LEAF_PAIRS < n));
+    }
+    const uint32_t mask = tl_walk_mask8(in);
+    return (mask & ((1u << TL_SOUP_LEAF_PAIRS) - 1u)) | mask >> TL_SOUP_LEAF_PAIRS << n;
 }
 
 static inline tl_aabb tl_walk_triangle_box(const tl_walk_triangle *triangle)

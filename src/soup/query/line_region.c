@@ -42,10 +42,10 @@ uint32_t tl_region_enter_line(const tl_walk_boxes *boxes, const void *line_regio
         enter[i] = 0.0;
         leave[i] = line->end;
     }
-    for (int axis = 0; axis < 3; axis++) {
+    for (uint32_t axis = 0; axis < 3; axis++) {
         double inverse = line->inverse[axis], origin = line->origin[axis];
-        const float *near_planes = inverse >= 0.0 ? boxes->min[axis] : boxes->max[axis];
-        const float *far_planes = inverse >= 0.0 ? boxes->max[axis] : boxes->min[axis];
+        const float *near_planes = inverse >= 0.0 ? tl_walk_min(boxes, axis) : tl_walk_max(boxes, axis);
+        const float *far_planes = inverse >= 0.0 ? tl_walk_max(boxes, axis) : tl_walk_min(boxes, axis);
         for (uint32_t i = 0; inverse != 0.0 && i < TL_WALK_WIDTH; i++) {
             double from = ((double)near_planes[i] - origin) * inverse, to = ((double)far_planes[i] - origin) * inverse;
             enter[i] = from > enter[i] ? from : enter[i];

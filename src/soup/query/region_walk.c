@@ -25,18 +25,22 @@ typedef struct seen_triangles {
     uint32_t slots[SEEN_SLOTS]; // index + 1; 0: free
 } seen_triangles;
 
-uint32_t tl_region_enter_box(const tl_walk_boxes *boxes, const void *region)
+// Lanes whose boxes share a point with `box`.
+static uint32_t enter_box(const tl_walk_boxes *boxes, tl_aabb box)
 {
-    const tl_aabb *box = region;
-    uint32_t mask = 0;
-    for (uint32_t lane = 0; lane < TL_WALK_WIDTH; lane++) {
-        uint32_t overlaps =
-            (uint32_t)(boxes->min[0][lane] <= box->max.x) & (uint32_t)(boxes->max[0][lane] >= box->min.x) &
-            (uint32_t)(boxes->min[1][lane] <= box->max.y) & (uint32_t)(boxes->max[1][lane] >= box->min.y) &
-            (uint32_t)(boxes->min[2][lane] <= box->max.z) & (uint32_t)(boxes->max[2][lane] >= box->min.z);
-        mask |= overlaps << lane;
+    const float *min_x = tl_walk_min(boxes, 0), *min_y = tl_walk_min(boxes, 1), *min_z = tl_walk_min(boxes, 2);
+    const float *max_x = tl_walk_max(boxes, 0), *max_y = tl_walk_max(boxes, 1), *max_z = tl_walk_max(boxes, 2);
+    uint8_t overlaps[TL_WALK_WIDTH];
+    for (uint32_t i = 0; i < TL_WALK_WIDTH; i++) {
+        overlaps[i] = (uint8_t)((min_x[i] <= box.max.x) & (max_x[i] >= box.min.x) & (min_y[i] <= box.max.y) &
+                                (max_y[i] >= box.min.y) & (min_z[i] <= box.max.z) & (max_z[i] >= box.min.z));
     }
-    return mask;
+    return tl_walk_mask(overlaps);
+}
+
+static uint32_t enter_region(const tl_walk_boxes *boxes, const tl_region *region)
+{
+    return region->box != NULL ? enter_box(boxes, *region->box) : region->enter(boxes, region->region);
 }
 
 static bool leaf_has(const tl_soup *soup, uint32_t child, uint32_t triangle)
@@ -62,8 +66,8 @@ static TL_NOINLINE bool is_first_copy(const tl_soup *soup, const tl_region *regi
         if (!tl_walk_is_leaf(child)) {
             tl_walk_boxes boxes;
             tl_walk_read_boxes(&walk, child, &boxes);
-            uint32_t mask = tl_region_enter_box(&boxes, &own) & region->enter(&boxes, region->region);
-            tl_walk_enter(&walk, &boxes, mask, NULL);
+            uint32_t mask = enter_box(&boxes, own) & enter_region(&boxes, region);
+            tl_walk_enter_all(&walk, &boxes, mask);
         } else if (child < first && leaf_has(soup, child, triangle->triangle)) {
             first = child;
         }
@@ -95,9 +99,12 @@ static bool report_leaf(const tl_soup *soup, const tl_region *region, uint32_t c
 {
     tl_walk_leaf leaf;
     tl_walk_open_leaf(soup, child, &leaf);
-    tl_walk_triangle triangle;
-    for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
-        if (tl_walk_read_triangle(&leaf, lane, &triangle) && region->belongs(&triangle, region->user) &&
+    const uint32_t all = (1u << leaf.lane_count) - 1u;
+    uint32_t lanes = region->box != NULL ? tl_walk_lanes_in_box(&leaf, *region->box) : all;
+    for (; lanes != 0; lanes &= lanes - 1) {
+        tl_walk_triangle triangle;
+        if (tl_walk_read_triangle(&leaf, tl_lowest_bit(lanes), &triangle) &&
+            (region->belongs == NULL || region->belongs(&triangle, region->user)) &&
             is_new(soup, region, &triangle, seen) && !region->found(&triangle, region->user)) {
             return false;
         }
@@ -118,7 +125,7 @@ bool tl_region_walk(const tl_soup *soup, const tl_region *region)
         if (!tl_walk_is_leaf(child)) {
             tl_walk_boxes boxes;
             tl_walk_read_boxes(&walk, child, &boxes);
-            tl_walk_enter(&walk, &boxes, region->enter(&boxes, region->region), NULL);
+            tl_walk_enter_all(&walk, &boxes, enter_region(&boxes, region));
         } else if (!report_leaf(soup, region, child, seen)) {
             return false;
         }

@@ -17,17 +17,17 @@ typedef bool tl_region_belongs_fn(const tl_walk_triangle *triangle, void *user);
 typedef bool tl_region_found_fn(const tl_walk_triangle *triangle, void *user);
 
 typedef struct tl_region {
+    /// The region is a box: only triangles whose own boxes share a point with it are asked about. NULL: `enter` tells.
+    const tl_aabb *box;
     tl_region_enter_fn *enter;
-    const void *region;
-    tl_region_belongs_fn *belongs; ///< geometry alone decides: the same answer for each copy of a triangle
+    const void *region; ///< for `enter`
+    /// NULL: all belong. Geometry alone decides: the same answer for each copy of a triangle.
+    tl_region_belongs_fn *belongs;
     tl_region_found_fn *found;
     void *user;
 } tl_region;
 
 /// Returns false when `found` ended the walk. The order is not specified, but always the same.
 bool tl_region_walk(const tl_soup *soup, const tl_region *region);
-
-/// Lanes whose boxes share a point with `box`.
-uint32_t tl_region_enter_box(const tl_walk_boxes *boxes, const void *box);
 
 #endif

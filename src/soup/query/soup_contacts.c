@@ -122,7 +122,7 @@ static bool stands_out(const contact_walk *w, const tl_walk_triangle *triangle, 
     t.box.min = t.box.max = t.point;
     t.box = grown_box(t.box, t.gap);
     t.rises = false;
-    tl_region region = { tl_region_enter_box, &t.box, look_at_neighbour, go_on, &t };
+    tl_region region = { .box = &t.box, .belongs = look_at_neighbour, .found = go_on, .user = &t };
     tl_region_walk(w->soup, &region);
     return !t.rises;
 }
@@ -137,10 +137,10 @@ static tl_vec3d face_normal_to(const tl_walk_triangle *triangle, tl_vec3 middle)
     return tl_vec3d_scale(n, length > 0.0 ? (side < 0.0 ? -1.0 : 1.0) / length : 0.0);
 }
 
-static bool touches_contact_box(const tl_walk_triangle *triangle, void *user)
+static bool is_wanted(const tl_walk_triangle *triangle, void *user)
 {
     const contact_walk *w = user;
-    return tl_aabb_overlaps(tl_walk_triangle_box(triangle), w->box) && is_accepted(w, triangle);
+    return is_accepted(w, triangle);
 }
 
 static bool add_triangle(const tl_walk_triangle *triangle, void *user)
@@ -189,7 +189,7 @@ tl_result tl_soup_find_contacts(const tl_soup *soup, const tl_soup_contact_query
     contact_walk w = { .soup = soup, .query = query, .contacts = contacts_out, .capacity = capacity };
     TL_TRY(tl_query_shape_make(query->shape, query->pose, &w.shape));
     w.box = grown_box(w.shape.bounds, tl_maxf(query->limits.margin, 0.0f));
-    tl_region region = { tl_region_enter_box, &w.box, touches_contact_box, add_triangle, &w };
+    tl_region region = { .box = &w.box, .belongs = is_wanted, .found = add_triangle, .user = &w };
     tl_region_walk(soup, &region);
     *count_out = w.count;
     return w.count <= capacity ? TL_OK : TL_INCOMPLETE;

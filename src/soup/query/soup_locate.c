@@ -98,7 +98,9 @@ static crossings count_crossings(const tl_soup *soup, tl_vec3 point, tl_vec3 dir
         tl_ray ray = { point, direction, INFINITY };
         tl_line_region line;
         tl_line_region_make(&ray, &line);
-        tl_region region = { tl_region_enter_line, &line, is_crossed, count_crossing, &c };
+        tl_region region = {
+            .enter = tl_region_enter_line, .region = &line, .belongs = is_crossed, .found = count_crossing, .user = &c
+        };
         tl_region_walk(soup, &region);
     }
     return c.found;
@@ -129,7 +131,7 @@ tl_result tl_soup_locate(const tl_soup *soup, tl_vec3 point, tl_soup_location *l
     tl_soup_location place = { TL_SOUP_OUTSIDE, 0, TL_NO_TRIANGLE };
     surface_touch t = { point, TL_NO_TRIANGLE };
     tl_aabb at = { point, point };
-    tl_region region = { tl_region_enter_box, &at, holds_point, keep_lowest, &t };
+    tl_region region = { .box = &at, .belongs = holds_point, .found = keep_lowest, .user = &t };
     tl_region_walk(soup, &region);
     if (t.triangle != TL_NO_TRIANGLE) {
         place.side = TL_SOUP_ON_SURFACE;

@@ -29,11 +29,11 @@ typedef struct soup_nearest_search {
 } soup_nearest_search;
 
 // A lower bound of the squared distance to a box.
-static float box_key(tl_vec3 at, float min_x, float max_x, float min_y, float max_y, float min_z, float max_z)
+static float box_key(tl_vec3 at, tl_aabb box)
 {
-    float x = tl_maxf(tl_maxf(min_x - at.x, at.x - max_x), 0.0f);
-    float y = tl_maxf(tl_maxf(min_y - at.y, at.y - max_y), 0.0f);
-    float z = tl_maxf(tl_maxf(min_z - at.z, at.z - max_z), 0.0f);
+    float x = tl_maxf(tl_maxf(box.min.x - at.x, at.x - box.max.x), 0.0f);
+    float y = tl_maxf(tl_maxf(box.min.y - at.y, at.y - box.max.y), 0.0f);
+    float z = tl_maxf(tl_maxf(box.min.z - at.z, at.z - box.max.z), 0.0f);
     return (x * x + y * y + z * z) * BOX_KEY_SHRINK;
 }
 
@@ -44,8 +44,7 @@ static void enter_nearest_node(const soup_nearest_search *s, tl_walk *walk, uint
     float keys[TL_WALK_WIDTH];
     uint32_t mask = 0;
     for (uint32_t i = 0; i < TL_WALK_WIDTH; i++) {
-        keys[i] = box_key(s->at, boxes.min[0][i], boxes.max[0][i], boxes.min[1][i], boxes.max[1][i], boxes.min[2][i],
-                          boxes.max[2][i]);
+        keys[i] = box_key(s->at, tl_walk_box(&boxes, i));
     }
     for (uint32_t i = 0; i < TL_WALK_WIDTH; i++) {
         mask |= (uint32_t)(keys[i] <= s->limit_key) << i;
@@ -75,7 +74,7 @@ static void visit_nearest_leaf(soup_nearest_search *s, uint32_t child)
             continue;
         }
         tl_aabb own = tl_walk_triangle_box(&triangle);
-        if (box_key(s->at, own.min.x, own.max.x, own.min.y, own.max.y, own.min.z, own.max.z) > s->limit_key) {
+        if (box_key(s->at, own) > s->limit_key) {
             continue;
         }
         tl_triangle_point found;

@@ -18,8 +18,7 @@ typedef struct overlap_search {
 static bool is_touched(const tl_walk_triangle *triangle, void *user)
 {
     const overlap_search *s = user;
-    if (!tl_aabb_overlaps(tl_walk_triangle_box(triangle), s->shape->bounds) ||
-        !tl_query_shape_touches(s->shape, triangle->corners)) {
+    if (!tl_query_shape_touches(s->shape, triangle->corners)) {
         return false;
     }
     return s->filter == NULL || tl_ray_filter_accepts(s->soup, s->filter, triangle->triangle,
@@ -57,7 +56,7 @@ tl_result tl_soup_overlaps(const tl_soup *soup, const tl_convex *shape, tl_trans
     tl_query_shape query;
     TL_TRY(tl_query_shape_make(shape, pose, &query));
     overlap_search s = { soup, &query, filter, NULL, 0, 0 };
-    tl_region region = { tl_region_enter_box, &query.bounds, is_touched, stop_at_first, &s };
+    tl_region region = { .box = &query.bounds, .belongs = is_touched, .found = stop_at_first, .user = &s };
     *overlaps_out = !tl_region_walk(soup, &region);
     return TL_OK;
 }
@@ -76,7 +75,7 @@ tl_result tl_soup_find_overlaps(const tl_soup *soup, const tl_convex *shape, tl_
     tl_query_shape query;
     TL_TRY(tl_query_shape_make(shape, pose, &query));
     overlap_search s = { soup, &query, filter, triangles_out, capacity, 0 };
-    tl_region region = { tl_region_enter_box, &query.bounds, is_touched, add_overlap, &s };
+    tl_region region = { .box = &query.bounds, .belongs = is_touched, .found = add_overlap, .user = &s };
     tl_region_walk(soup, &region);
     *count_out = s.count;
     return s.count <= capacity ? TL_OK : TL_INCOMPLETE;

@@ -79,27 +79,43 @@ static inline void meet_axis(const sweep_search *s, int axis, float min, float m
     }
 }
 
-// A lower bound of the time at which the boxes meet; INFINITY when they do not.
+// A lower bound of the time at which boxes meet that are together between two times; INFINITY when they never are.
+static inline float meet_time(float enter, float leave)
+{
+    enter -= enter * TIME_ERROR;
+    const bool meets = (enter <= leave + TIME_ERROR * leave) & (leave >= 0.0f);
+    return meets ? enter : INFINITY;
+}
+
 static inline float meet_box(const sweep_search *s, const float min[3], const float max[3])
 {
     float enter = 0.0f, leave = 1.0f;
     for (int axis = 0; axis < 3; axis++) {
         meet_axis(s, axis, min[axis], max[axis], &enter, &leave);
     }
-    enter -= enter * TIME_ERROR;
-    return enter <= leave + TIME_ERROR * leave && leave >= 0.0f ? enter : INFINITY;
+    return meet_time(enter, leave);
 }
 
 static void enter_swept_node(const sweep_search *s, tl_walk *walk, uint32_t node)
 {
     tl_walk_boxes boxes;
     tl_walk_read_boxes(walk, node, &boxes);
-    float keys[TL_WALK_WIDTH];
+    float enter[TL_WALK_WIDTH], leave[TL_WALK_WIDTH], keys[TL_WALK_WIDTH];
+    for (uint32_t i = 0; i < TL_WALK_WIDTH; i++) {
+        enter[i] = 0.0f;
+        leave[i] = 1.0f;
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        const float *min = tl_walk_min(&boxes, (uint32_t)axis), *max = tl_walk_max(&boxes, (uint32_t)axis);
+        for (uint32_t i = 0; i < TL_WALK_WIDTH; i++) {
+            meet_axis(s, axis, min[i], max[i], &enter[i], &leave[i]);
+        }
+    }
+    for (uint32_t i = 0; i < TL_WALK_WIDTH; i++) {
+        keys[i] = meet_time(enter[i], leave[i]);
+    }
     uint32_t mask = 0;
     for (uint32_t i = 0; i < TL_WALK_WIDTH; i++) {
-        const float min[3] = { boxes.min[0][i], boxes.min[1][i], boxes.min[2][i] };
-        const float max[3] = { boxes.max[0][i], boxes.max[1][i], boxes.max[2][i] };
-        keys[i] = meet_box(s, min, max);
         mask |= (uint32_t)(keys[i] <= s->limit_key) << i;
     }
     tl_walk_enter(walk, &boxes, mask, keys);

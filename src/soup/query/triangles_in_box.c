@@ -7,16 +7,9 @@
 
 typedef struct box_search {
     const tl_soup *soup;
-    tl_aabb box;
     tl_soup_triangle_fn *found;
     void *user;
 } box_search;
-
-static bool belongs_to_box(const tl_walk_triangle *triangle, void *user)
-{
-    const box_search *search = user;
-    return tl_aabb_overlaps(tl_walk_triangle_box(triangle), search->box);
-}
 
 static bool report_triangle(const tl_walk_triangle *triangle, void *user)
 {
@@ -30,7 +23,7 @@ static bool report_triangle(const tl_walk_triangle *triangle, void *user)
 bool tl_soup_triangles_in_box(const tl_soup *soup, tl_aabb box, tl_soup_triangle_fn *found, void *user)
 {
     TL_ASSERT(soup != NULL && found != NULL);
-    box_search search = { soup, box, found, user };
-    tl_region region = { tl_region_enter_box, &search.box, belongs_to_box, report_triangle, &search };
+    box_search search = { soup, found, user };
+    tl_region region = { .box = &box, .found = report_triangle, .user = &search };
     return tl_region_walk(soup, &region);
 }
