@@ -26,7 +26,7 @@ typedef struct seen_triangles {
 } seen_triangles;
 
 // Lanes whose boxes share a point with `box`.
-static uint32_t enter_box(const tl_walk_boxes *boxes, tl_aabb box)
+static uint32_t lanes_meeting_box(const tl_walk_boxes *boxes, tl_aabb box)
 {
     const float *min_x = tl_walk_min(boxes, 0), *min_y = tl_walk_min(boxes, 1), *min_z = tl_walk_min(boxes, 2);
     const float *max_x = tl_walk_max(boxes, 0), *max_y = tl_walk_max(boxes, 1), *max_z = tl_walk_max(boxes, 2);
@@ -40,7 +40,7 @@ static uint32_t enter_box(const tl_walk_boxes *boxes, tl_aabb box)
 
 static uint32_t enter_region(const tl_walk_boxes *boxes, const tl_region *region)
 {
-    return region->box != NULL ? enter_box(boxes, *region->box) : region->enter(boxes, region->region);
+    return region->box != NULL ? lanes_meeting_box(boxes, *region->box) : region->enter(boxes, region->region);
 }
 
 static bool leaf_has(const tl_soup *soup, uint32_t child, uint32_t triangle)
@@ -66,7 +66,7 @@ static TL_NOINLINE bool is_first_copy(const tl_soup *soup, const tl_region *regi
         if (!tl_walk_is_leaf(child)) {
             tl_walk_boxes boxes;
             tl_walk_read_boxes(&walk, child, &boxes);
-            uint32_t mask = enter_box(&boxes, own) & enter_region(&boxes, region);
+            uint32_t mask = lanes_meeting_box(&boxes, own) & enter_region(&boxes, region);
             tl_walk_enter_all(&walk, &boxes, mask);
         } else if (child < first && leaf_has(soup, child, triangle->triangle)) {
             first = child;
