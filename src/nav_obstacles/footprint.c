@@ -341,12 +341,27 @@ tl_aabb tl_obstacle_box(const tl_nav_obstacle *obstacle, float agent_radius, flo
     return footprint_box(&foot);
 }
 
+static bool floor_may_be_marked(const footprint *foot, const tl_nav_compact *compact, uint32_t floor)
+{
+    return compact->area[floor] != TL_NAV_NULL_AREA && height_is_in(foot, tl_floor_height(compact, floor));
+}
+
+// Whether a column has a floor to be marked: asked first, as where obstacles stand close together, and on other
+// storeys, most have none.
+static bool column_may_be_marked(const footprint *foot, const tl_nav_compact *compact, uint32_t column)
+{
+    for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
+        if (floor_may_be_marked(foot, compact, i)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void mark_footprint_column(const footprint *foot, uint8_t area, uint32_t column, tl_nav_compact *compact)
 {
     for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
-        if (compact->area[i] != TL_NAV_NULL_AREA && height_is_in(foot, tl_floor_height(compact, i))) {
-            compact->area[i] = area;
-        }
+        compact->area[i] = floor_may_be_marked(foot, compact, i) ? area : compact->area[i];
     }
 }
 
@@ -363,10 +378,14 @@ void tl_obstacle_mark(const tl_nav_obstacle *obstacle, float agent_radius, float
     for (uint32_t z = window.first_z; z < window.end_z; z++) {
         const double center_z = tl_column_center_z(compact, z);
         for (uint32_t x = window.first_x; x < window.end_x; x++) {
+            const uint32_t column = z * compact->width + x;
+            if (!column_may_be_marked(&foot, compact, column)) {
+                continue;
+            }
             const double center_x = tl_column_center_x(compact, x);
             if (footprint_reaches(&foot, center_x, center_z) ||
                 (body && body_reaches_square(&foot, center_x, center_z, half))) {
-                mark_footprint_column(&foot, obstacle->area, z * compact->width + x, compact);
+                mark_footprint_column(&foot, obstacle->area, column, compact);
             }
         }
     }
