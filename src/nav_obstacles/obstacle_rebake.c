@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Tiles made again with what stands on them now, one by one as they wait. Most that an edit reaches need not be baked:
-// where it marks no other floors, or only floors of the border that the tile does not see, the tile has the bytes that
-// were handed out last.
+// Tiles made again with what stands on them now, one by one as they wait. Only the columns that edits have reached are
+// marked anew; the marks of the others are known. Most tiles that an edit reaches need not be baked: where it marks no
+// other floors, which is seen without unpacking the tile, or only floors of the border that the tile does not see, the
+// tile has the bytes that were handed out last.
 
 #include "nav_obstacles/obstacle_tiles.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "base/min_max.h"
 #include "nav_obstacles/footprint.h"
 
 #include <string.h>
@@ -18,13 +20,25 @@ static bool range_holds(const tl_nav_tile_range *range, uint32_t x, uint32_t z)
     return x >= range->x && x - range->x < range->count_x && z >= range->z && z - range->z < range->count_z;
 }
 
-// Marks all of one area, and finds the next higher area of those that touch the tile; OBSTACLE_NO_SLOT: none.
+// Whether a slot has an obstacle that touches the tile.
+static bool stands_on(const obstacle_slot *slot, uint32_t x, uint32_t z)
+{
+    return (slot->generation & 1u) != 0 && range_holds(&slot->range, x, z);
+}
+
+static bool reaches_columns(const tl_nav_compact *compact, const tl_aabb *box)
+{
+    const tl_obstacle_window window = tl_obstacle_window_make(compact, *box);
+    return !tl_obstacle_window_is_empty(&window);
+}
+
+// Marks all of one area, and finds the next higher area of those that reach the columns; OBSTACLE_NO_SLOT: none.
 static uint32_t mark_area(const tl_nav_obstacles *o, uint32_t x, uint32_t z, uint32_t area, tl_nav_compact *compact)
 {
     uint32_t next = OBSTACLE_NO_SLOT;
     for (uint32_t i = 0; i < o->slot_count; i++) {
         const obstacle_slot *slot = &o->slots[i];
-        if ((slot->generation & 1u) == 0 || !range_holds(&slot->range, x, z)) {
+        if (!stands_on(slot, x, z) || !reaches_columns(compact, &slot->box)) {
             continue;
         }
         if (slot->obstacle.area == area) {
@@ -56,7 +70,7 @@ static tl_result compare_borders(const tl_nav_obstacles *o, const tile_floors *t
     if (before == NULL) {
         return TL_ERR_MEMORY;
     }
-    tl_tile_marks_apply(&tile->marks, base_area, compact->span_count, before);
+    tl_tile_marks_apply(&tile->marks, base_area, 0, compact->span_count, before);
     const bool same = tl_nav_tile_keeps_bytes(config, compact, before);
     tl_release_array(&o->allocator, before, compact->span_count, sizeof *before);
     return same ? TL_NOT_FOUND : TL_OK;
@@ -84,6 +98,49 @@ static tl_result rebake_marked(tl_nav_obstacles *o, tile_floors *tile, tl_unpack
     return result;
 }
 
+// Makes a window hold another.
+static void widen_window(tl_obstacle_window *window, const tl_obstacle_window *other)
+{
+    window->first_x = tl_min_u32(window->first_x, other->first_x);
+    window->first_z = tl_min_u32(window->first_z, other->first_z);
+    window->end_x = tl_max_u32(window->end_x, other->end_x);
+    window->end_z = tl_max_u32(window->end_z, other->end_z);
+}
+
+static bool windows_overlap(const tl_obstacle_window *a, const tl_obstacle_window *b)
+{
+    return a->first_x < b->end_x && b->first_x < a->end_x && a->first_z < b->end_z && b->first_z < a->end_z;
+}
+
+// The columns in which marks may have changed since the tile was handed out. A shape at any pose finds the ends of a
+// row's marked columns by searching between those of its own window: it is there as a whole or not at all.
+static tl_obstacle_window changed_columns(const tl_nav_obstacles *o, const tile_floors *tile, uint32_t x, uint32_t z)
+{
+    const tl_nav_compact *frame = &tile->floors.frame;
+    tl_obstacle_window window = tl_obstacle_window_make(frame, tile->changed), before;
+    do {
+        before = window;
+        for (uint32_t i = 0; i < o->slot_count; i++) {
+            const obstacle_slot *slot = &o->slots[i];
+            if (slot->obstacle.shape == TL_NAV_OBSTACLE_CONVEX && stands_on(slot, x, z)) {
+                const tl_obstacle_window own = tl_obstacle_window_make(frame, slot->box);
+                if (windows_overlap(&window, &own)) {
+                    widen_window(&window, &own);
+                }
+            }
+        }
+    } while (memcmp(&before, &window, sizeof before) != 0);
+    return window;
+}
+
+// Marks the changed columns of a tile that is known. TL_NOT_FOUND: they are as they were handed out last.
+static tl_result mark_changed_columns(tl_nav_obstacles *o, const tile_floors *tile, uint32_t x, uint32_t z)
+{
+    TL_TRY(tl_floor_window_read(&o->window, &tile->floors, changed_columns(o, tile, x, z), &o->allocator));
+    mark_obstacles(o, x, z, &o->window.compact);
+    return tl_floor_window_holds(&o->window, &tile->marks) ? TL_NOT_FOUND : TL_OK;
+}
+
 // Makes a tile with what stands on it now; TL_NOT_FOUND: it is as it was handed out last.
 static tl_result rebake_with_obstacles(tl_nav_obstacles *o, tile_floors *tile, tl_nav_rebaked_tile *rebaked,
                                        tl_nav_bake_report *report)
@@ -92,12 +149,24 @@ static tl_result rebake_with_obstacles(tl_nav_obstacles *o, tile_floors *tile, t
     if (tile->floors.frame.span_count == 0) {
         return tile->is_known ? TL_NOT_FOUND : TL_OK;
     }
-    const uint32_t index = (uint32_t)(tile - o->tiles);
+    const uint32_t index = (uint32_t)(tile - o->tiles), x = (uint32_t)rebaked->tile_x, z = (uint32_t)rebaked->tile_z;
+    const bool only_changed = tile->is_known && !tile->all_changed;
+    if (only_changed) {
+        const tl_result marked = mark_changed_columns(o, tile, x, z);
+        if (marked != TL_OK) {
+            return marked;
+        }
+    }
     TL_TRY(tl_unpacked_tiles_take(&o->unpacked, index, &tile->floors, &o->allocator, &now));
-    mark_obstacles(o, (uint32_t)rebaked->tile_x, (uint32_t)rebaked->tile_z, &now->compact);
-    if (tile->is_known &&
-        tl_tile_marks_hold(&tile->marks, now->base_area, now->compact.area, now->compact.span_count)) {
-        return TL_NOT_FOUND;
+    tl_nav_compact *compact = &now->compact;
+    if (only_changed) {
+        tl_tile_marks_apply(&tile->marks, now->base_area, 0, compact->span_count, compact->area);
+        tl_floor_window_paste(&o->window, compact->area);
+    } else {
+        mark_obstacles(o, x, z, compact);
+        if (tile->is_known && tl_tile_marks_hold(&tile->marks, now->base_area, compact->area, compact->span_count)) {
+            return TL_NOT_FOUND;
+        }
     }
     const tl_result result = rebake_marked(o, tile, now, rebaked, report);
     if (tl_is_error(result)) {

@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_NAV_OBSTACLES_OBSTACLE_TILES_H
 #define TALUS_SRC_NAV_OBSTACLES_OBSTACLE_TILES_H
 
-#include "nav_obstacles/tile_marks.h"
+#include "nav_obstacles/floor_window.h"
 #include "nav_obstacles/unpacked_tiles.h"
 
 #include <talus/nav_obstacles.h>
@@ -15,9 +15,11 @@ typedef struct tile_floors {
     tl_packed_floors floors;
     tl_nav_tile_memo *memo; // NULL until the tile is first made again
     tl_tile_marks marks;    // as it was last handed out, with is_known
+    tl_aabb changed;        // where marks may have changed since then, while it waits
     uint32_t next_waiting;  // in the queue, while it waits
     bool is_there, waits;
-    bool is_known; // the caller has this tile
+    bool is_known;    // the caller has this tile
+    bool all_changed; // marks may have changed anywhere, while it waits
 } tile_floors;
 
 typedef struct obstacle_slot {
@@ -37,6 +39,7 @@ struct tl_nav_obstacles {
     uint32_t slot_count, slot_capacity, first_free, used_count;
     uint32_t first_waiting, last_waiting, waiting_count;
     tl_unpacked_tiles unpacked; // of the tiles that were made again last
+    tl_floor_window window;     // of the tile that is looked at
 };
 
 #define OBSTACLE_NO_SLOT UINT32_MAX

@@ -15,6 +15,11 @@ typedef struct tl_obstacle_window {
     uint32_t first_x, end_x, first_z, end_z;
 } tl_obstacle_window;
 
+static inline bool tl_obstacle_window_is_empty(const tl_obstacle_window *window)
+{
+    return window->first_x >= window->end_x || window->first_z >= window->end_z;
+}
+
 /// Columns whose centres can lie in [min - cell, max + cell], metres.
 static inline void tl_window_along(tl_column_axis axis, float min, float max, uint32_t *first, uint32_t *end)
 {

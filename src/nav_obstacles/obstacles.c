@@ -24,12 +24,27 @@ static uint64_t tile_count(const tl_nav_obstacles *o)
 // ---------------------------------------------------------------------------------------------------------
 // Waiting tiles: a queue through the tiles themselves, so that nothing has to be allocated.
 
+// Where marks may have changed since the tile began to wait. NULL: anywhere.
+static void note_change(tile_floors *tile, const tl_aabb *box)
+{
+    if (!tile->waits) {
+        tile->changed = tl_aabb_empty();
+        tile->all_changed = false;
+    }
+    tile->changed = box != NULL ? tl_aabb_union(tile->changed, *box) : tile->changed;
+    tile->all_changed = tile->all_changed || box == NULL;
+}
+
 void tl_obstacles_let_wait(tl_nav_obstacles *o, const tl_nav_tile_range *range, const tl_aabb *box)
 {
     for (uint32_t z = range->z; z < range->z + range->count_z; z++) {
         for (uint32_t x = range->x; x < range->x + range->count_x; x++) {
             tile_floors *tile = tl_obstacles_tile_at(o, x, z);
-            if (tile->waits || !tile->is_there || (box != NULL && !tl_packed_floors_reach(&tile->floors, *box))) {
+            if (!tile->is_there || (box != NULL && !tl_packed_floors_reach(&tile->floors, *box))) {
+                continue;
+            }
+            note_change(tile, box);
+            if (tile->waits) {
                 continue;
             }
             uint32_t index = z * o->tiles_x + x;
@@ -284,6 +299,7 @@ void tl_nav_obstacles_destroy(tl_nav_obstacles *obstacles)
         free_floors(&o->tiles[i], &o->allocator);
     }
     tl_unpacked_tiles_free(&o->unpacked);
+    tl_floor_window_free(&o->window, &o->allocator);
     const tl_allocator allocator = o->allocator;
     tl_release_array(&allocator, o->tiles, tile_count(o), sizeof *o->tiles);
     tl_release_array(&allocator, o->slots, o->slot_capacity, sizeof *o->slots);
@@ -420,8 +436,8 @@ uint32_t tl_nav_obstacles_waiting(const tl_nav_obstacles *obstacles)
 uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles)
 {
     const tl_nav_obstacles *o = obstacles;
-    uint64_t bytes = sizeof *o + tl_unpacked_tiles_bytes(&o->unpacked) + tile_count(o) * sizeof *o->tiles +
-                     (uint64_t)o->slot_capacity * sizeof *o->slots;
+    uint64_t bytes = sizeof *o + tl_unpacked_tiles_bytes(&o->unpacked) + tl_floor_window_bytes(&o->window) +
+                     tile_count(o) * sizeof *o->tiles + (uint64_t)o->slot_capacity * sizeof *o->slots;
     for (uint64_t i = 0; i < tile_count(o); i++) {
         bytes += (uint64_t)o->tiles[i].floors.block_count * sizeof(tl_floor_block);
         bytes += o->tiles[i].floors.size + tl_nav_tile_memo_bytes(o->tiles[i].memo);

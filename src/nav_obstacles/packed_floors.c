@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Floors packed in runs: how many each column has, their heights, their areas, and in which of the four directions each
-// has a neighbour. Source of the packing: PackBits (Apple, 1984): runs of one value and runs of different ones.
+// has a neighbour (packed_runs.c).
 //
 // Which floor lies beside another needs no number: links between two columns are mutual and do not cross, so the first
 // linked floor of one goes with the first of the other, and so on (link_floors.c).
@@ -15,95 +15,9 @@
 #include "base/assert.h"
 #include "base/stage.h"
 #include "nav_obstacles/obstacle_window.h"
+#include "nav_obstacles/packed_runs.h"
 
 #include <string.h>
-
-enum {
-    MAX_PACKED_LITERALS = 128, // control bytes 0 .. 127: so many values and one more
-    MIN_PACKED_RUN = 3,        // control bytes 128 .. 255: a value that stands MIN_PACKED_RUN and more times
-    MAX_PACKED_RUN = 127 + MIN_PACKED_RUN
-};
-
-// ---- Runs --------------------------------------------------------------------------------------------------
-
-// Some values of one or two bytes, one after the other.
-typedef struct value_array {
-    const uint8_t *bytes;
-    size_t size; ///< of a value, bytes
-    uint64_t count;
-} value_array;
-
-static uint64_t most_bytes(const value_array *values)
-{
-    return values->count * values->size + values->count / MAX_PACKED_LITERALS + 1;
-}
-
-static bool are_equal(const value_array *values, uint64_t a, uint64_t b)
-{
-    return memcmp(values->bytes + a * values->size, values->bytes + b * values->size, values->size) == 0;
-}
-
-static uint64_t run_length(const value_array *values, uint64_t first)
-{
-    uint64_t end = first + 1;
-    while (end < values->count && end - first < MAX_PACKED_RUN && are_equal(values, first, end)) {
-        end++;
-    }
-    return end - first;
-}
-
-// Writes the values, for which there is room; returns the end of what was written.
-static uint8_t *write_runs(const value_array *values, uint8_t *to)
-{
-    for (uint64_t i = 0; i < values->count;) {
-        uint64_t run = run_length(values, i);
-        if (run >= MIN_PACKED_RUN) {
-            *to++ = (uint8_t)(128 + run - MIN_PACKED_RUN);
-            memcpy(to, values->bytes + i * values->size, values->size);
-            to += values->size;
-            i += run;
-            continue;
-        }
-        uint64_t end = i + run; // up to the next run
-        while (end < values->count && end - i < MAX_PACKED_LITERALS &&
-               (run = run_length(values, end)) < MIN_PACKED_RUN) {
-            end += run;
-        }
-        const uint64_t literals = end - i < MAX_PACKED_LITERALS ? end - i : MAX_PACKED_LITERALS;
-        *to++ = (uint8_t)(literals - 1);
-        memcpy(to, values->bytes + i * values->size, literals * values->size);
-        to += literals * values->size;
-        i += literals;
-    }
-    return to;
-}
-
-// Reads `count` values; returns the end of what was read.
-static const uint8_t *read_runs(const uint8_t *from, size_t size, uint64_t count, uint8_t *to)
-{
-    const uint8_t *end = to + count * size;
-    while (to < end) {
-        const uint32_t control = *from++;
-        if (control < 128) {
-            const size_t bytes = (control + 1) * size;
-            memcpy(to, from, bytes);
-            from += bytes;
-            to += bytes;
-            continue;
-        }
-        const uint32_t run = control - 128 + MIN_PACKED_RUN;
-        if (size == 1) {
-            memset(to, *from, run);
-        } else {
-            for (uint32_t k = 0; k < run; k++) {
-                memcpy(to + 2 * (size_t)k, from, 2);
-            }
-        }
-        from += size;
-        to += run * size;
-    }
-    return from;
-}
 
 // ---- Packing -----------------------------------------------------------------------------------------------
 
@@ -139,12 +53,12 @@ static tl_result pack(const tl_nav_compact *compact, const tl_allocator *allocat
                       tl_packed_floors *packed)
 {
     TL_TRY(fill_scratch(compact, allocator, s));
-    const value_array parts[4] = { { (const uint8_t *)s->counts, sizeof *s->counts, s->columns },
-                                   { (const uint8_t *)compact->floor, sizeof *compact->floor, s->spans },
-                                   { compact->area, 1, s->spans },
-                                   { s->links, 1, s->spans } };
+    const tl_value_array parts[4] = { { (const uint8_t *)s->counts, sizeof *s->counts, s->columns },
+                                      { (const uint8_t *)compact->floor, sizeof *compact->floor, s->spans },
+                                      { compact->area, 1, s->spans },
+                                      { s->links, 1, s->spans } };
     for (int k = 0; k < 4; k++) {
-        s->capacity += most_bytes(&parts[k]);
+        s->capacity += tl_packed_runs_most_bytes(&parts[k]);
     }
     s->bytes = tl_allocate_array(allocator, s->capacity, 1);
     if (s->bytes == NULL) {
@@ -152,7 +66,9 @@ static tl_result pack(const tl_nav_compact *compact, const tl_allocator *allocat
     }
     uint8_t *to = s->bytes;
     for (int k = 0; k < 4; k++) {
-        to = write_runs(&parts[k], to);
+        packed->floors_at = k == 1 ? (uint64_t)(to - s->bytes) : packed->floors_at;
+        packed->areas_at = k == 2 ? (uint64_t)(to - s->bytes) : packed->areas_at;
+        to = tl_packed_runs_write(&parts[k], to);
     }
     const uint64_t size = (uint64_t)(to - s->bytes);
     packed->bytes = tl_allocate_array(allocator, size, 1);
@@ -438,10 +354,10 @@ void tl_floors_link(const tl_floors_scratch *scratch, tl_nav_compact *compact)
 static void fill_floors(const tl_packed_floors *packed, const tl_nav_compact *compact, uint16_t *counts, uint8_t *links)
 {
     const uint64_t columns = (uint64_t)compact->width * compact->height, spans = compact->span_count;
-    const uint8_t *from = read_runs(packed->bytes, sizeof *counts, columns, (uint8_t *)counts);
-    from = read_runs(from, sizeof *compact->floor, spans, (uint8_t *)compact->floor);
-    from = read_runs(from, 1, spans, compact->area);
-    from = read_runs(from, 1, spans, links);
+    const uint8_t *from = tl_packed_runs_read(packed->bytes, sizeof *counts, columns, (uint8_t *)counts);
+    from = tl_packed_runs_read(from, sizeof *compact->floor, spans, (uint8_t *)compact->floor);
+    from = tl_packed_runs_read(from, 1, spans, compact->area);
+    from = tl_packed_runs_read(from, 1, spans, links);
     TL_ASSERT(from == packed->bytes + packed->size);
     (void)from;
     uint32_t end = 0;

@@ -17,8 +17,9 @@ typedef struct tl_packed_floors {
     tl_nav_compact frame; ///< all but the arrays, which are NULL
     uint8_t *bytes;
     uint64_t size;
-    bool has_steps;         ///< else neighbours: its links need 32 bits
-    tl_floor_block *blocks; ///< [block_count] row-major
+    uint64_t floors_at, areas_at; ///< in `bytes`, behind the columns' counts
+    bool has_steps;               ///< else neighbours: its links need 32 bits
+    tl_floor_block *blocks;       ///< [block_count] row-major
     uint32_t block_count;
 } tl_packed_floors;
 

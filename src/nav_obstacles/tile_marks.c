@@ -10,6 +10,7 @@
 
 #include "base/arena.h"
 #include "base/host.h"
+#include "base/min_max.h"
 
 #include <string.h>
 
@@ -48,11 +49,30 @@ bool tl_tile_marks_hold(const tl_tile_marks *marks, const uint8_t *base_area, co
     return memcmp(base_area + at, area + at, count - at) == 0;
 }
 
-void tl_tile_marks_apply(const tl_tile_marks *marks, const uint8_t *base_area, uint32_t count, uint8_t *area_out)
+// The first run that ends behind a floor.
+static uint32_t first_run_behind(const tl_tile_marks *marks, uint32_t floor)
 {
+    uint32_t low = 0, high = marks->run_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (marks->runs[middle].first + marks->runs[middle].count <= floor) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+void tl_tile_marks_apply(const tl_tile_marks *marks, const uint8_t *base_area, uint32_t first, uint32_t count,
+                         uint8_t *area_out)
+{
+    const uint32_t end = first + count;
     memcpy(area_out, base_area, count);
-    for (uint32_t r = 0; r < marks->run_count; r++) {
-        memset(area_out + marks->runs[r].first, (int)marks->runs[r].area, marks->runs[r].count);
+    for (uint32_t r = first_run_behind(marks, first); r < marks->run_count && marks->runs[r].first < end; r++) {
+        const tl_marked_run *run = &marks->runs[r];
+        const uint32_t from = tl_max_u32(run->first, first), to = tl_min_u32(run->first + run->count, end);
+        memset(area_out + (from - first), (int)run->area, to - from);
     }
 }
 

@@ -21,8 +21,9 @@ typedef struct tl_tile_marks {
 
 /// Whether the floors whose area differs from their base area, and their areas, are those of the marks.
 bool tl_tile_marks_hold(const tl_tile_marks *marks, const uint8_t *base_area, const uint8_t *area, uint32_t count);
-/// The areas that the marks stand for, [count].
-void tl_tile_marks_apply(const tl_tile_marks *marks, const uint8_t *base_area, uint32_t count, uint8_t *area_out);
+/// The areas that the marks stand for, [count], of the floors from `first` on; base_area: of these.
+void tl_tile_marks_apply(const tl_tile_marks *marks, const uint8_t *base_area, uint32_t first, uint32_t count,
+                         uint8_t *area_out);
 /// The marks of floors as they are. TL_ERR_MEMORY: `marks_out` is zeroed.
 tl_result tl_tile_marks_find(const uint8_t *base_area, const uint8_t *area, uint32_t count,
                              const tl_allocator *allocator, tl_tile_marks *marks_out);

@@ -43,7 +43,7 @@ static void test_runs(void **state)
         for (uint32_t r = 0; r < marks.run_count; r++) {
             TEST_CHECK(marks.runs[r].count > 0);
         }
-        tl_tile_marks_apply(&marks, base, count, again);
+        tl_tile_marks_apply(&marks, base, 0, count, again);
         TEST_CHECK(memcmp(again, area, count) == 0);
         const bool same = memcmp(area, other, count) == 0;
         TEST_CHECK(tl_tile_marks_hold(&marks, base, area, count));
