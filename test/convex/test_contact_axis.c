@@ -37,7 +37,7 @@ static void test_what_holds(void **state)
             const double slack = 3e-4;
             tl_deepest found;
             tried[k]++;
-            if (tl_axis_holds(&pair, &cache, slack, &found)) {
+            if (tl_axis_try(&pair, &cache, slack, &found) == TL_AXIS_HOLDS) {
                 tl_penetration p;
                 tl_convex_penetration(&a.shape, pose_a, &b.shape, moved, NULL, &p);
                 TEST_CHECK(found.lower_depth <= (double)p.upper_bound + 1e-6);

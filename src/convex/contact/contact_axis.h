@@ -30,10 +30,14 @@ bool tl_box_of(const tl_convex *shape, tl_box *box_out);
 void tl_box_depth(tl_minkowski *pair, const tl_box *a, const tl_box *b, tl_deepest *deepest_out);
 
 // contact_axis.c
-// A cache's has_axis where tl_box_depth found the normal.
-#define TL_AXIS_OF_BOXES 2u
-// Whether the last normal is, to `slack` metres, still the one of least depth.
-bool tl_axis_holds(tl_minkowski *pair, const tl_contact_cache *cache, double slack, tl_deepest *deepest_out);
+typedef enum tl_axis_trial {
+    TL_AXIS_GONE, // there is none, or the pair has moved by more than the slack
+    TL_AXIS_NEAR, // it has moved by less, but that alone does not prove the last normal
+    TL_AXIS_HOLDS // the last normal is, to the slack, still the one of least depth
+} tl_axis_trial;
+
+// Tries the last normal; `slack` is in metres. Sets the depth along it, unless it is gone.
+tl_axis_trial tl_axis_try(tl_minkowski *pair, const tl_contact_cache *cache, double slack, tl_deepest *deepest_out);
 void tl_axis_store(const tl_minkowski *pair, const tl_deepest *deepest, tl_contact_cache *cache);
 
 #endif

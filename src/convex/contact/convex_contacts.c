@@ -266,35 +266,59 @@ static bool search_deepest(contact_search *s, tl_deepest *deepest)
     return true;
 }
 
+// By the 15 axes of two boxes that overlap. False of others.
+static bool find_box_depth(contact_search *s, tl_deepest *deepest, bool *near_enough)
+{
+    tl_box box_a, box_b;
+    *near_enough = true;
+    if (!tl_box_of(s->pair.a, &box_a) || !tl_box_of(s->pair.b, &box_b)) {
+        return false;
+    }
+    tl_box_depth(&s->pair, &box_a, &box_b, deepest);
+    *near_enough = deepest->separation - s->radii <= s->margin;
+    return deepest->separation <= 0.0;
+}
+
+// Whether a depth that is proven now proves the last normal, and that and the last contacts serve again.
+static bool keep_near(contact_search *s, const tl_deepest *last, const tl_deepest *deepest)
+{
+    return deepest->lower_depth > 0.0 && -last->separation - deepest->lower_depth <= s->slack && keep_contacts(s, last);
+}
+
+static void store_axis(contact_search *s, const tl_deepest *deepest)
+{
+    if (s->cache != NULL) {
+        tl_axis_store(&s->pair, deepest, s->cache);
+    }
+}
+
 // The ways from the cheapest on.
 static void find_manifold(contact_search *s)
 {
-    tl_deepest deepest;
-    if (s->cache != NULL && tl_axis_holds(&s->pair, s->cache, s->slack, &deepest) &&
-        (keep_contacts(s, &deepest) || finish_manifold(s, &deepest))) {
+    tl_deepest last, deepest;
+    const tl_axis_trial trial = s->cache != NULL ? tl_axis_try(&s->pair, s->cache, s->slack, &last) : TL_AXIS_GONE;
+    if (trial == TL_AXIS_HOLDS && (keep_contacts(s, &last) || finish_manifold(s, &last))) {
         return;
     }
-    bool done = false, near_enough = true;
-    tl_box box_a, box_b;
-    if (tl_box_of(s->pair.a, &box_a) && tl_box_of(s->pair.b, &box_b)) {
-        tl_box_depth(&s->pair, &box_a, &box_b, &deepest);
-        near_enough = deepest.separation - s->radii <= s->margin;
-        done = deepest.separation <= 0.0 && finish_manifold(s, &deepest);
-    }
-    if (!done && near_enough) {
-        near_enough = search_deepest(s, &deepest);
-        if (near_enough) {
-            finish_manifold(s, &deepest);
+    bool near_enough;
+    if (find_box_depth(s, &deepest, &near_enough)) {
+        if (trial == TL_AXIS_NEAR && keep_near(s, &last, &deepest)) {
+            return;
+        }
+        if (finish_manifold(s, &deepest)) {
+            store_axis(s, &deepest);
+            return;
         }
     }
-    if (s->cache != NULL) {
+    near_enough = near_enough && search_deepest(s, &deepest);
+    if (near_enough && trial == TL_AXIS_NEAR && keep_near(s, &last, &deepest)) {
+        return;
+    }
+    if (near_enough) {
+        finish_manifold(s, &deepest);
+        store_axis(s, &deepest);
+    } else if (s->cache != NULL) {
         s->cache->has_axis = 0;
-        if (near_enough) {
-            tl_axis_store(&s->pair, &deepest, s->cache);
-        }
-        if (done && s->cache->has_axis != 0) {
-            s->cache->has_axis = TL_AXIS_OF_BOXES;
-        }
     }
 }
 

@@ -166,4 +166,41 @@ static TL_ALWAYS_INLINE void tl_reach_along(const tl_vec3 *points, uint32_t coun
 #endif
 }
 
+// The largest square of the length of rows * p + origin, which need be no rotation, of count >= 4 points.
+static inline double tl_farthest_image_sq(const tl_vec3 *points, uint32_t count, const tl_frame *map)
+{
+#if TL_HAS_F64X2
+    tl_f64x2 rows[3][3], origin[3], most = tl_f64x2_all(0.0);
+    for (int i = 0; i < 3; i++) {
+        rows[i][0] = tl_f64x2_all(map->rows[i].x);
+        rows[i][1] = tl_f64x2_all(map->rows[i].y);
+        rows[i][2] = tl_f64x2_all(map->rows[i].z);
+    }
+    origin[0] = tl_f64x2_all(map->origin.x);
+    origin[1] = tl_f64x2_all(map->origin.y);
+    origin[2] = tl_f64x2_all(map->origin.z);
+    for (uint32_t i = 0; i < count; i += 4) {
+        tl_f64x2 x[2], y[2], z[2]; // of the last four some are computed again
+        tl_f64x2_load_points(&points[i + 4 <= count ? i : count - 4].x, x, y, z);
+        for (int k = 0; k < 2; k++) {
+            tl_f64x2 sum = tl_f64x2_all(0.0);
+            for (int axis = 0; axis < 3; axis++) {
+                const tl_f64x2 image = tl_f64x2_add(tl_farthest_two(rows[axis], x[k], y[k], z[k]), origin[axis]);
+                sum = tl_f64x2_add(sum, tl_f64x2_mul(image, image));
+            }
+            most = tl_f64x2_max(most, sum);
+        }
+    }
+    return tl_f64x2_get_x(tl_f64x2_max(most, tl_f64x2_swap(most)));
+#else
+    double most = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_vec3d image = tl_frame_point(map, tl_vec3d_from(points[i]));
+        const double length_sq = tl_vec3d_dot(image, image);
+        most = length_sq > most ? length_sq : most;
+    }
+    return most;
+#endif
+}
+
 #endif

@@ -264,6 +264,13 @@ bool tl_minkowski_vertex(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_
     return true;
 }
 
+tl_vec3d tl_minkowski_vertex_of_a(const tl_minkowski *pair, uint32_t vertex)
+{
+    tl_vec3d point = { 0.0, 0.0, 0.0 };
+    shape_vertex(pair->a, vertex, &point);
+    return point;
+}
+
 // Whether the support's value costs less than its point.
 static bool is_small(const tl_convex *shape)
 {
@@ -275,9 +282,8 @@ static bool is_small(const tl_convex *shape)
 static TL_ALWAYS_INLINE double small_reach(const tl_convex *shape, const tl_vec3d *d, int directions, double *reach)
 {
     if (shape->kind == TL_CONVEX_HULL) {
-        tl_aabb box = shape->hull->bounds;
         tl_reach_along(tl_hull_vertices(shape->hull), shape->hull->vertex_count, d, directions, reach);
-        return tl_vec3d_size(tl_vec3d_from(tl_max(tl_abs(box.min), tl_abs(box.max))));
+        return tl_hull_size(shape->hull);
     }
     tl_vec3d c = tl_vec3d_from(shape->corners[0]), h = tl_vec3d_from(shape->corners[1]);
     for (int k = 0; k < directions; k++) {
@@ -369,5 +375,109 @@ bool tl_minkowski_vertices(tl_minkowski *pair, const uint16_t (*vertices)[2], ui
     }
     most += pair->origin_size;
     pair->scale = most > pair->scale ? most : pair->scale;
+    return true;
+}
+
+// Of the vertices of one side of the pairs: those of a hull by its bounds.
+static double size_of_used(const tl_convex *shape, const tl_vec3 *row, const uint16_t (*vertices)[2], uint32_t count,
+                           int side)
+{
+    if (shape->kind == TL_CONVEX_HULL) {
+        return tl_hull_size(shape->hull);
+    }
+    double most = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        const double size = tl_vec3d_size(tl_vec3d_from(row[vertices[i][side]]));
+        most = size > most ? size : most;
+    }
+    return most;
+}
+
+static inline void place_point(tl_placed_points *points, uint32_t i, tl_vec3d w)
+{
+    points->x[i] = w.x;
+    points->y[i] = w.y;
+    points->z[i] = w.z;
+}
+
+#if TL_HAS_F64X2
+
+static inline tl_f64x2 two_floats(float x, float y)
+{
+    const double two[2] = { (double)x, (double)y };
+    return tl_f64x2_load(two);
+}
+
+// Points i and i + 1.
+static inline void place_two(const tl_frame *b_to_a, const tl_vec3 *row_a, const tl_vec3 *row_b,
+                             const uint16_t (*vertices)[2], tl_placed_points *points, uint32_t i)
+{
+    const tl_vec3 *a = &row_a[vertices[i][0]], *next_a = &row_a[vertices[i + 1][0]], *b = &row_b[vertices[i][1]],
+                  *next_b = &row_b[vertices[i + 1][1]];
+    const tl_f64x2 x = two_floats(b->x, next_b->x), y = two_floats(b->y, next_b->y), z = two_floats(b->z, next_b->z);
+    const tl_f64x2 on_a[3] = { two_floats(a->x, next_a->x), two_floats(a->y, next_a->y), two_floats(a->z, next_a->z) };
+    const double origin[3] = { b_to_a->origin.x, b_to_a->origin.y, b_to_a->origin.z };
+    double *const out[3] = { points->x, points->y, points->z };
+    for (int k = 0; k < 3; k++) {
+        const tl_f64x2 row[3] = { tl_f64x2_all(b_to_a->rows[k].x), tl_f64x2_all(b_to_a->rows[k].y),
+                                  tl_f64x2_all(b_to_a->rows[k].z) };
+        const tl_f64x2 on_b = tl_f64x2_add(tl_farthest_two(row, x, y, z), tl_f64x2_all(origin[k]));
+        tl_f64x2_store(&out[k][i], tl_f64x2_sub(on_a[k], on_b));
+    }
+}
+
+static void place_rows(const tl_frame *b_to_a, const tl_vec3 *row_a, const tl_vec3 *row_b,
+                       const uint16_t (*vertices)[2], uint32_t count, tl_placed_points *points)
+{
+    const tl_frame frame = *b_to_a; // what is written to might be it, as far as a compiler knows
+    for (uint32_t i = 0; i < count; i += 2) {
+        place_two(&frame, row_a, row_b, vertices, points, i + 2 <= count ? i : count - 2);
+    }
+}
+
+#else
+
+static void place_rows(const tl_frame *b_to_a, const tl_vec3 *row_a, const tl_vec3 *row_b,
+                       const uint16_t (*vertices)[2], uint32_t count, tl_placed_points *points)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_vec3d on_a = tl_vec3d_from(row_a[vertices[i][0]]), on_b = tl_vec3d_from(row_b[vertices[i][1]]);
+        place_point(points, i, tl_vec3d_sub(on_a, tl_frame_point(b_to_a, on_b)));
+    }
+}
+
+#endif
+
+static bool are_vertices(const uint16_t (*vertices)[2], uint32_t count, uint32_t count_a, uint32_t count_b)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (vertices[i][0] >= count_a || vertices[i][1] >= count_b) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool tl_minkowski_place(tl_minkowski *pair, const uint16_t (*vertices)[2], uint32_t count, tl_placed_points *points)
+{
+    uint32_t count_a = 0, count_b = 0;
+    const tl_vec3 *row_a = vertex_row(pair->a, &count_a), *row_b = vertex_row(pair->b, &count_b);
+    if (row_a == NULL || row_b == NULL) {
+        tl_minkowski_point point;
+        for (uint32_t i = 0; i < count; i++) {
+            if (!tl_minkowski_vertex(pair, vertices[i][0], vertices[i][1], &point)) {
+                return false;
+            }
+            place_point(points, i, point.w);
+        }
+        return true;
+    }
+    if (!are_vertices(vertices, count, count_a, count_b)) {
+        return false;
+    }
+    place_rows(&pair->b_to_a, row_a, row_b, vertices, count, points);
+    const double scale = size_of_used(pair->a, row_a, vertices, count, 0) +
+                         size_of_used(pair->b, row_b, vertices, count, 1) + pair->origin_size;
+    pair->scale = scale > pair->scale ? scale : pair->scale;
     return true;
 }

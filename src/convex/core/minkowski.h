@@ -58,6 +58,24 @@ bool tl_minkowski_vertex(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_
 bool tl_minkowski_vertices(tl_minkowski *pair, const uint16_t (*vertices)[2], uint32_t count,
                            tl_minkowski_point *points_out);
 
+// Points of A - B by their coordinates.
+typedef struct tl_placed_points {
+    double x[TL_KEPT_POINTS], y[TL_KEPT_POINTS], z[TL_KEPT_POINTS];
+} tl_placed_points;
+
+// The same of w alone, of 2 .. TL_KEPT_POINTS.
+bool tl_minkowski_place(tl_minkowski *pair, const uint16_t (*vertices)[2], uint32_t count,
+                        tl_placed_points *points_out);
+
+// A vertex of A that these found.
+tl_vec3d tl_minkowski_vertex_of_a(const tl_minkowski *pair, uint32_t vertex);
+
+// The sum of a hull's largest coordinates: no vertex has a greater one.
+static inline double tl_hull_size(const tl_hull *hull)
+{
+    return tl_vec3d_size(tl_vec3d_from(tl_max(tl_abs(hull->bounds.min), tl_abs(hull->bounds.max))));
+}
+
 static inline tl_vec3 tl_minkowski_to_world(const tl_minkowski *pair, tl_vec3d p)
 {
     return tl_vec3d_to_float(tl_frame_point(&pair->a_to_world, p));

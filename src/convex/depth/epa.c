@@ -218,17 +218,28 @@ static bool grow_kept(tl_minkowski *pair, tl_polytope_cache *cache, tl_core_dept
     return depth->status == TL_CONVEX_CONVERGED;
 }
 
+// Whether all of some bytes are less than a limit of at most 128; eight at a time.
+static bool bytes_below(const uint8_t *bytes, size_t count, uint32_t limit)
+{
+    const uint64_t each = 0x0101010101010101u, high = 0x80u * each, to_high = (0x80u - limit) * each;
+    uint64_t beyond = 0, eight;
+    size_t i = 0;
+    for (; i + 8 <= count; i += 8) {
+        memcpy(&eight, bytes + i, 8);
+        beyond |= (eight | (eight + to_high)) & high;
+    }
+    for (; i < count; i++) {
+        beyond |= bytes[i] >= limit ? 1u : 0u;
+    }
+    return beyond == 0;
+}
+
 // Whether a cache holds triangles between its points: a caller's may hold anything.
 static bool is_polytope(const tl_polytope_cache *cache)
 {
-    bool is_sound = cache->point_count >= 4 && cache->point_count <= TL_KEPT_POINTS && cache->face_count >= 4 &&
-                    cache->face_count <= TL_KEPT_FACES;
-    for (uint32_t f = 0; is_sound && f < cache->face_count; f++) {
-        const uint8_t *corners = cache->corners[f];
-        is_sound =
-            corners[0] < cache->point_count && corners[1] < cache->point_count && corners[2] < cache->point_count;
-    }
-    return is_sound;
+    return cache->point_count >= 4 && cache->point_count <= TL_KEPT_POINTS && cache->face_count >= 4 &&
+           cache->face_count <= TL_KEPT_FACES &&
+           bytes_below(&cache->corners[0][0], 3 * (size_t)cache->face_count, cache->point_count);
 }
 
 bool tl_epa_resume(tl_minkowski *pair, tl_polytope_cache *cache, tl_core_depth *depth)
