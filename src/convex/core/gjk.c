@@ -21,14 +21,8 @@
 
 static bool start_from_cache(tl_minkowski *pair, const tl_simplex_cache *cache, tl_simplex *simplex)
 {
-    simplex->count = 0;
-    for (uint32_t i = 0; i < cache->count && i < 4; i++) {
-        if (!tl_minkowski_vertex(pair, cache->vertex_a[i], cache->vertex_b[i], &simplex->points[simplex->count])) {
-            return false;
-        }
-        simplex->count++;
-    }
-    return simplex->count > 0;
+    simplex->count = cache->count < 4 ? cache->count : 4;
+    return tl_minkowski_simplex(pair, cache, simplex->points);
 }
 
 static void store_cache(const tl_simplex *simplex, tl_simplex_cache *cache)

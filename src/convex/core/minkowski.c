@@ -12,6 +12,9 @@
 #include "convex/core/farthest.h"
 #include "math/tolerance.h"
 
+#include <assert.h>
+#include <string.h>
+
 // A direction is rounded to float once in each shape's frame: a component is off by half an ulp, so the direction by at
 // most sqrt(3) of that.
 #define DIRECTION_ROUNDING (1.7320508075688774 * (double)TL_FLOAT_ROUNDING)
@@ -145,6 +148,11 @@ static TL_ALWAYS_INLINE void support_of(const tl_minkowski *pair, const tl_conve
     find_support(pair, shape, direction, vertex, point);
 }
 
+static double hull_extent(const tl_hull *hull)
+{
+    return tl_vec3d_size(tl_vec3d_sub(tl_vec3d_from(hull->bounds.max), tl_vec3d_from(hull->bounds.min)));
+}
+
 static double custom_size(const tl_convex *shape)
 {
     tl_vec3d size;
@@ -158,11 +166,10 @@ static double custom_size(const tl_convex *shape)
 }
 
 // The size of a shape whose support takes float directions; 0 of one that takes double.
-static double rounded_size(const tl_minkowski *pair, const tl_convex *shape)
+static TL_ALWAYS_INLINE double rounded_size(const tl_minkowski *pair, const tl_convex *shape)
 {
-    if (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count > pair->scan_limit) {
-        tl_aabb box = shape->hull->bounds;
-        return tl_vec3d_size(tl_vec3d_sub(tl_vec3d_from(box.max), tl_vec3d_from(box.min)));
+    if (shape->kind == TL_CONVEX_HULL) {
+        return shape->hull->vertex_count > pair->scan_limit ? hull_extent(shape->hull) : 0.0;
     }
     return shape->kind == TL_CONVEX_CUSTOM ? custom_size(shape) : 0.0;
 }
@@ -182,12 +189,17 @@ static tl_vec3d shape_middle(const tl_convex *shape)
     }
 }
 
-void tl_minkowski_set_hints(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_b)
+static TL_ALWAYS_INLINE void set_hints(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_b)
 {
     pair->last_a = vertex_a;
     pair->last_b = vertex_b;
     pair->scan_limit = vertex_a == TL_NO_VERTEX ? SCANNED_HERE : SCANNED_WITH_HINT;
     pair->direction_error = DIRECTION_ROUNDING * (rounded_size(pair, pair->a) + rounded_size(pair, pair->b));
+}
+
+void tl_minkowski_set_hints(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_b)
+{
+    set_hints(pair, vertex_a, vertex_b);
 }
 
 // What is not finite survives a sum, so one test will do for all.
@@ -202,16 +214,22 @@ static double sum_pose(const tl_transform *pose)
     return sum_point(pose->position) + (((double)r.x + (double)r.y) + ((double)r.z + (double)r.w));
 }
 
-static double sum_shape(const tl_convex *shape)
+// Of what a shape holds itself, by the exponents: they have all bits set in what is not finite.
+static bool is_finite_shape(const tl_convex *shape)
 {
-    return (sum_point(shape->corners[0]) + sum_point(shape->corners[1])) +
-           (sum_point(shape->corners[2]) + (double)shape->radius);
+    uint32_t bits[9], full = 0;
+    static_assert(sizeof bits == sizeof shape->corners, "three points");
+    memcpy(bits, shape->corners, sizeof bits);
+    for (int i = 0; i < 9; i++) {
+        full |= (bits[i] & 0x7fffffffu) + 0x00800000u;
+    }
+    return (full & 0x80000000u) == 0 && isfinite(shape->radius);
 }
 
 bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, const tl_transform *pose_a, const tl_convex *b,
                        const tl_transform *pose_b)
 {
-    if (!isfinite((sum_pose(pose_a) + sum_pose(pose_b)) + (sum_shape(a) + sum_shape(b)))) {
+    if (!isfinite(sum_pose(pose_a) + sum_pose(pose_b)) || !is_finite_shape(a) || !is_finite_shape(b)) {
         return false;
     }
     tl_quatd rotation_a = tl_quatd_from(pose_a->rotation), rotation_b = tl_quatd_from(pose_b->rotation);
@@ -224,7 +242,7 @@ bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, const tl_transfor
     pair->origin_size = tl_vec3d_size(pair->b_to_a.origin);
     pair->scale = 0.0;
     pair->depth_steps = UINT32_MAX;
-    tl_minkowski_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
+    set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
     return true;
 }
 
@@ -343,6 +361,30 @@ static const tl_vec3 *vertex_row(const tl_convex *shape, uint32_t *count)
     default:
         return NULL;
     }
+}
+
+bool tl_minkowski_simplex(tl_minkowski *pair, const tl_simplex_cache *cache, tl_minkowski_point points[4])
+{
+    uint32_t count_a = 0, count_b = 0;
+    const tl_vec3 *row_a = vertex_row(pair->a, &count_a), *row_b = vertex_row(pair->b, &count_b);
+    const uint32_t count = cache->count < 4 ? cache->count : 4;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t vertex_a = cache->vertex_a[i], vertex_b = cache->vertex_b[i];
+        if (row_a == NULL || row_b == NULL) {
+            if (!tl_minkowski_vertex(pair, vertex_a, vertex_b, &points[i])) {
+                return false;
+            }
+            continue;
+        }
+        if (vertex_a >= count_a || vertex_b >= count_b) {
+            return false;
+        }
+        points[i].a = tl_vec3d_from(row_a[vertex_a]);
+        points[i].vertex_a = vertex_a;
+        points[i].vertex_b = vertex_b;
+        finish_point(pair, tl_vec3d_from(row_b[vertex_b]), &points[i]);
+    }
+    return count > 0;
 }
 
 bool tl_minkowski_vertices(tl_minkowski *pair, const uint16_t (*vertices)[2], uint32_t count,

@@ -54,6 +54,9 @@ void tl_minkowski_reach_of_two(tl_minkowski *pair, const tl_vec3d normals[2], do
 // The point of A - B of two vertices; false when a shape has no such vertex.
 bool tl_minkowski_vertex(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_b, tl_minkowski_point *point_out);
 
+// The same of a simplex of 1 .. 4 points; false where it has none, too.
+bool tl_minkowski_simplex(tl_minkowski *pair, const tl_simplex_cache *cache, tl_minkowski_point points_out[4]);
+
 // The same of many.
 bool tl_minkowski_vertices(tl_minkowski *pair, const uint16_t (*vertices)[2], uint32_t count,
                            tl_minkowski_point *points_out);
