@@ -59,6 +59,28 @@ static inline tl_f64x4 tl_f64x4_mul(tl_f64x4 a, tl_f64x4 b)
     return _mm256_mul_pd(a, b);
 }
 
+/// The second where one is no number.
+static inline tl_f64x4 tl_f64x4_max(tl_f64x4 a, tl_f64x4 b)
+{
+    return _mm256_max_pd(a, b);
+}
+
+/// Bit k: lane k of a equals that of b.
+static inline uint32_t tl_f64x4_equal(tl_f64x4 a, tl_f64x4 b)
+{
+    return (uint32_t)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_EQ_OQ));
+}
+
+/// Four points, x y z x y z ..., as doubles.
+static inline void tl_f64x4_load_points(const float *points, tl_f64x4 *x, tl_f64x4 *y, tl_f64x4 *z)
+{
+    __m128 a = _mm_loadu_ps(points), b = _mm_loadu_ps(points + 4), c = _mm_loadu_ps(points + 8); // xyzx yzxy zxyz
+    __m128 yz = _mm_shuffle_ps(a, b, _MM_SHUFFLE(1, 0, 2, 1)), xy = _mm_shuffle_ps(b, c, _MM_SHUFFLE(2, 1, 3, 2));
+    *x = _mm256_cvtps_pd(_mm_shuffle_ps(a, xy, _MM_SHUFFLE(2, 0, 3, 0)));
+    *y = _mm256_cvtps_pd(_mm_shuffle_ps(yz, xy, _MM_SHUFFLE(3, 1, 2, 0)));
+    *z = _mm256_cvtps_pd(_mm_shuffle_ps(yz, c, _MM_SHUFFLE(3, 0, 3, 1)));
+}
+
 /// Lanes 1, 2, 0, 3.
 static inline tl_f64x4 tl_f64x4_rotate_three(tl_f64x4 a)
 {
@@ -153,6 +175,25 @@ static inline tl_f64x4 tl_f64x4_sub(tl_f64x4 a, tl_f64x4 b)
 static inline tl_f64x4 tl_f64x4_mul(tl_f64x4 a, tl_f64x4 b)
 {
     return tl_f64x4_make(tl_f64x2_mul(a.low, b.low), tl_f64x2_mul(a.high, b.high));
+}
+
+static inline tl_f64x4 tl_f64x4_max(tl_f64x4 a, tl_f64x4 b)
+{
+    return tl_f64x4_make(tl_f64x2_max(a.low, b.low), tl_f64x2_max(a.high, b.high));
+}
+
+static inline uint32_t tl_f64x4_equal(tl_f64x4 a, tl_f64x4 b)
+{
+    return tl_f64x2_two_masks(tl_f64x2_where_equal(a.low, b.low), tl_f64x2_where_equal(a.high, b.high));
+}
+
+static inline void tl_f64x4_load_points(const float *points, tl_f64x4 *x, tl_f64x4 *y, tl_f64x4 *z)
+{
+    tl_f64x2 x2[2], y2[2], z2[2];
+    tl_f64x2_load_points(points, x2, y2, z2);
+    *x = tl_f64x4_make(x2[0], x2[1]);
+    *y = tl_f64x4_make(y2[0], y2[1]);
+    *z = tl_f64x4_make(z2[0], z2[1]);
 }
 
 static inline tl_f64x4 tl_f64x4_rotate_three(tl_f64x4 a)
@@ -260,6 +301,33 @@ static inline tl_f64x4 tl_f64x4_mul(tl_f64x4 a, tl_f64x4 b)
         r.v[i] = a.v[i] * b.v[i];
     }
     return r;
+}
+
+static inline tl_f64x4 tl_f64x4_max(tl_f64x4 a, tl_f64x4 b)
+{
+    tl_f64x4 r;
+    for (int i = 0; i < 4; i++) {
+        r.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
+    }
+    return r;
+}
+
+static inline uint32_t tl_f64x4_equal(tl_f64x4 a, tl_f64x4 b)
+{
+    uint32_t mask = 0;
+    for (int i = 0; i < 4; i++) {
+        mask |= (a.v[i] == b.v[i] ? 1u : 0u) << i;
+    }
+    return mask;
+}
+
+static inline void tl_f64x4_load_points(const float *points, tl_f64x4 *x, tl_f64x4 *y, tl_f64x4 *z)
+{
+    for (int i = 0; i < 4; i++) {
+        x->v[i] = (double)points[3 * i];
+        y->v[i] = (double)points[3 * i + 1];
+        z->v[i] = (double)points[3 * i + 2];
+    }
 }
 
 static inline tl_f64x4 tl_f64x4_rotate_three(tl_f64x4 a)

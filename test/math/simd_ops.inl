@@ -198,6 +198,13 @@ static void run_f64x4(const simd_input *in, simd_output **out)
     put_f64x4(out, "f64x4_add", tl_f64x4_add(a, b));
     put_f64x4(out, "f64x4_sub", tl_f64x4_sub(a, b));
     put_f64x4(out, "f64x4_mul", tl_f64x4_mul(a, b));
+    put_f64x4(out, "f64x4_max", tl_f64x4_max(a, b));
+    put_bits(out, "f64x4_equal", tl_f64x4_equal(a, tl_f64x4_max(a, b)));
+    tl_f64x4 x, y, z;
+    tl_f64x4_load_points(in->a, &x, &y, &z);
+    put_f64x4(out, "f64x4_load_points x", x);
+    put_f64x4(out, "f64x4_load_points y", y);
+    put_f64x4(out, "f64x4_load_points z", z);
     put_f64x4(out, "f64x4_rotate_three", tl_f64x4_rotate_three(a));
     put_f64x4(out, "f64x4_swap_lanes", tl_f64x4_swap_lanes(a));
     put_f64x4(out, "f64x4_swap_halves", tl_f64x4_swap_halves(a));

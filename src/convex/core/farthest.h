@@ -11,6 +11,7 @@
 
 #include "base/compiler.h"
 #include "base/lowest_bit.h"
+#include "convex/core/scan_four.h"
 #include "math/simd2d.h"
 #include "math/vec3d.h"
 
@@ -119,8 +120,8 @@ static inline uint32_t tl_farthest_of_many(const tl_vec3 *points, uint32_t count
 }
 #endif
 
-// Of count >= 1 points; the lowest index of several that are equally far.
-static inline uint32_t tl_farthest(const tl_vec3 *points, uint32_t count, const tl_vec3d *direction)
+// What every processor of the target can run. Of count >= 1 points.
+static inline uint32_t tl_farthest_base(const tl_vec3 *points, uint32_t count, const tl_vec3d *direction)
 {
 #if TL_HAS_F64X2
     if (count == 8) {
@@ -135,9 +136,9 @@ static inline uint32_t tl_farthest(const tl_vec3 *points, uint32_t count, const 
     return tl_farthest_plain(points, count, direction);
 }
 
-// The largest product itself, of count >= 4 points, along one direction or two.
-static TL_ALWAYS_INLINE void tl_reach_along(const tl_vec3 *points, uint32_t count, const tl_vec3d *direction,
-                                            int directions, double *reach)
+// Of count >= 4 points.
+static TL_ALWAYS_INLINE void tl_reach_along_base(const tl_vec3 *points, uint32_t count, const tl_vec3d *direction,
+                                                 int directions, double *reach)
 {
 #if TL_HAS_F64X2
     tl_f64x2 d[2][3], best[2];
@@ -156,18 +157,18 @@ static TL_ALWAYS_INLINE void tl_reach_along(const tl_vec3 *points, uint32_t coun
         }
     }
     for (int k = 0; k < directions; k++) {
-        reach[k] = tl_f64x2_get_x(tl_f64x2_max(best[k], tl_f64x2_swap(best[k])));
+        reach[k] = tl_f64x2_get_x(tl_f64x2_max(best[k], tl_f64x2_swap(best[k]))) + 0.0; // of zeros the positive
     }
 #else
     for (int k = 0; k < directions; k++) {
         uint32_t vertex = tl_farthest_plain(points, count, &direction[k]);
-        reach[k] = tl_vec3d_dot(direction[k], tl_vec3d_from(points[vertex]));
+        reach[k] = tl_vec3d_dot(direction[k], tl_vec3d_from(points[vertex])) + 0.0;
     }
 #endif
 }
 
-// The largest square of the length of rows * p + origin, which need be no rotation, of count >= 4 points.
-static inline double tl_farthest_image_sq(const tl_vec3 *points, uint32_t count, const tl_frame *map)
+// Of count >= 4 points.
+static inline double tl_farthest_image_sq_base(const tl_vec3 *points, uint32_t count, const tl_frame *map)
 {
 #if TL_HAS_F64X2
     tl_f64x2 rows[3][3], origin[3], most = tl_f64x2_all(0.0);
@@ -201,6 +202,49 @@ static inline double tl_farthest_image_sq(const tl_vec3 *points, uint32_t count,
     }
     return most;
 #endif
+}
+
+#if TL_CPU_LEVELS >= 2
+// Whether scans with four points in a register are there, and suit so many points.
+static inline bool tl_scans_four(uint32_t count)
+{
+    return count >= 4 && count <= 4 * TL_SCAN_FOURS && tl_cpu_has_avx2();
+}
+#endif
+
+// Of count >= 1 points; the lowest index of several that are equally far.
+static inline uint32_t tl_farthest(const tl_vec3 *points, uint32_t count, const tl_vec3d *direction)
+{
+#if TL_CPU_LEVELS >= 2
+    if (tl_scans_four(count)) {
+        return tl_scan_farthest_avx2(points, count, direction);
+    }
+#endif
+    return tl_farthest_base(points, count, direction);
+}
+
+// The largest product itself, of count >= 4 points, along one direction or two.
+static TL_ALWAYS_INLINE void tl_reach_along(const tl_vec3 *points, uint32_t count, const tl_vec3d *directions,
+                                            int direction_count, double *reach)
+{
+#if TL_CPU_LEVELS >= 2
+    if (tl_scans_four(count)) {
+        tl_scan_reach_avx2(points, count, directions, direction_count, reach);
+        return;
+    }
+#endif
+    tl_reach_along_base(points, count, directions, direction_count, reach);
+}
+
+// The largest square of the length of rows * p + origin, which need be no rotation, of count >= 4 points.
+static inline double tl_farthest_image_sq(const tl_vec3 *points, uint32_t count, const tl_frame *map)
+{
+#if TL_CPU_LEVELS >= 2
+    if (tl_scans_four(count)) {
+        return tl_scan_image_sq_avx2(points, count, map);
+    }
+#endif
+    return tl_farthest_image_sq_base(points, count, map);
 }
 
 #endif
