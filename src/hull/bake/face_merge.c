@@ -100,6 +100,25 @@ static tl_result find_borders(merge_state *m)
     return TL_OK;
 }
 
+// Where no edge is flat, as of points in no order, each triangle is a group.
+static tl_result take_triangles(merge_state *m, uint32_t key_shift)
+{
+    const tl_quickhull *hull = m->hull;
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        TL_TRY(tl_quickhull_count_work(m->hull, 1));
+        if (!hull->conflicts[f].live) {
+            continue;
+        }
+        const uint32_t *v = hull->faces[f].vertex;
+        const uint32_t lowest = v[0] < v[1] ? (v[0] < v[2] ? 0 : 2) : (v[1] < v[2] ? 1 : 2);
+        tl_sort_item *group = &m->groups[m->group_count++];
+        group->value = 4 * f + lowest;
+        group->key = (uint64_t)v[lowest] << key_shift | v[lowest == 2 ? 0 : lowest + 1];
+    }
+    m->edge_count = 3 * m->group_count;
+    return TL_OK;
+}
+
 // Walks each border once, from the lowest half-edge of it that starts an edge.
 static tl_result find_groups(merge_state *m, uint32_t key_shift)
 {
@@ -197,7 +216,7 @@ tl_result tl_quickhull_merge_faces(tl_quickhull *hull, tl_hull_polygons *polygon
     }
     memset(polygons_out, 0, sizeof *polygons_out);
     TL_TRY(find_borders(&m));
-    TL_TRY(find_groups(&m, key_shift));
+    TL_TRY(m.has_flat_edges ? find_groups(&m, key_shift) : take_triangles(&m, key_shift));
     TL_TRY(number_strict_corners(&m, polygons_out));
     return number_polygons(&m, polygons_out);
 }
