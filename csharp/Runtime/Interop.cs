@@ -2714,6 +2714,13 @@ namespace Talus.Interop
         public ulong oldest;
     }
 
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_scaled_soup
+    {
+        public tl_soup* soup;
+        public tl_vec3 scale;
+    }
+
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void tl_task_fn(uint a0, uint a1, void* a2);
 
@@ -3550,5 +3557,13 @@ namespace Talus.Interop
         public static extern tl_result tl_scene_versions_publish(tl_scene_versions* versions, tl_scene_instance* instances, uint count, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_scene_versions_reclaim(tl_scene_versions* versions, tl_scene_versions_state* state_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scaled_soup_nearest(tl_scaled_soup* scaled, tl_vec3 point, float max_distance, tl_ray_filter* filter, tl_soup_point* nearest_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scaled_soup_overlaps(tl_scaled_soup* scaled, tl_convex* shape, tl_transform pose, tl_ray_filter* filter, byte* overlaps_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scaled_soup_find_overlaps(tl_scaled_soup* scaled, tl_convex* shape, tl_transform pose, tl_ray_filter* filter, uint* triangles_out, uint capacity, uint* count_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scaled_soup_cast_shape(tl_scaled_soup* scaled, tl_convex* shape, tl_transform pose, tl_vec3 motion, tl_ray_filter* filter, tl_shape_hit* hit_out);
     }
 }

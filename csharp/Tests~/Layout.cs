@@ -1494,5 +1494,8 @@ static unsafe class Layout
         Test.Equal(0, (byte*)&((tl_scene_versions_state*)at)->version_count - at, "tl_scene_versions_state.version_count");
         Test.Equal(8, (byte*)&((tl_scene_versions_state*)at)->newest - at, "tl_scene_versions_state.newest");
         Test.Equal(16, (byte*)&((tl_scene_versions_state*)at)->oldest - at, "tl_scene_versions_state.oldest");
+        Test.Equal(24, sizeof(tl_scaled_soup), "tl_scaled_soup");
+        Test.Equal(0, (byte*)&((tl_scaled_soup*)at)->soup - at, "tl_scaled_soup.soup");
+        Test.Equal(8, (byte*)&((tl_scaled_soup*)at)->scale - at, "tl_scaled_soup.scale");
     }
 }

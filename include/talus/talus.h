@@ -35,6 +35,7 @@
 #include <talus/scene.h>
 #include <talus/scene_versions.h>
 #include <talus/soup.h>
+#include <talus/soup_scaled.h>
 #include <talus/vec.h>
 
 #endif

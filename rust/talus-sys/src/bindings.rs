@@ -2370,6 +2370,12 @@ pub struct tl_scene_versions_state {
     pub newest: u64,
     pub oldest: u64,
 }
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scaled_soup {
+    pub soup: *const tl_soup,
+    pub scale: tl_vec3,
+}
 extern "C" {
     pub fn tl_result_name(result: tl_result) -> *const c_char;
     pub fn tl_result_text(result: tl_result) -> *const c_char;
@@ -4130,6 +4136,37 @@ extern "C" {
         versions: *mut tl_scene_versions,
         state_out: *mut tl_scene_versions_state,
     ) -> tl_result;
+    pub fn tl_scaled_soup_nearest(
+        scaled: *const tl_scaled_soup,
+        point: tl_vec3,
+        max_distance: f32,
+        filter: *const tl_ray_filter,
+        nearest_out: *mut tl_soup_point,
+    ) -> tl_result;
+    pub fn tl_scaled_soup_overlaps(
+        scaled: *const tl_scaled_soup,
+        shape: *const tl_convex,
+        pose: tl_transform,
+        filter: *const tl_ray_filter,
+        overlaps_out: *mut bool,
+    ) -> tl_result;
+    pub fn tl_scaled_soup_find_overlaps(
+        scaled: *const tl_scaled_soup,
+        shape: *const tl_convex,
+        pose: tl_transform,
+        filter: *const tl_ray_filter,
+        triangles_out: *mut u32,
+        capacity: u32,
+        count_out: *mut u32,
+    ) -> tl_result;
+    pub fn tl_scaled_soup_cast_shape(
+        scaled: *const tl_scaled_soup,
+        shape: *const tl_convex,
+        pose: tl_transform,
+        motion: tl_vec3,
+        filter: *const tl_ray_filter,
+        hit_out: *mut tl_shape_hit,
+    ) -> tl_result;
 }
 
 #[cfg(all(test, target_pointer_width = "64"))]
@@ -5854,5 +5891,8 @@ mod layout {
         );
         assert_eq!(core::mem::offset_of!(tl_scene_versions_state, newest), 8);
         assert_eq!(core::mem::offset_of!(tl_scene_versions_state, oldest), 16);
+        assert_eq!(core::mem::size_of::<tl_scaled_soup>(), 24);
+        assert_eq!(core::mem::offset_of!(tl_scaled_soup, soup), 0);
+        assert_eq!(core::mem::offset_of!(tl_scaled_soup, scale), 8);
     }
 }

@@ -14,6 +14,10 @@
 // query's loop over sixteen lanes without an instruction set of its own: unlike rays, these queries spend their time in
 // leaves. Where a loop is vectorized, let it write a byte a lane, of which tl_walk_mask makes bits. Where it is not,
 // shift the bits together: eight bytes that were stored one by one are slow to read at once.
+//
+// A walk may see the soup at a scale: then boxes and corners are multiplied as they are read. Products are rounded, and
+// rounding keeps the order of numbers, so a box still holds all corners that it held. It is widened by the rounding of
+// corners nevertheless: splits clip boxes, and a triangle whose corners moved may leave the clipped part.
 
 #ifndef TALUS_SRC_SOUP_BVH_WALK_H
 #define TALUS_SRC_SOUP_BVH_WALK_H
@@ -67,8 +71,16 @@ static inline uint32_t tl_walk_mask(const uint8_t lanes[TL_WALK_WIDTH])
     return tl_walk_mask8(lanes) | tl_walk_mask8(lanes + 8) << 8;
 }
 
+/// A scale, with what follows from it. NULL where one is taken: the soup as it is.
+typedef struct tl_walk_scale {
+    float by[3];
+    float wider[3]; ///< metres by which scaled boxes are widened
+    bool mirrored;  ///< an odd number of factors is negative: two corners change places, and fronts stay fronts
+} tl_walk_scale;
+
 typedef struct tl_walk {
     const tl_soup *soup;
+    const tl_walk_scale *scale; ///< may be NULL
     uint32_t count;
     // The bits of the key above the child word: keys are never negative, so their bits have the order of their values.
     uint64_t entries[TL_WALK_STACK_SIZE];
@@ -80,11 +92,17 @@ static inline bool tl_walk_is_leaf(uint32_t child)
 }
 
 /// The root comes first, with key 0.
-static inline void tl_walk_begin(tl_walk *walk, const tl_soup *soup)
+static inline void tl_walk_begin_scaled(tl_walk *walk, const tl_soup *soup, const tl_walk_scale *scale)
 {
     walk->soup = soup;
+    walk->scale = scale;
     walk->count = 1;
     walk->entries[0] = 0;
+}
+
+static inline void tl_walk_begin(tl_walk *walk, const tl_soup *soup)
+{
+    tl_walk_begin_scaled(walk, soup, NULL);
 }
 
 /// Pops the next child whose key is not above `limit`. False: none is left.
@@ -103,6 +121,12 @@ static inline bool tl_walk_next(tl_walk *walk, float limit, uint32_t *child_out)
     return false;
 }
 
+/// Scales the boxes of children; those of lanes without one stay empty.
+void tl_walk_scale_boxes(const tl_walk_scale *scale, tl_walk_boxes *boxes);
+
+/// Scales a triangle's corners.
+void tl_walk_scale_corners(const tl_walk_scale *scale, tl_vec3 corners[3]);
+
 static inline void tl_walk_read_compact_boxes(const tl_compact_node *node, tl_walk_boxes *boxes)
 {
     for (uint32_t row = 0; row < 6; row++) {
@@ -117,19 +141,26 @@ static inline void tl_walk_read_compact_boxes(const tl_compact_node *node, tl_wa
     boxes->mask = node->mask;
 }
 
-/// The boxes of a node's children.
-static inline void tl_walk_read_boxes(const tl_walk *walk, uint32_t node_index, tl_walk_boxes *boxes)
+static inline void tl_walk_read_plain_boxes(const tl_soup_node *node, tl_walk_boxes *boxes)
 {
-    if (walk->soup->layout == TL_SOUP_COMPACT) {
-        tl_walk_read_compact_boxes(&tl_compact_nodes(walk->soup)[node_index], boxes);
-        return;
-    }
-    const tl_soup_node *node = &tl_soup_nodes(walk->soup)[node_index];
     boxes->planes = node->plane[0];
     boxes->child = node->child;
     boxes->mask = 0;
     for (uint32_t lane = 0; lane < TL_WALK_WIDTH; lane++) {
         boxes->mask |= (uint32_t)(node->child[lane] != 0) << lane;
+    }
+}
+
+/// The boxes of a node's children.
+static inline void tl_walk_read_boxes(const tl_walk *walk, uint32_t node_index, tl_walk_boxes *boxes)
+{
+    if (walk->soup->layout == TL_SOUP_COMPACT) {
+        tl_walk_read_compact_boxes(&tl_compact_nodes(walk->soup)[node_index], boxes);
+    } else {
+        tl_walk_read_plain_boxes(&tl_soup_nodes(walk->soup)[node_index], boxes);
+    }
+    if (walk->scale != NULL) {
+        tl_walk_scale_boxes(walk->scale, boxes);
     }
 }
 
@@ -173,6 +204,7 @@ static inline void tl_walk_enter(tl_walk *walk, const tl_walk_boxes *boxes, uint
 /// An open leaf.
 typedef struct tl_walk_leaf {
     const tl_soup_leaf *leaf; ///< in the soup, or in `buffer`
+    const tl_walk_scale *scale;
     tl_leaf_view view;
     uint32_t child;      ///< its word
     uint32_t lane_count; ///< some lanes may hold no triangle
@@ -181,15 +213,16 @@ typedef struct tl_walk_leaf {
 
 /// One triangle of a leaf.
 typedef struct tl_walk_triangle {
-    tl_vec3 corners[3]; ///< as in the view
+    tl_vec3 corners[3]; ///< as in the view; where the walk has a scale, as it makes them
     uint32_t triangle;
     const tl_walk_leaf *leaf;
     uint32_t lane; ///< its place in the leaf
 } tl_walk_triangle;
 
-static inline void tl_walk_open_leaf(const tl_soup *soup, uint32_t child, tl_walk_leaf *leaf)
+static inline void tl_walk_open_leaf(const tl_walk *walk, uint32_t child, tl_walk_leaf *leaf)
 {
-    leaf->leaf = tl_open_leaf(soup, child, &leaf->buffer);
+    leaf->leaf = tl_open_leaf(walk->soup, child, &leaf->buffer);
+    leaf->scale = walk->scale;
     leaf->view = tl_view_leaf(leaf->leaf);
     leaf->child = child;
     leaf->lane_count = 2 * leaf->view.pair_count;
@@ -202,13 +235,17 @@ static inline bool tl_walk_read_triangle(const tl_walk_leaf *leaf, uint32_t lane
         return false;
     }
     tl_leaf_corners(&leaf->view, lane, triangle->corners);
+    if (leaf->scale != NULL) {
+        tl_walk_scale_corners(leaf->scale, triangle->corners);
+    }
     triangle->triangle = leaf->view.ids[lane] & TL_ID_INDEX;
     triangle->leaf = leaf;
     triangle->lane = lane;
     return true;
 }
 
-/// Bit i: the own box of the triangle of lane i shares a point with `box`; of lanes without a triangle unspecified.
+/// Bit i: the own box of the triangle of lane i, which no walk scales, shares a point with `box`; of lanes without a
+/// triangle unspecified.
 static inline uint32_t tl_walk_lanes_in_box(const tl_walk_leaf *leaf, tl_aabb box)
 {
     const uint32_t n = leaf->view.pair_count;

@@ -43,10 +43,10 @@ static uint32_t enter_region(const tl_walk_boxes *boxes, const tl_region *region
     return region->box != NULL ? lanes_meeting_box(boxes, *region->box) : region->enter(boxes, region->region);
 }
 
-static bool leaf_has(const tl_soup *soup, uint32_t child, uint32_t triangle)
+static bool leaf_has(const tl_walk *walk, uint32_t child, uint32_t triangle)
 {
     tl_walk_leaf leaf;
-    tl_walk_open_leaf(soup, child, &leaf);
+    tl_walk_open_leaf(walk, child, &leaf);
     for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
         if (leaf.view.ids[lane] != TL_ID_NONE && (leaf.view.ids[lane] & TL_ID_INDEX) == triangle) {
             return true;
@@ -60,7 +60,7 @@ static TL_NOINLINE bool is_first_copy(const tl_soup *soup, const tl_region *regi
 {
     tl_aabb own = tl_walk_triangle_box(triangle);
     tl_walk walk;
-    tl_walk_begin(&walk, soup);
+    tl_walk_begin_scaled(&walk, soup, triangle->leaf->scale);
     uint32_t child, first = UINT32_MAX;
     while (tl_walk_next(&walk, 0.0f, &child)) {
         if (!tl_walk_is_leaf(child)) {
@@ -68,7 +68,7 @@ static TL_NOINLINE bool is_first_copy(const tl_soup *soup, const tl_region *regi
             tl_walk_read_boxes(&walk, child, &boxes);
             uint32_t mask = lanes_meeting_box(&boxes, own) & enter_region(&boxes, region);
             tl_walk_enter_all(&walk, &boxes, mask);
-        } else if (child < first && leaf_has(soup, child, triangle->triangle)) {
+        } else if (child < first && leaf_has(&walk, child, triangle->triangle)) {
             first = child;
         }
     }
@@ -95,38 +95,49 @@ static bool is_new(const tl_soup *soup, const tl_region *region, const tl_walk_t
     return true;
 }
 
-static bool report_leaf(const tl_soup *soup, const tl_region *region, uint32_t child, seen_triangles *seen)
+// The lanes of a leaf whose triangles may belong. At a scale each triangle's box is looked at when it is read.
+static uint32_t lanes_to_read(const tl_walk_leaf *leaf, const tl_region *region)
+{
+    const uint32_t all = (1u << leaf->lane_count) - 1u;
+    return region->box != NULL && leaf->scale == NULL ? tl_walk_lanes_in_box(leaf, *region->box) : all;
+}
+
+static bool belongs(const tl_region *region, const tl_walk_triangle *triangle)
+{
+    const bool is_known = region->box == NULL || triangle->leaf->scale == NULL;
+    return (is_known || tl_aabb_overlaps(tl_walk_triangle_box(triangle), *region->box)) &&
+           (region->belongs == NULL || region->belongs(triangle, region->user));
+}
+
+static bool report_leaf(const tl_walk *walk, const tl_region *region, uint32_t child, seen_triangles *seen)
 {
     tl_walk_leaf leaf;
-    tl_walk_open_leaf(soup, child, &leaf);
-    const uint32_t all = (1u << leaf.lane_count) - 1u;
-    uint32_t lanes = region->box != NULL ? tl_walk_lanes_in_box(&leaf, *region->box) : all;
-    for (; lanes != 0; lanes &= lanes - 1) {
+    tl_walk_open_leaf(walk, child, &leaf);
+    for (uint32_t lanes = lanes_to_read(&leaf, region); lanes != 0; lanes &= lanes - 1) {
         tl_walk_triangle triangle;
-        if (tl_walk_read_triangle(&leaf, tl_lowest_bit(lanes), &triangle) &&
-            (region->belongs == NULL || region->belongs(&triangle, region->user)) &&
-            is_new(soup, region, &triangle, seen) && !region->found(&triangle, region->user)) {
+        if (tl_walk_read_triangle(&leaf, tl_lowest_bit(lanes), &triangle) && belongs(region, &triangle) &&
+            is_new(walk->soup, region, &triangle, seen) && !region->found(&triangle, region->user)) {
             return false;
         }
     }
     return true;
 }
 
-bool tl_region_walk(const tl_soup *soup, const tl_region *region)
+bool tl_region_walk_scaled(const tl_soup *soup, const tl_walk_scale *scale, const tl_region *region)
 {
     seen_triangles table, *seen = tl_walk_has_copies(soup) ? &table : NULL;
     if (seen != NULL) {
         memset(seen, 0, sizeof *seen);
     }
     tl_walk walk;
-    tl_walk_begin(&walk, soup);
+    tl_walk_begin_scaled(&walk, soup, scale);
     uint32_t child;
     while (tl_walk_next(&walk, 0.0f, &child)) {
         if (!tl_walk_is_leaf(child)) {
             tl_walk_boxes boxes;
             tl_walk_read_boxes(&walk, child, &boxes);
             tl_walk_enter_all(&walk, &boxes, enter_region(&boxes, region));
-        } else if (!report_leaf(soup, region, child, seen)) {
+        } else if (!report_leaf(&walk, region, child, seen)) {
             return false;
         }
     }

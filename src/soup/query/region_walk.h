@@ -27,7 +27,12 @@ typedef struct tl_region {
     void *user;
 } tl_region;
 
-/// Returns false when `found` ended the walk. The order is not specified, but always the same.
-bool tl_region_walk(const tl_soup *soup, const tl_region *region);
+/// Returns false when `found` ended the walk. The order is not specified, but always the same. `scale` may be NULL.
+bool tl_region_walk_scaled(const tl_soup *soup, const tl_walk_scale *scale, const tl_region *region);
+
+static inline bool tl_region_walk(const tl_soup *soup, const tl_region *region)
+{
+    return tl_region_walk_scaled(soup, NULL, region);
+}
 
 #endif

@@ -7,8 +7,9 @@
 //
 // Source: Roussopoulos, Kelley, Vincent, Nearest Neighbor Queries, 1995.
 
+#include "base/assert.h"
 #include "math/predicates.h"
-#include "soup/query/bvh_walk.h"
+#include "soup/query/walk_scale.h"
 #include "soup/ray/ray_filter.h"
 #include "soup/triangle/triangle_point.h"
 
@@ -64,10 +65,10 @@ static void set_nearest_limit(soup_nearest_search *s, double limit_sq)
     s->limit_key = limit_sq < (double)FLT_MAX ? (float)limit_sq + FLT_MIN : INFINITY;
 }
 
-static void visit_nearest_leaf(soup_nearest_search *s, uint32_t child)
+static void visit_nearest_leaf(soup_nearest_search *s, const tl_walk *walk, uint32_t child)
 {
     tl_walk_leaf leaf;
-    tl_walk_open_leaf(s->soup, child, &leaf);
+    tl_walk_open_leaf(walk, child, &leaf);
     tl_walk_triangle triangle;
     for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
         if (!tl_walk_read_triangle(&leaf, lane, &triangle)) {
@@ -92,16 +93,28 @@ static void visit_nearest_leaf(soup_nearest_search *s, uint32_t child)
     }
 }
 
-tl_result tl_soup_nearest(const tl_soup *soup, tl_vec3 point, float max_distance, const tl_ray_filter *filter,
-                          tl_soup_point *nearest_out)
+static void describe_nearest(const soup_nearest_search *s, const tl_walk_scale *scale, tl_soup_point *nearest_out)
+{
+    nearest_out->point = tl_vec3d_to_float(s->best.point);
+    nearest_out->distance = (float)sqrt(s->best.distance_sq);
+    nearest_out->triangle = s->triangle;
+    nearest_out->feature =
+        scale != NULL && scale->mirrored ? tl_walk_mirrored_feature(s->best.feature) : s->best.feature;
+    nearest_out->normal = tl_triangle_normal(s->corners);
+    nearest_out->material = tl_soup_material(s->soup, s->triangle);
+    nearest_out->back = seen_from_point(s->corners, s->at) == TL_SEEN_BACK;
+}
+
+tl_result tl_scaled_soup_nearest(const tl_scaled_soup *scaled, tl_vec3 point, float max_distance,
+                                 const tl_ray_filter *filter, tl_soup_point *nearest_out)
 {
     if (nearest_out == NULL) {
         return TL_ERR_ARGUMENT;
     }
     memset(nearest_out, 0, sizeof *nearest_out);
-    if (soup == NULL) {
-        return TL_ERR_ARGUMENT;
-    }
+    tl_walk_scale scale;
+    const tl_walk_scale *used;
+    TL_TRY(tl_walk_scale_make(scaled, &scale, &used));
     if (!tl_is_finite(point)) {
         return TL_ERR_NOT_FINITE;
     }
@@ -109,15 +122,15 @@ tl_result tl_soup_nearest(const tl_soup *soup, tl_vec3 point, float max_distance
         return TL_ERR_ARGUMENT;
     }
     soup_nearest_search s = {
-        .soup = soup, .filter = filter, .at = point, .point = tl_vec3d_from(point), .triangle = UINT32_MAX
+        .soup = scaled->soup, .filter = filter, .at = point, .point = tl_vec3d_from(point), .triangle = UINT32_MAX
     };
     set_nearest_limit(&s, (double)max_distance * (double)max_distance);
     tl_walk walk;
-    tl_walk_begin(&walk, soup);
+    tl_walk_begin_scaled(&walk, scaled->soup, used);
     uint32_t child;
     while (tl_walk_next(&walk, s.limit_key, &child)) {
         if (tl_walk_is_leaf(child)) {
-            visit_nearest_leaf(&s, child);
+            visit_nearest_leaf(&s, &walk, child);
         } else {
             enter_nearest_node(&s, &walk, child);
         }
@@ -125,12 +138,13 @@ tl_result tl_soup_nearest(const tl_soup *soup, tl_vec3 point, float max_distance
     if (s.triangle == UINT32_MAX) {
         return TL_NOT_FOUND;
     }
-    nearest_out->point = tl_vec3d_to_float(s.best.point);
-    nearest_out->distance = (float)sqrt(s.best.distance_sq);
-    nearest_out->triangle = s.triangle;
-    nearest_out->feature = s.best.feature;
-    nearest_out->normal = tl_triangle_normal(s.corners);
-    nearest_out->material = tl_soup_material(soup, s.triangle);
-    nearest_out->back = seen_from_point(s.corners, point) == TL_SEEN_BACK;
+    describe_nearest(&s, used, nearest_out);
     return TL_OK;
+}
+
+tl_result tl_soup_nearest(const tl_soup *soup, tl_vec3 point, float max_distance, const tl_ray_filter *filter,
+                          tl_soup_point *nearest_out)
+{
+    const tl_scaled_soup as_it_is = tl_unscaled_soup(soup);
+    return tl_scaled_soup_nearest(&as_it_is, point, max_distance, filter, nearest_out);
 }

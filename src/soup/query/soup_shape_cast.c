@@ -16,8 +16,8 @@
 #include "base/assert.h"
 #include "base/min_max.h"
 #include "math/predicates.h"
-#include "soup/query/bvh_walk.h"
 #include "soup/query/triangle_cast.h"
+#include "soup/query/walk_scale.h"
 #include "soup/triangle/triangle_point.h"
 
 // Metres that count as touching, as a share of the largest coordinate that the shape reaches: a position and a corner
@@ -184,41 +184,49 @@ static void describe_hit(const sweep_search *s, tl_shape_hit *hit)
     hit->status = s->best.status;
 }
 
-tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape, tl_transform pose, tl_vec3 motion,
-                             const tl_ray_filter *filter, tl_shape_hit *hit_out)
+static void visit_swept_leaf(sweep_search *s, const tl_walk *walk, uint32_t child)
+{
+    tl_walk_leaf leaf;
+    tl_walk_open_leaf(walk, child, &leaf);
+    tl_walk_triangle triangle;
+    for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
+        if (tl_walk_read_triangle(&leaf, lane, &triangle)) {
+            visit_triangle(s, &triangle);
+        }
+    }
+}
+
+tl_result tl_scaled_soup_cast_shape(const tl_scaled_soup *scaled, const tl_convex *shape, tl_transform pose,
+                                    tl_vec3 motion, const tl_ray_filter *filter, tl_shape_hit *hit_out)
 {
     if (hit_out == NULL) {
         return TL_ERR_ARGUMENT;
     }
     memset(hit_out, 0, sizeof *hit_out);
-    if (soup == NULL || shape == NULL) {
+    if (shape == NULL) {
         return TL_ERR_ARGUMENT;
     }
+    tl_walk_scale scale;
+    const tl_walk_scale *used;
+    TL_TRY(tl_walk_scale_make(scaled, &scale, &used));
     if (!tl_is_finite(motion)) {
         return TL_ERR_NOT_FINITE;
     }
     tl_query_shape query;
     TL_TRY(tl_query_shape_make(shape, pose, &query));
-    sweep_search s = { .soup = soup, .filter = filter, .shape = &query, .triangle = UINT32_MAX };
+    sweep_search s = { .soup = scaled->soup, .filter = filter, .shape = &query, .triangle = UINT32_MAX };
     s.motion.step = motion;
     s.limit = 1.0;
     s.limit_key = 1.0f;
     prepare_sweep(&s);
     tl_walk walk;
-    tl_walk_begin(&walk, soup);
+    tl_walk_begin_scaled(&walk, scaled->soup, used);
     uint32_t child;
     while (tl_walk_next(&walk, s.limit_key, &child)) {
-        if (!tl_walk_is_leaf(child)) {
+        if (tl_walk_is_leaf(child)) {
+            visit_swept_leaf(&s, &walk, child);
+        } else {
             enter_swept_node(&s, &walk, child);
-            continue;
-        }
-        tl_walk_leaf leaf;
-        tl_walk_open_leaf(soup, child, &leaf);
-        tl_walk_triangle triangle;
-        for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
-            if (tl_walk_read_triangle(&leaf, lane, &triangle)) {
-                visit_triangle(&s, &triangle);
-            }
         }
     }
     if (s.triangle == UINT32_MAX) {
@@ -226,4 +234,11 @@ tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape, tl_tra
     }
     describe_hit(&s, hit_out);
     return TL_OK;
+}
+
+tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape, tl_transform pose, tl_vec3 motion,
+                             const tl_ray_filter *filter, tl_shape_hit *hit_out)
+{
+    const tl_scaled_soup as_it_is = tl_unscaled_soup(soup);
+    return tl_scaled_soup_cast_shape(&as_it_is, shape, pose, motion, filter, hit_out);
 }
