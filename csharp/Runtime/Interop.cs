@@ -1027,6 +1027,14 @@ namespace Talus.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_scaled_convex
+    {
+        public tl_convex shape;
+        public tl_convex* of;
+        public tl_vec3 scale;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_decompose_def
     {
         public float tolerance;
@@ -2959,6 +2967,8 @@ namespace Talus.Interop
         public static extern void tl_character_mover_destroy(tl_character_mover* mover);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_character_move(tl_character_mover* mover, tl_character_level* level, tl_character_step* step, tl_character* character, tl_character_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scaled_convex_make(tl_convex* shape, tl_vec3 scale, tl_scaled_convex* scaled_out, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_decompose_def tl_default_decompose_def();
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -439,6 +439,10 @@ static unsafe class Layout
         Test.Equal(104, (byte*)&((tl_character_report*)at)->sweeps - at, "tl_character_report.sweeps");
         Test.Equal(108, (byte*)&((tl_character_report*)at)->hit_count - at, "tl_character_report.hit_count");
         Test.Equal(112, (byte*)&((tl_character_report*)at)->hits_0 - at, "tl_character_report.hits");
+        Test.Equal(104, sizeof(tl_scaled_convex), "tl_scaled_convex");
+        Test.Equal(0, (byte*)&((tl_scaled_convex*)at)->shape - at, "tl_scaled_convex.shape");
+        Test.Equal(80, (byte*)&((tl_scaled_convex*)at)->of - at, "tl_scaled_convex.of");
+        Test.Equal(88, (byte*)&((tl_scaled_convex*)at)->scale - at, "tl_scaled_convex.scale");
         Test.Equal(64, sizeof(tl_decompose_def), "tl_decompose_def");
         Test.Equal(0, (byte*)&((tl_decompose_def*)at)->tolerance - at, "tl_decompose_def.tolerance");
         Test.Equal(4, (byte*)&((tl_decompose_def*)at)->relative_tolerance - at, "tl_decompose_def.relative_tolerance");

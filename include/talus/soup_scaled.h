@@ -23,14 +23,12 @@
 #ifndef TALUS_SOUP_SCALED_H
 #define TALUS_SOUP_SCALED_H
 
+#include <talus/convex_scaled.h>
 #include <talus/soup.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/// The size of a factor is at most this, and at least its inverse.
-#define TL_MAX_SCALE 1e6f
 
 /// A soup at a scale.
 typedef struct tl_scaled_soup {

@@ -8,6 +8,7 @@
 #include <talus/base.h>
 #include <talus/character.h>
 #include <talus/convex.h>
+#include <talus/convex_scaled.h>
 #include <talus/decompose.h>
 #include <talus/halfedge.h>
 #include <talus/hull.h>

@@ -857,6 +857,13 @@ pub struct tl_character_report {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct tl_scaled_convex {
+    pub shape: tl_convex,
+    pub of: *const tl_convex,
+    pub scale: tl_vec3,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct tl_decompose_def {
     pub tolerance: f32,
     pub relative_tolerance: f32,
@@ -2832,6 +2839,12 @@ extern "C" {
         character: *mut tl_character,
         report_out: *mut tl_character_report,
     ) -> tl_result;
+    pub fn tl_scaled_convex_make(
+        shape: *const tl_convex,
+        scale: tl_vec3,
+        scaled_out: *mut tl_scaled_convex,
+        report_out: *mut tl_report,
+    ) -> tl_result;
     pub fn tl_default_decompose_def() -> tl_decompose_def;
     pub fn tl_decomposition_bake(
         view: *const tl_mesh_view,
@@ -4620,6 +4633,10 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_character_report, sweeps), 104);
         assert_eq!(core::mem::offset_of!(tl_character_report, hit_count), 108);
         assert_eq!(core::mem::offset_of!(tl_character_report, hits), 112);
+        assert_eq!(core::mem::size_of::<tl_scaled_convex>(), 104);
+        assert_eq!(core::mem::offset_of!(tl_scaled_convex, shape), 0);
+        assert_eq!(core::mem::offset_of!(tl_scaled_convex, of), 80);
+        assert_eq!(core::mem::offset_of!(tl_scaled_convex, scale), 88);
         assert_eq!(core::mem::size_of::<tl_decompose_def>(), 64);
         assert_eq!(core::mem::offset_of!(tl_decompose_def, tolerance), 0);
         assert_eq!(
