@@ -274,9 +274,9 @@ static void place(world *w, const model *models, uint32_t count)
     tl_aabb area = { tl_vec3_make(0, 0, 0), tl_vec3_make(side, 0.1f * side, side) };
     for (uint32_t i = 0; i < count; i++) {
         uint32_t m = (uint32_t)(tl_random_unit_float(&random_state) * MODELS);
-        tl_scene_instance instance = {
-            models[m].soup, NULL, { random_rotation(), bench_point_in(&random_state, area) }, 1
-        };
+        tl_scene_instance instance = { .soup = models[m].soup, .mask = 1 };
+        instance.pose.rotation = random_rotation();
+        instance.pose.position = bench_point_in(&random_state, area);
         w->instances[i] = instance;
         w->models[i] = m;
     }

@@ -36,9 +36,9 @@ int main(void)
     // The door hangs at its hinge, which is its own origin.
     tl_convex door = tl_convex_box(tl_vec3_make(0.5f, 1, 0), tl_vec3_make(0.5f, 1, 0.03f), 0);
     tl_convex body = tl_convex_capsule(tl_vec3_make(0, 0.3f, 0), tl_vec3_make(0, 1.5f, 0), 0.3f);
-    tl_scene_instance instances[INSTANCES] = { { level, NULL, tl_transform_identity(), STATIC },
-                                               { NULL, &door, tl_transform_identity(), DOORS },
-                                               { NULL, &body, tl_transform_identity(), PEOPLE } };
+    tl_scene_instance instances[INSTANCES] = { { .soup = level, .mask = STATIC },
+                                               { .shape = &door, .mask = DOORS },
+                                               { .shape = &body, .mask = PEOPLE } };
     instances[THIEF].pose.position = tl_vec3_make(0.5f, 0, 4);
     if (tl_scene_bake(instances, INSTANCES, NULL, &scene, NULL) != TL_OK) {
         return 1;

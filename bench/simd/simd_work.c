@@ -234,7 +234,7 @@ static void scene_rays(uint32_t count)
     for (uint32_t i = 0; i < INSTANCES; i++) {
         tl_transform pose = tl_transform_identity();
         pose.position = point_in(box);
-        tl_scene_instance instance = { NULL, &shape, pose, 1 };
+        tl_scene_instance instance = { .shape = &shape, .pose = pose, .mask = 1 };
         instances[i] = instance;
     }
     tl_scene *scene;

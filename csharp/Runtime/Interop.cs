@@ -647,6 +647,14 @@ namespace Talus.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_scaled_convex
+    {
+        public tl_convex shape;
+        public tl_convex* of;
+        public tl_vec3 scale;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_mesh_view
     {
         public tl_vec3* vertices;
@@ -868,6 +876,13 @@ namespace Talus.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_scaled_soup
+    {
+        public tl_soup* soup;
+        public tl_vec3 scale;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_scene
     {
     }
@@ -879,6 +894,7 @@ namespace Talus.Interop
         public tl_convex* shape;
         public tl_transform pose;
         public uint mask;
+        public tl_vec3 scale;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1024,14 +1040,6 @@ namespace Talus.Interop
         public tl_character_hit hits_5;
         public tl_character_hit hits_6;
         public tl_character_hit hits_7;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_scaled_convex
-    {
-        public tl_convex shape;
-        public tl_convex* of;
-        public tl_vec3 scale;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -2722,13 +2730,6 @@ namespace Talus.Interop
         public ulong oldest;
     }
 
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct tl_scaled_soup
-    {
-        public tl_soup* soup;
-        public tl_vec3 scale;
-    }
-
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void tl_task_fn(uint a0, uint a1, void* a2);
 
@@ -2866,6 +2867,8 @@ namespace Talus.Interop
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern uint tl_convex_contacts_along(tl_convex* a, tl_transform pose_a, tl_convex* b, tl_transform pose_b, tl_vec3 normal, tl_contact_limits* limits, tl_contact_manifold* manifold_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scaled_convex_make(tl_convex* shape, tl_vec3 scale, tl_scaled_convex* scaled_out, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_mesh_def tl_default_mesh_def();
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_mesh_bake(tl_mesh_view* view, tl_mesh_def* def, tl_mesh* mesh_out, tl_mesh_report* report_out);
@@ -2936,6 +2939,14 @@ namespace Talus.Interop
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern byte tl_soup_bvh_boxes(tl_soup* soup, uint max_depth, IntPtr visit, void* user);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scaled_soup_nearest(tl_scaled_soup* scaled, tl_vec3 point, float max_distance, tl_ray_filter* filter, tl_soup_point* nearest_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scaled_soup_overlaps(tl_scaled_soup* scaled, tl_convex* shape, tl_transform pose, tl_ray_filter* filter, byte* overlaps_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scaled_soup_find_overlaps(tl_scaled_soup* scaled, tl_convex* shape, tl_transform pose, tl_ray_filter* filter, uint* triangles_out, uint capacity, uint* count_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scaled_soup_cast_shape(tl_scaled_soup* scaled, tl_convex* shape, tl_transform pose, tl_vec3 motion, tl_ray_filter* filter, tl_shape_hit* hit_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_scene_bake(tl_scene_instance* instances, uint count, tl_host* host, tl_scene** scene_out, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_scene_refit(tl_scene* scene, tl_scene_instance* instances, uint count, float* growth_out, tl_report* report_out);
@@ -2967,8 +2978,6 @@ namespace Talus.Interop
         public static extern void tl_character_mover_destroy(tl_character_mover* mover);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_character_move(tl_character_mover* mover, tl_character_level* level, tl_character_step* step, tl_character* character, tl_character_report* report_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_scaled_convex_make(tl_convex* shape, tl_vec3 scale, tl_scaled_convex* scaled_out, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_decompose_def tl_default_decompose_def();
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3567,13 +3576,5 @@ namespace Talus.Interop
         public static extern tl_result tl_scene_versions_publish(tl_scene_versions* versions, tl_scene_instance* instances, uint count, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_scene_versions_reclaim(tl_scene_versions* versions, tl_scene_versions_state* state_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_scaled_soup_nearest(tl_scaled_soup* scaled, tl_vec3 point, float max_distance, tl_ray_filter* filter, tl_soup_point* nearest_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_scaled_soup_overlaps(tl_scaled_soup* scaled, tl_convex* shape, tl_transform pose, tl_ray_filter* filter, byte* overlaps_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_scaled_soup_find_overlaps(tl_scaled_soup* scaled, tl_convex* shape, tl_transform pose, tl_ray_filter* filter, uint* triangles_out, uint capacity, uint* count_out);
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern tl_result tl_scaled_soup_cast_shape(tl_scaled_soup* scaled, tl_convex* shape, tl_transform pose, tl_vec3 motion, tl_ray_filter* filter, tl_shape_hit* hit_out);
     }
 }

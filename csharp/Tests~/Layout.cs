@@ -222,6 +222,10 @@ static unsafe class Layout
         Test.Equal(228, (byte*)((tl_contact_cache*)at)->b_to_a - at, "tl_contact_cache.b_to_a");
         Test.Equal(276, (byte*)&((tl_contact_cache*)at)->proven_depth - at, "tl_contact_cache.proven_depth");
         Test.Equal(280, (byte*)&((tl_contact_cache*)at)->polytope - at, "tl_contact_cache.polytope");
+        Test.Equal(104, sizeof(tl_scaled_convex), "tl_scaled_convex");
+        Test.Equal(0, (byte*)&((tl_scaled_convex*)at)->shape - at, "tl_scaled_convex.shape");
+        Test.Equal(80, (byte*)&((tl_scaled_convex*)at)->of - at, "tl_scaled_convex.of");
+        Test.Equal(88, (byte*)&((tl_scaled_convex*)at)->scale - at, "tl_scaled_convex.scale");
         Test.Equal(40, sizeof(tl_mesh_view), "tl_mesh_view");
         Test.Equal(0, (byte*)&((tl_mesh_view*)at)->vertices - at, "tl_mesh_view.vertices");
         Test.Equal(8, (byte*)&((tl_mesh_view*)at)->vertex_count - at, "tl_mesh_view.vertex_count");
@@ -353,11 +357,15 @@ static unsafe class Layout
         Test.Equal(56, sizeof(tl_soup_pair), "tl_soup_pair");
         Test.Equal(0, (byte*)&((tl_soup_pair*)at)->corners_0 - at, "tl_soup_pair.corners");
         Test.Equal(48, (byte*)((tl_soup_pair*)at)->triangles - at, "tl_soup_pair.triangles");
-        Test.Equal(48, sizeof(tl_scene_instance), "tl_scene_instance");
+        Test.Equal(24, sizeof(tl_scaled_soup), "tl_scaled_soup");
+        Test.Equal(0, (byte*)&((tl_scaled_soup*)at)->soup - at, "tl_scaled_soup.soup");
+        Test.Equal(8, (byte*)&((tl_scaled_soup*)at)->scale - at, "tl_scaled_soup.scale");
+        Test.Equal(64, sizeof(tl_scene_instance), "tl_scene_instance");
         Test.Equal(0, (byte*)&((tl_scene_instance*)at)->soup - at, "tl_scene_instance.soup");
         Test.Equal(8, (byte*)&((tl_scene_instance*)at)->shape - at, "tl_scene_instance.shape");
         Test.Equal(16, (byte*)&((tl_scene_instance*)at)->pose - at, "tl_scene_instance.pose");
         Test.Equal(44, (byte*)&((tl_scene_instance*)at)->mask - at, "tl_scene_instance.mask");
+        Test.Equal(48, (byte*)&((tl_scene_instance*)at)->scale - at, "tl_scene_instance.scale");
         Test.Equal(32, sizeof(tl_scene_stats), "tl_scene_stats");
         Test.Equal(0, (byte*)&((tl_scene_stats*)at)->size - at, "tl_scene_stats.size");
         Test.Equal(8, (byte*)&((tl_scene_stats*)at)->instance_count - at, "tl_scene_stats.instance_count");
@@ -439,10 +447,6 @@ static unsafe class Layout
         Test.Equal(104, (byte*)&((tl_character_report*)at)->sweeps - at, "tl_character_report.sweeps");
         Test.Equal(108, (byte*)&((tl_character_report*)at)->hit_count - at, "tl_character_report.hit_count");
         Test.Equal(112, (byte*)&((tl_character_report*)at)->hits_0 - at, "tl_character_report.hits");
-        Test.Equal(104, sizeof(tl_scaled_convex), "tl_scaled_convex");
-        Test.Equal(0, (byte*)&((tl_scaled_convex*)at)->shape - at, "tl_scaled_convex.shape");
-        Test.Equal(80, (byte*)&((tl_scaled_convex*)at)->of - at, "tl_scaled_convex.of");
-        Test.Equal(88, (byte*)&((tl_scaled_convex*)at)->scale - at, "tl_scaled_convex.scale");
         Test.Equal(64, sizeof(tl_decompose_def), "tl_decompose_def");
         Test.Equal(0, (byte*)&((tl_decompose_def*)at)->tolerance - at, "tl_decompose_def.tolerance");
         Test.Equal(4, (byte*)&((tl_decompose_def*)at)->relative_tolerance - at, "tl_decompose_def.relative_tolerance");
@@ -1498,8 +1502,5 @@ static unsafe class Layout
         Test.Equal(0, (byte*)&((tl_scene_versions_state*)at)->version_count - at, "tl_scene_versions_state.version_count");
         Test.Equal(8, (byte*)&((tl_scene_versions_state*)at)->newest - at, "tl_scene_versions_state.newest");
         Test.Equal(16, (byte*)&((tl_scene_versions_state*)at)->oldest - at, "tl_scene_versions_state.oldest");
-        Test.Equal(24, sizeof(tl_scaled_soup), "tl_scaled_soup");
-        Test.Equal(0, (byte*)&((tl_scaled_soup*)at)->soup - at, "tl_scaled_soup.soup");
-        Test.Equal(8, (byte*)&((tl_scaled_soup*)at)->scale - at, "tl_scaled_soup.scale");
     }
 }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// A scene: instances of soups and convex shapes (doors, props, vehicles, other agents) in a two-level BVH: a top-level
-// tree (TLAS) over the boxes of the instances, and the BVH of each instance's soup below it.
+// A scene: instances of soups and convex shapes (doors, props, vehicles, other agents), each at a pose and a scale, in
+// a two-level BVH: a top-level tree (TLAS) over the boxes of the instances, and the BVH of each instance's soup below
+// it.
 //
 //   tl_scene_instance [count] --tl_scene_bake--> tl_scene --tl_scene_cast_ray, tl_scene_cast_shape ...--> instance,
 //          moved              --tl_scene_refit------^                                                     triangle
 //
-// The caller keeps the instances. A scene holds the tree over their boxes, with their poses and masks as they were when
-// it was last baked or refitted. It holds no pointer: every query takes the instances again and finds soups and shapes
-// there. Queries answer for the last bake or refit: moving an instance has no effect before the next refit, and soups
-// and shapes must stay as they were.
+// The caller keeps the instances. A scene holds the tree over their boxes, with their poses, scales and masks as they
+// were when it was last baked or refitted. It holds no pointer: every query takes the instances again and finds soups
+// and shapes there. Queries answer for the last bake or refit: moving an instance has no effect before the next refit,
+// and soups and shapes must stay as they were.
 //
 // What the answers promise:
 //
@@ -21,9 +22,20 @@
 //   share of 2^-20 of that) of where it should, o and d the origin and direction in the instance's space: o rounds to
 //   within u |o|, d to within u |d|. The rotation of a shape is off by 4 u besides. There the answer is exact as in
 //   soup.h. All triangles of an instance see the same ray, so nothing slips through between two of them.
-// - t, shares of motions and distances mean the same in every instance, because poses are rigid.
-// - Shapes are queried in double where they are (convex.h).
+// - Shapes are queried in double where they are (convex.h); rays and lines of sight query a scaled one in its own
+// space.
+// - t, shares of motions and distances mean the same in every instance: t and shares are those of the world's ray and
+//   motion, and distances and depths are the world's metres.
 // - Points and normals are in the world: computed from the instance's space in double, rounded once.
+//
+// Scales: p becomes R (s p) + position, with a factor s along each of the instance's own axes.
+//
+// - A ray is divided by the factors on its way into the instance's space, and rounded there. A factor changes no
+//   coordinate's relative error; so, o and d taken before the division, the bound above holds in the world.
+// - Shapes against soups, and the nearest point, answer as for a soup whose corners were multiplied by the factors,
+//   each coordinate rounded once (soup_scaled.h): bit for bit. Shapes against shapes as convex_scaled.h says.
+// - Fronts of triangles stay fronts, also where an odd number of factors is negative; a ray's `normal` is the inverse
+//   transpose's, off by 3 u times the ratio of the largest factor to the smallest.
 //
 // Queries take a const scene, allocate nothing, and may run on any number of threads at once.
 //
@@ -36,7 +48,9 @@
 
 #include <talus/base.h>
 #include <talus/convex.h>
+#include <talus/convex_scaled.h>
 #include <talus/soup.h>
+#include <talus/soup_scaled.h>
 #include <talus/vec.h>
 
 #ifdef __cplusplus
@@ -48,33 +62,38 @@ typedef struct tl_scene tl_scene;
 
 /// "tlsc" in memory.
 #define TL_SCENE_MAGIC   0x63736c74u
-#define TL_SCENE_VERSION 2u
+#define TL_SCENE_VERSION 3u
 
 /// The largest number of instances of a scene.
 #define TL_MAX_SCENE_INSTANCES 0x0fffffffu
 
 #define TL_NO_INSTANCE         UINT32_MAX
 
-/// A soup or a convex shape at a pose. The scene copies the pose and the mask, and owns nothing.
+/// A soup or a convex shape at a pose and a scale. The scene copies these and the mask, and owns nothing.
 typedef struct tl_scene_instance {
     const tl_soup *soup;    ///< NULL: not a soup
     const tl_convex *shape; ///< NULL: not a shape. With neither, nothing is here, and nothing is found
     tl_transform pose;      ///< from the instance's space to the world; the rotation is normalized before use
     uint32_t mask;          ///< the caller's own bits, by which queries ignore instances. 0: every query ignores it
+    /// Factors along the instance's own axes, before the pose; mirrored where negative. All zero: 1. Sizes are within
+    /// TL_MAX_SCALE and its inverse. A rounded shape takes one size for all axes: see tl_scaled_convex_make.
+    tl_vec3 scale;
 } tl_scene_instance;
 
 /// Bakes a scene of `count` instances, of which there may be none.
 ///
 /// The bytes depend only on the instances. O(n log n), about 0.1 us an instance. `host` and `report_out` may be NULL;
 /// of the host only the allocator is used.
-/// Errors, with the instance in `report_out`: TL_ERR_NOT_FINITE (a pose, or a shape without a finite box), TL_ERR_RANGE
-/// (a position, or a box in the instance's space, beyond TL_MAX_COORDINATE), TL_ERR_ARGUMENT (both a soup and a shape;
-/// a radius that is negative or NaN; an inverted box), TL_ERR_LIMIT (more than TL_MAX_SCENE_INSTANCES), TL_ERR_MEMORY.
+/// Errors, with the instance in `report_out`: TL_ERR_NOT_FINITE (a pose, a scale, or a shape without a finite box),
+/// TL_ERR_RANGE (a position, or a box in the instance's space or scaled, beyond TL_MAX_COORDINATE; a factor of the
+/// scale that is 0, unless all are, or beyond TL_MAX_SCALE), TL_ERR_ARGUMENT (both a soup and a shape; a radius that is
+/// negative or NaN; an inverted box; a scale that a rounded shape does not take), TL_ERR_LIMIT (more than
+/// TL_MAX_SCENE_INSTANCES), TL_ERR_MEMORY.
 TL_API tl_result tl_scene_bake(const tl_scene_instance *instances, uint32_t count, const tl_host *host,
                                tl_scene **scene_out, tl_report *report_out);
 
-/// Takes the instances as they are now: other poses, masks, soups, shapes, or none. In place, O(n), no memory; an
-/// instance that did not move costs next to nothing.
+/// Takes the instances as they are now: other poses, scales, masks, soups, shapes, or none. In place, O(n), no memory;
+/// an instance that did not move costs next to nothing.
 ///
 /// Every query then answers as if the scene had been baked anew. The tree keeps its form, however far instances moved:
 /// `growth_out` (may be NULL) is the ratio of its cost (tl_scene_stats) to the cost when it was baked; from 1.5 or so
@@ -123,8 +142,9 @@ typedef struct tl_scene_hit {
 /// `filter` may be NULL.
 ///
 /// Rays as in soup.h: a zero direction, a coordinate that is not finite, and a tmax that is negative or NaN hit
-/// nothing; nor does a ray in an instance in whose space it is not finite. Shapes are solid. An origin farther than
-/// 1e15 m from anything, or a direction shorter than 1e-30, makes it query every instance.
+/// nothing; nor does a ray in an instance in whose space it is not finite, or its direction underflows. Shapes are
+/// solid. An origin farther than 1e15 m from anything, or a direction shorter than 1e-30, makes it query every
+/// instance.
 TL_API bool tl_scene_cast_ray(const tl_scene *scene, const tl_scene_instance *instances, const tl_ray *ray,
                               const tl_scene_filter *filter, tl_scene_hit *hit_out);
 

@@ -9,6 +9,7 @@
 
 #include "character/capsule_gap.h"
 
+#include "math/scale.h"
 #include "math/tolerance.h"
 
 #define ALL_SIDES 7u
@@ -201,6 +202,13 @@ static void nearest_of_triangle(const tl_mover_item *t, const tl_mover_core *cor
     }
 }
 
+const tl_convex *tl_mover_shape(const tl_mover_item *item, tl_scaled_convex *room)
+{
+    return !tl_scale_is_one(item->scale) && tl_scaled_convex_make(item->shape, item->scale, room, NULL) == TL_OK
+               ? &room->shape
+               : item->shape;
+}
+
 static void nearest_of_shape(const tl_mover_item *item, const tl_mover_core *core, tl_mover_nearest *best)
 {
     // Relative to the core, which so is exact; the shape's own place is a float.
@@ -208,7 +216,9 @@ static void nearest_of_shape(const tl_mover_item *item, const tl_mover_core *cor
     tl_transform here = tl_transform_identity(), there = { item->pose->rotation, tl_vec3d_to_float(away) };
     tl_convex segment = tl_convex_capsule(tl_vec3_make(0, 0, 0), tl_vec3_make(0, (float)core->length, 0), 0.0f);
     tl_separation s;
-    tl_convex_distance(item->shape, there, &segment, here, NULL, &s);
+    tl_scaled_convex room;
+    const tl_convex *shape = tl_mover_shape(item, &room);
+    tl_convex_distance(shape, there, &segment, here, NULL, &s);
     best->face = false;
     if (!s.overlap) {
         best->distance = (double)s.distance;
@@ -217,7 +227,7 @@ static void nearest_of_shape(const tl_mover_item *item, const tl_mover_core *cor
         return;
     }
     tl_penetration in;
-    tl_convex_penetration(item->shape, there, &segment, here, NULL, &in);
+    tl_convex_penetration(shape, there, &segment, here, NULL, &in);
     best->distance = -(double)in.depth;
     best->normal = in.overlap ? tl_vec3d_from(in.normal) : tl_vec3d_make(0.0, 1.0, 0.0);
     best->point = tl_vec3d_add(core->low, tl_vec3d_from(in.point_a));

@@ -7,7 +7,7 @@
 
 #include "math/vec3d.h"
 
-#include <talus/convex.h>
+#include <talus/convex_scaled.h>
 
 /// A triangle or a convex shape, in the world.
 typedef struct tl_mover_item {
@@ -18,6 +18,7 @@ typedef struct tl_mover_item {
     double edge_sq[3];      ///< square metres: those lengths squared
     const tl_convex *shape; ///< NULL: a triangle
     const tl_transform *pose;
+    tl_vec3 scale; ///< of the shape
     uint32_t instance, triangle;
     uint16_t material;
     bool known; ///< of a triangle: normal, inward, edge_sq
@@ -48,6 +49,9 @@ static inline void tl_mover_know(tl_mover_item *item)
         tl_mover_know_triangle(item);
     }
 }
+
+/// The item's shape at its scale: itself, or in the room. A scene has checked that it takes the scale.
+const tl_convex *tl_mover_shape(const tl_mover_item *item, tl_scaled_convex *room);
 
 /// What is farther than `reach` may be called infinitely far: then the distance alone is set.
 void tl_mover_nearest_of(tl_mover_item *item, const tl_mover_core *core, double reach, tl_mover_nearest *nearest_out);

@@ -4,6 +4,7 @@
 // few triangles that are found.
 
 #include "character/mover.h"
+#include "math/scale.h"
 #include "math/tolerance.h"
 
 #include <string.h>
@@ -15,6 +16,8 @@ typedef struct collection {
     const tl_scene_instance *at; // NULL: in the world
     uint32_t instance;
     tl_frame frame;
+    tl_vec3d scale; // of the instance
+    bool mirrored;
     bool full;
 } collection;
 
@@ -49,6 +52,12 @@ static bool accepts_triangle(const collection *c, const tl_soup_triangle *triang
     return filter->accept == NULL || filter->accept(triangle->triangle, triangle->material, filter->accept_user);
 }
 
+static tl_vec3d corner_in_world(const collection *c, tl_vec3d corner)
+{
+    return tl_frame_point(&c->frame,
+                          tl_vec3d_make(corner.x * c->scale.x, corner.y * c->scale.y, corner.z * c->scale.z));
+}
+
 static bool collect_triangle(const tl_soup_triangle *triangle, void *user)
 {
     collection *c = (collection *)user;
@@ -57,8 +66,8 @@ static bool collect_triangle(const tl_soup_triangle *triangle, void *user)
         return false;
     }
     for (int k = 0; k < 3; k++) {
-        tl_vec3d corner = tl_vec3d_from(triangle->corners[k]);
-        item->corners[k] = c->at != NULL ? tl_frame_point(&c->frame, corner) : corner;
+        tl_vec3d corner = tl_vec3d_from(triangle->corners[c->mirrored ? (3 - k) % 3 : k]);
+        item->corners[k] = c->at != NULL ? corner_in_world(c, corner) : corner;
     }
     tl_mover_set_triangle(item);
     item->instance = c->instance;
@@ -81,6 +90,9 @@ static tl_aabb box_in_instance(const collection *c)
                                    fabs(r[0].z) * half.x + fabs(r[1].z) * half.y + fabs(r[2].z) * half.z);
     double room = TL_FLOAT_OUTWARD * (tl_vec3d_size(at) + tl_vec3d_size(reach));
     reach = tl_vec3d_add(reach, tl_vec3d_make(room, room, room));
+    const tl_vec3d s = c->scale;
+    at = tl_vec3d_make(at.x / s.x, at.y / s.y, at.z / s.z);
+    reach = tl_vec3d_make(reach.x / fabs(s.x), reach.y / fabs(s.y), reach.z / fabs(s.z));
     tl_aabb box = { tl_vec3d_to_float(tl_vec3d_sub(at, reach)), tl_vec3d_to_float(tl_vec3d_add(at, reach)) };
     return box;
 }
@@ -91,17 +103,22 @@ static bool collect_instance(uint32_t instance, void *user)
     const tl_scene_instance *at = &c->m->level->instances[instance];
     c->at = at;
     c->instance = instance;
+    const tl_vec3 scale = tl_scale_is_one(at->scale) ? tl_vec3_make(1.0f, 1.0f, 1.0f) : at->scale;
     if (at->soup != NULL) {
+        c->scale = tl_vec3d_from(scale);
+        c->mirrored = tl_scale_is_mirrored(scale);
         c->frame = tl_frame_from(at->pose);
         return tl_soup_triangles_in_box(at->soup, box_in_instance(c), collect_triangle, c);
     }
     tl_mover_item *item = at->shape != NULL ? next_item(c) : NULL;
     if (item != NULL) {
-        tl_aabb box = tl_convex_bounds(at->shape, at->pose);
         memset(item, 0, sizeof *item);
+        item->shape = at->shape;
+        item->scale = scale;
+        tl_scaled_convex room;
+        tl_aabb box = tl_convex_bounds(tl_mover_shape(item, &room), at->pose);
         item->low = tl_vec3d_from(box.min);
         item->high = tl_vec3d_from(box.max);
-        item->shape = at->shape;
         item->pose = &at->pose;
         item->instance = instance;
         item->triangle = TL_NO_TRIANGLE;

@@ -89,8 +89,9 @@ static double top_cosine(const tl_character_mover *m, const tl_mover_contact *c)
     }
     above.y += m->radius;
     tl_convex_hit hit;
-    bool found = tl_convex_cast_ray(item->shape, *item->pose, tl_vec3d_to_float(above), tl_vec3_make(0.0f, -1.0f, 0.0f),
-                                    2.0f * (float)m->radius, &hit);
+    tl_scaled_convex room;
+    bool found = tl_convex_cast_ray(tl_mover_shape(item, &room), *item->pose, tl_vec3d_to_float(above),
+                                    tl_vec3_make(0.0f, -1.0f, 0.0f), 2.0f * (float)m->radius, &hit);
     return found && !hit.initial_overlap ? (double)hit.normal.y : 0.0;
 }
 

@@ -16,9 +16,14 @@
 //   that.
 //
 // So the box is widened by 32 u (|p| + r), the instance's part; the part of |o| widens the query.
+//
+// A scale changes none of that, where r is that of the scaled box: coordinates are divided by a factor each, and the
+// rounding of each is a share of itself. Corners and support points of a scaled instance round once more, by u r.
 
 #include "scene/instance_box.h"
 
+#include "base/assert.h"
+#include "base/compiler.h"
 #include "math/tolerance.h"
 
 #include <float.h>
@@ -45,6 +50,18 @@ static bool is_within_range(tl_vec3 a)
     return fabsf(a.x) <= TL_MAX_COORDINATE && fabsf(a.y) <= TL_MAX_COORDINATE && fabsf(a.z) <= TL_MAX_COORDINATE;
 }
 
+// Whether the shape takes the scale, and the scaled box is within range.
+static TL_NOINLINE tl_result check_scaled(const tl_scene_instance *instance, tl_aabb local)
+{
+    tl_scaled_convex room;
+    if (instance->shape != NULL) {
+        TL_TRY(tl_scaled_convex_make(instance->shape, instance->scale, &room, NULL));
+    }
+    bool within =
+        is_within_range(tl_mul(local.min, instance->scale)) && is_within_range(tl_mul(local.max, instance->scale));
+    return within ? TL_OK : TL_ERR_RANGE;
+}
+
 tl_result tl_scene_read_instance(const tl_scene_instance *instance, tl_aabb *local_out)
 {
     tl_quat q = instance->pose.rotation;
@@ -54,6 +71,10 @@ tl_result tl_scene_read_instance(const tl_scene_instance *instance, tl_aabb *loc
     }
     if (!is_within_range(instance->pose.position)) {
         return TL_ERR_RANGE;
+    }
+    bool is_scaled = !tl_scale_is_one(instance->scale);
+    if (is_scaled) {
+        TL_TRY(tl_scale_check(instance->scale, TL_MAX_SCALE));
     }
     const tl_convex *shape = instance->shape;
     if (shape == NULL && instance->soup == NULL) {
@@ -72,66 +93,84 @@ tl_result tl_scene_read_instance(const tl_scene_instance *instance, tl_aabb *loc
     if (!is_within_range(local_out->min) || !is_within_range(local_out->max)) {
         return TL_ERR_RANGE;
     }
-    return tl_aabb_is_empty(*local_out) ? TL_ERR_ARGUMENT : TL_OK;
+    if (tl_aabb_is_empty(*local_out)) {
+        return TL_ERR_ARGUMENT;
+    }
+    return is_scaled ? check_scaled(instance, *local_out) : TL_OK;
 }
 
-// In double, rounded once; nothing is here: a point.
-static tl_scene_own_box own_box(const tl_frame *frame, tl_vec3 position, tl_aabb local)
+// An instance's box at its scale, in the frame of its rotation.
+typedef struct scaled_box {
+    tl_vec3d middle, half;
+    double size; // of the position, the middle and the extents, summed over all axes
+} scaled_box;
+
+static tl_vec3d scale_corner(tl_vec3 corner, tl_vec3d by)
 {
-    tl_vec3d low = tl_vec3d_make(0.0, 0.0, 0.0), high = low;
+    return tl_vec3d_make((double)corner.x * by.x, (double)corner.y * by.y, (double)corner.z * by.z);
+}
+
+// Where nothing is, a point.
+static scaled_box scale_box(tl_aabb local, tl_vec3d by, tl_vec3d at)
+{
+    scaled_box box = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, tl_vec3d_size(at) };
     if (!tl_aabb_is_empty(local)) {
-        low = tl_vec3d_from(local.min);
-        high = tl_vec3d_from(local.max);
+        tl_vec3d low = scale_corner(local.min, by), high = scale_corner(local.max, by);
+        tl_vec3d size = tl_vec3d_sub(high, low); // negative along mirrored axes
+        box.middle = tl_vec3d_scale(tl_vec3d_add(low, high), 0.5);
+        box.half = tl_vec3d_scale(tl_vec3d_make(fabs(size.x), fabs(size.y), fabs(size.z)), 0.5);
+        box.size += tl_vec3d_size(box.middle) + tl_vec3d_size(box.half);
     }
-    tl_vec3d middle = tl_vec3d_scale(tl_vec3d_add(low, high), 0.5), at = tl_vec3d_from(position);
-    tl_vec3d half = tl_vec3d_scale(tl_vec3d_sub(high, low), 0.5);
+    return box;
+}
+
+// In double, rounded once.
+static tl_scene_own_box own_box(const tl_frame *frame, const scaled_box *box)
+{
     const tl_vec3d *r = frame->rows;
-    tl_vec3d local_at =
-        tl_vec3d_make(r[0].x * at.x + r[1].x * at.y + r[2].x * at.z, r[0].y * at.x + r[1].y * at.y + r[2].y * at.z,
-                      r[0].z * at.x + r[1].z * at.y + r[2].z * at.z);
     tl_scene_own_box own;
     for (int i = 0; i < 3; i++) {
         own.axes[i] = tl_vec3d_to_float(r[i]);
     }
-    own.offset = tl_vec3d_to_float(tl_vec3d_neg(tl_vec3d_add(local_at, middle)));
-    own.half = tl_vec3d_to_float(half);
-    own.size = (float)(tl_vec3d_size(at) + tl_vec3d_size(middle) + tl_vec3d_size(half));
+    tl_vec3d local_at = tl_frame_rotate_back(frame, frame->origin);
+    own.offset = tl_vec3d_to_float(tl_vec3d_neg(tl_vec3d_add(local_at, box->middle)));
+    own.half = tl_vec3d_to_float(box->half);
+    own.size = (float)box->size;
     return own;
 }
 
-void tl_scene_place_instance(tl_scene_record *record, tl_transform pose, tl_aabb local)
+static void span(tl_vec3d row, const scaled_box *box, double position, double wider, float *min, float *max)
 {
-    tl_frame frame = tl_frame_from(pose);
-    for (int i = 0; i < 3; i++) {
-        record->rows[i] = frame.rows[i];
-    }
-    record->own = own_box(&frame, pose.position, local);
-    record->pose = pose;
-    record->local = local;
-}
-
-static void span(tl_vec3d row, tl_vec3d middle, tl_vec3d half, float position, double wider, float *min, float *max)
-{
-    double at = row.x * middle.x + row.y * middle.y + row.z * middle.z + (double)position;
-    double reach = fabs(row.x) * half.x + fabs(row.y) * half.y + fabs(row.z) * half.z + wider;
+    double at = row.x * box->middle.x + row.y * box->middle.y + row.z * box->middle.z + position;
+    double reach = fabs(row.x) * box->half.x + fabs(row.y) * box->half.y + fabs(row.z) * box->half.z + wider;
     *min = (float)(at - reach);
     *max = (float)(at + reach);
 }
 
-tl_aabb tl_scene_world_box(const tl_scene_record *record)
+static tl_aabb world_box(const tl_frame *frame, const scaled_box *box)
 {
-    if (tl_aabb_is_empty(record->local)) {
-        return record->local;
+    double wider = (double)TL_SCENE_WIDEN * box->size + (double)FLT_MIN;
+    tl_aabb world;
+    span(frame->rows[0], box, frame->origin.x, wider, &world.min.x, &world.max.x);
+    span(frame->rows[1], box, frame->origin.y, wider, &world.min.y, &world.max.y);
+    span(frame->rows[2], box, frame->origin.z, wider, &world.min.z, &world.max.z);
+    return world;
+}
+
+tl_aabb tl_scene_place_instance(tl_scene_record *record, tl_scene_place *place, const tl_scene_instance *instance,
+                                tl_aabb local)
+{
+    tl_frame frame = tl_frame_from(instance->pose);
+    place->scale = tl_scene_scale_of(instance);
+    tl_vec3d by = tl_vec3d_from(place->scale);
+    scaled_box box = scale_box(local, by, frame.origin);
+    record->own = own_box(&frame, &box);
+    record->pose = instance->pose;
+    record->local = local;
+    record->way = tl_scale_is_one(place->scale) ? tl_scene_rigid_way(&instance->pose) : (uint32_t)TL_SCENE_SCALED;
+    for (int i = 0; i < 3; i++) {
+        const tl_vec3d row = frame.rows[i];
+        record->rows[i] = tl_scene_is_scaled(record) ? tl_vec3d_make(row.x / by.x, row.y / by.y, row.z / by.z) : row;
     }
-    tl_vec3d low = tl_vec3d_from(record->local.min), high = tl_vec3d_from(record->local.max);
-    tl_vec3d middle = tl_vec3d_scale(tl_vec3d_add(low, high), 0.5);
-    tl_vec3d half = tl_vec3d_scale(tl_vec3d_sub(high, low), 0.5);
-    tl_vec3 at = record->pose.position;
-    double size = tl_scene_size(at) + tl_vec3d_size(middle) + tl_vec3d_size(half);
-    double wider = (double)TL_SCENE_WIDEN * size + (double)FLT_MIN;
-    tl_aabb box;
-    span(record->rows[0], middle, half, at.x, wider, &box.min.x, &box.max.x);
-    span(record->rows[1], middle, half, at.y, wider, &box.min.y, &box.max.y);
-    span(record->rows[2], middle, half, at.z, wider, &box.min.z, &box.max.z);
-    return box;
+    return tl_aabb_is_empty(local) ? local : world_box(&frame, &box);
 }

@@ -19,10 +19,14 @@ static inline double tl_scene_size(tl_vec3 a)
 /// Checks an instance, and gives its box in its own space: empty when nothing is there.
 tl_result tl_scene_read_instance(const tl_scene_instance *instance, tl_aabb *local_out);
 
-/// Fills a record, but for its lane.
-void tl_scene_place_instance(tl_scene_record *record, tl_transform pose, tl_aabb local);
+/// Fills a record and a place, but for its lane. Returns the box in the world; empty when nothing is there.
+tl_aabb tl_scene_place_instance(tl_scene_record *record, tl_scene_place *place, const tl_scene_instance *instance,
+                                tl_aabb local);
 
-/// The box in the world; empty when nothing is there.
-tl_aabb tl_scene_world_box(const tl_scene_record *record);
+/// The scale of an instance, all zero being 1.
+static inline tl_vec3 tl_scene_scale_of(const tl_scene_instance *instance)
+{
+    return tl_scale_is_one(instance->scale) ? tl_vec3_make(1.0f, 1.0f, 1.0f) : instance->scale;
+}
 
 #endif

@@ -49,7 +49,8 @@ tl_result tl_moved_shape_make(const tl_convex *convex, tl_transform pose, tl_vec
 tl_transform tl_scene_pose_to_instance(const tl_scene_record *record, tl_transform pose)
 {
     tl_transform seen = { pose.rotation, tl_scene_point_to_instance(record, pose.position) };
-    if (tl_scene_is_rotated(record)) {
+    TL_ASSERT(!tl_scene_is_scaled(record));
+    if (tl_scene_has_matrix(record)) {
         tl_quatd q = tl_quatd_between(tl_quatd_from(record->pose.rotation), tl_quatd_from(pose.rotation));
         double scale = 1.0 / sqrt(q.length_sq);
         tl_quat rotation = { (float)(q.x * scale), (float)(q.y * scale), (float)(q.z * scale), (float)(q.w * scale) };

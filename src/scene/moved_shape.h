@@ -21,7 +21,7 @@ typedef struct tl_moved_shape {
 tl_result tl_moved_shape_make(const tl_convex *convex, tl_transform pose, tl_vec3 motion, tl_moved_shape *shape_out);
 
 /// The pose in an instance's space: position and rotation rounded once; unchanged where the instance is not rotated or
-/// moved.
+/// moved. Not of a scaled one.
 tl_transform tl_scene_pose_to_instance(const tl_scene_record *record, tl_transform pose);
 
 #endif

@@ -49,6 +49,7 @@ typedef struct scene_build_node {
 typedef struct scene_build {
     instance_ref *refs;
     tl_scene_record *records;
+    tl_scene_place *places;
     scene_build_node *nodes;
     uint32_t node_count, depth;
 } scene_build;
@@ -250,7 +251,7 @@ static void build_tree(scene_build *b, uint32_t instance_count)
             if (parts[i].end - parts[i].begin == 1) {
                 uint32_t instance = b->refs[parts[i].begin].instance;
                 node->child[i] = TL_CHILD_INSTANCE | instance;
-                b->records[instance].lane = n * TL_SCENE_WIDTH + i;
+                b->places[instance].lane = n * TL_SCENE_WIDTH + i;
                 continue;
             }
             scene_build_node *below = &b->nodes[b->node_count];
@@ -263,16 +264,6 @@ static void build_tree(scene_build *b, uint32_t instance_count)
     }
 }
 
-// An empty instance has the box of its position, since it may come back.
-static tl_aabb box_or_position(const tl_scene_record *record)
-{
-    tl_aabb box = tl_scene_world_box(record);
-    if (tl_aabb_is_empty(box)) {
-        box.min = box.max = record->pose.position;
-    }
-    return box;
-}
-
 static tl_result read_instances(scene_build *b, const tl_scene_instance *instances, uint32_t count, tl_report *report)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -281,8 +272,10 @@ static tl_result read_instances(scene_build *b, const tl_scene_instance *instanc
         if (result != TL_OK) {
             return tl_scene_refuse_instance(report, result, i);
         }
-        tl_scene_place_instance(&b->records[i], instances[i].pose, local);
-        tl_aabb box = box_or_position(&b->records[i]);
+        tl_aabb box = tl_scene_place_instance(&b->records[i], &b->places[i], &instances[i], local);
+        if (tl_aabb_is_empty(box)) { // it may come back, at its position
+            box.min = box.max = instances[i].pose.position;
+        }
         instance_ref ref = { { box.min.x, box.min.y, box.min.z }, i, { box.max.x, box.max.y, box.max.z }, 0 };
         b->refs[i] = ref;
     }
@@ -294,7 +287,8 @@ static tl_result encode_scene(const scene_build *b, const tl_scene_instance *ins
 {
     uint64_t records = (sizeof(tl_scene) + 63) / 64 * 64;
     uint64_t nodes = (records + (uint64_t)count * sizeof(tl_scene_record) + 63) / 64 * 64;
-    uint64_t size = nodes + (uint64_t)b->node_count * sizeof(tl_scene_node);
+    uint64_t places = nodes + (uint64_t)b->node_count * sizeof(tl_scene_node);
+    uint64_t size = places + (uint64_t)count * sizeof(tl_scene_place);
     tl_scene *scene = tl_blob_allocate(allocator, TL_SCENE_MAGIC, TL_SCENE_VERSION, size);
     if (scene == NULL) {
         return TL_ERR_MEMORY;
@@ -304,8 +298,10 @@ static tl_result encode_scene(const scene_build *b, const tl_scene_instance *ins
     scene->depth = b->depth;
     scene->records = records;
     scene->nodes = nodes;
+    scene->places = places;
     if (count > 0) {
         memcpy((char *)scene + records, b->records, (size_t)count * sizeof *b->records);
+        memcpy((char *)scene + places, b->places, (size_t)count * sizeof *b->places);
     }
     tl_scene_node *out = (tl_scene_node *)(void *)((char *)scene + nodes);
     for (uint32_t n = 0; n < b->node_count; n++) {
@@ -315,8 +311,10 @@ static tl_result encode_scene(const scene_build *b, const tl_scene_instance *ins
         }
     }
     for (uint32_t i = 0; i < count; i++) {
-        const tl_scene_record *record = &b->records[i];
-        tl_scene_set_lane(scene, record->lane, tl_scene_world_box(record), instances[i].mask);
+        const instance_ref *ref = &b->refs[i];
+        tl_aabb box = { { ref->min[0], ref->min[1], ref->min[2] }, { ref->max[0], ref->max[1], ref->max[2] } };
+        box = tl_aabb_is_empty(b->records[ref->instance].local) ? tl_aabb_empty() : box;
+        tl_scene_set_lane(scene, b->places[ref->instance].lane, box, instances[ref->instance].mask);
     }
     tl_scene_fit_nodes(scene);
     scene->baked_cost = scene->cost;
@@ -344,10 +342,14 @@ tl_result tl_scene_bake(const tl_scene_instance *instances, uint32_t count, cons
     // By induction a range of s >= 2 instances takes s / 2 + (s - 2) / 30 nodes at most: the worst are sixteen parts of
     // two.
     uint64_t max_nodes = (uint64_t)count / 2 + count / 30 + 1;
-    scene_build b = { TL_PUSH(&arena, instance_ref, count), TL_PUSH(&arena, tl_scene_record, count),
-                      TL_PUSH(&arena, scene_build_node, max_nodes), 0, 0 };
+    scene_build b = { TL_PUSH(&arena, instance_ref, count),
+                      TL_PUSH(&arena, tl_scene_record, count),
+                      TL_PUSH(&arena, tl_scene_place, count),
+                      TL_PUSH(&arena, scene_build_node, max_nodes),
+                      0,
+                      0 };
     tl_result result = TL_ERR_MEMORY;
-    if (b.refs != NULL && b.records != NULL && b.nodes != NULL) {
+    if (b.refs != NULL && b.records != NULL && b.places != NULL && b.nodes != NULL) {
         result = read_instances(&b, instances, count, report_out);
     }
     if (result == TL_OK) {

@@ -22,13 +22,25 @@ static void begin_ray_search(tl_scene_ray_search *s, const tl_scene *scene, cons
     s->instance = TL_NO_INSTANCE;
 }
 
+// Shapes are asked where they are; scaled ones in their own space, where t is the same, and a hull is a hull.
+static bool cast_at_shape(const tl_convex *shape, const tl_scene_record *record, const tl_scene_line *line, float whole,
+                          tl_convex_hit *found)
+{
+    if (!tl_scene_is_scaled(record)) {
+        return tl_convex_cast_ray(shape, record->pose, line->from, line->direction, whole, found);
+    }
+    bool hits = tl_convex_cast_ray(shape, tl_transform_identity(), tl_scene_point_to_instance(record, line->from),
+                                   tl_scene_direction_to_instance(record, line->direction), whole, found);
+    found->normal = tl_scene_normal_to_world(record, found->normal);
+    return hits;
+}
+
 bool tl_scene_ray_meets_shape(const tl_scene_line *line, uint32_t instance, tl_scene_hit *hit)
 {
     const tl_scene_ray_search *s = line->user;
     tl_convex_hit found;
     const tl_convex *shape = s->instances[instance].shape;
-    if (shape == NULL ||
-        !tl_convex_cast_ray(shape, s->records[instance].pose, line->from, line->direction, s->whole, &found)) {
+    if (shape == NULL || !cast_at_shape(shape, &s->records[instance], line, s->whole, &found)) {
         return false;
     }
     if (hit != NULL) {
@@ -59,7 +71,7 @@ static void report_best(const tl_scene_ray_search *s, tl_scene_hit *hit_out)
     }
     hit_out->instance = s->instance;
     if (hit_out->hit.triangle != TL_NO_TRIANGLE) {
-        hit_out->hit.normal = tl_scene_direction_to_world(&s->records[s->instance], hit_out->hit.normal);
+        hit_out->hit.normal = tl_scene_normal_to_world(&s->records[s->instance], hit_out->hit.normal);
     }
 }
 
@@ -121,10 +133,17 @@ bool tl_scene_shape_hides(const tl_scene_line *line, uint32_t instance)
     if (shape == NULL) {
         return false;
     }
+    const tl_scene_record *record = &s->records[instance];
+    tl_transform pose = record->pose;
     tl_vec3 from = line->from, to = s->end;
+    if (tl_scene_is_scaled(record)) {
+        pose = tl_transform_identity();
+        from = tl_scene_point_to_instance(record, from);
+        to = tl_scene_point_to_instance(record, to);
+    }
     bool reversed = precedes_point(to, from);
     tl_convex segment = tl_convex_capsule(reversed ? to : from, reversed ? from : to, 0.0f);
-    return tl_convex_overlap(shape, s->records[instance].pose, &segment, tl_transform_identity(), NULL);
+    return tl_convex_overlap(shape, pose, &segment, tl_transform_identity(), NULL);
 }
 
 bool tl_scene_line_of_sight(const tl_scene *scene, const tl_scene_instance *instances, tl_vec3 a, tl_vec3 b,

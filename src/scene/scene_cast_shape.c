@@ -12,6 +12,7 @@
 // moved out by as much as touching is, and where that is free the shape passes.
 
 #include "base/assert.h"
+#include "base/compiler.h"
 #include "math/tolerance.h"
 #include "scene/moved_shape.h"
 
@@ -26,6 +27,7 @@ enum { MAX_STEPS_OUT = 4 };
 typedef struct scene_sweep {
     const tl_scene_instance *instances;
     const tl_scene_record *records;
+    const tl_scene_place *places;
     const tl_scene_filter *filter;
     const tl_moved_shape *shape;
     tl_vec3 motion;
@@ -41,34 +43,52 @@ static tl_transform move_out(tl_transform pose, tl_vec3 normal, double by)
     return pose;
 }
 
+// What needs the room of a record is not on the stack during the sweep, which fills it.
+static TL_NOINLINE tl_transform begin_at_soup(const scene_sweep *s, uint32_t instance, tl_vec3 *motion_out)
+{
+    tl_scene_record room;
+    const tl_scene_record *record = tl_scene_rigid(&s->records[instance], &room);
+    *motion_out = tl_scene_direction_to_instance(record, s->motion);
+    return tl_scene_pose_to_instance(record, s->shape->pose);
+}
+
+static TL_NOINLINE void turn_to_world(const scene_sweep *s, uint32_t instance, tl_shape_hit *hit)
+{
+    tl_scene_record room;
+    const tl_scene_record *record = tl_scene_rigid(&s->records[instance], &room);
+    hit->point = tl_scene_point_to_world(record, hit->point);
+    hit->normal = tl_scene_normal_to_world(record, hit->normal);
+    hit->face_normal = tl_scene_normal_to_world(record, hit->face_normal);
+}
+
 static bool sweep_at_soup(const scene_sweep *s, uint32_t instance, tl_shape_hit *hit)
 {
-    const tl_scene_record *record = &s->records[instance];
-    tl_transform pose = tl_scene_pose_to_instance(record, s->shape->pose);
-    tl_vec3 motion = tl_scene_direction_to_instance(record, s->motion);
+    const tl_scaled_soup soup = tl_scene_soup(&s->places[instance], s->instances[instance].soup);
+    tl_vec3 motion;
+    tl_transform pose = begin_at_soup(s, instance, &motion);
     double touch = s->touch;
     for (uint32_t step = 0;; step++) {
-        if (tl_soup_cast_shape(s->instances[instance].soup, s->shape->convex, pose, motion,
-                               tl_scene_triangles(s->filter), hit) != TL_OK) {
+        if (tl_scaled_soup_cast_shape(&soup, s->shape->convex, pose, motion, tl_scene_triangles(s->filter), hit) !=
+            TL_OK) {
             return false;
         }
         bool stands_on = hit->initial_overlap && (double)hit->depth <= touch;
-        if (!stands_on || step == MAX_STEPS_OUT || tl_scene_is_identity(record)) {
+        if (!stands_on || step == MAX_STEPS_OUT ||
+            tl_scene_rigid_way(&s->records[instance].pose) == TL_SCENE_IDENTITY) {
             break;
         }
         touch -= (double)hit->depth;
         double rounding = 2.0 * (double)TL_FLOAT_ROUNDING * tl_vec3d_size(tl_vec3d_from(pose.position));
         pose = move_out(pose, hit->normal, (double)hit->depth + rounding);
     }
-    hit->point = tl_scene_point_to_world(record, hit->point);
-    hit->normal = tl_scene_direction_to_world(record, hit->normal);
-    hit->face_normal = tl_scene_direction_to_world(record, hit->face_normal);
+    turn_to_world(s, instance, hit);
     return true;
 }
 
 static bool sweep_at_shape(const scene_sweep *s, uint32_t instance, tl_shape_hit *hit)
 {
-    const tl_convex *other = s->instances[instance].shape;
+    tl_scaled_convex room;
+    const tl_convex *other = tl_scene_shape(&s->places[instance], s->instances[instance].shape, &room);
     tl_transform at = s->records[instance].pose;
     tl_convex_hit met;
     if (!tl_convex_cast(other, at, s->shape->convex, s->shape->pose, s->motion, &met)) {
@@ -143,9 +163,12 @@ tl_result tl_scene_cast_shape(const tl_scene *scene, const tl_scene_instance *in
     }
     tl_moved_shape moved;
     TL_TRY(tl_moved_shape_make(shape, pose, motion, &moved));
-    tl_scene_shape_hit hit;
-    scene_sweep s = { instances, tl_scene_records(scene),         filter, &moved,
-                      motion,    WORLD_TOUCH_SHARE * moved.reach, &hit,   TL_NO_INSTANCE };
+    scene_sweep s = { .instances = instances, .filter = filter, .shape = &moved, .hit = hit_out };
+    s.records = tl_scene_records(scene);
+    s.places = tl_scene_places(scene);
+    s.motion = motion;
+    s.touch = WORLD_TOUCH_SHARE * moved.reach;
+    s.instance = TL_NO_INSTANCE;
     tl_scene_line line;
     tl_scene_line_make(&line, scene, tl_scene_mask(filter), moved.middle, motion, 1.0f);
     line.half = moved.half;
@@ -157,7 +180,6 @@ tl_result tl_scene_cast_shape(const tl_scene *scene, const tl_scene_instance *in
     if (s.instance == TL_NO_INSTANCE) {
         return TL_NOT_FOUND;
     }
-    hit.instance = s.instance;
-    *hit_out = hit;
+    hit_out->instance = s.instance;
     return TL_OK;
 }

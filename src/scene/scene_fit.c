@@ -3,8 +3,8 @@
 // Refitting the top-level BVH to instances that moved: records and boxes of those that did, then all inner boxes from
 // the last node to the first, since children lie behind their parents.
 //
-// An instance whose pose and box have the same bits as before keeps its record: most things in a game stand still in
-// most frames.
+// An instance whose pose, scale and box have the same bits as before keeps its record: most things in a game stand
+// still in most frames.
 //
 // The cost is that of the surface area heuristic: a random ray through a box enters one inside it with the probability
 // of their surfaces' ratio. Source: Goldsmith, Salmon, Automatic Creation of Object Hierarchies for Ray Tracing, 1987.
@@ -105,17 +105,34 @@ void tl_scene_fit_nodes(tl_scene *scene)
 
 tl_result tl_scene_refuse_instance(tl_report *report, tl_result result, uint32_t instance)
 {
-    const char *advice = result == TL_ERR_NOT_FINITE ? "make its pose and its shape's corners finite"
-                         : result == TL_ERR_RANGE    ? "keep its position and box within TL_MAX_COORDINATE"
-                                                     : "give it a soup or a shape, with a radius of at least 0";
+    const char *advice = result == TL_ERR_NOT_FINITE ? "make its pose, its scale and its shape's corners finite"
+                         : result == TL_ERR_RANGE
+                             ? "keep its position and box within TL_MAX_COORDINATE, its scale within TL_MAX_SCALE"
+                             : "give it a soup or a shape, with a radius of at least 0, and rounded shapes the "
+                               "same scale along all axes";
     return tl_report_fail(report, result, "instance", instance, advice);
 }
 
-static bool has_not_moved(const tl_scene_record *record, const tl_scene_instance *instance, const tl_aabb *local,
-                          uint32_t mask)
+static bool has_not_moved(const tl_scene_record *record, const tl_scene_place *place, const tl_scene_instance *instance,
+                          const tl_aabb *local, uint32_t mask)
 {
+    tl_vec3 scale = tl_scene_scale_of(instance);
     return memcmp(&record->pose, &instance->pose, sizeof instance->pose) == 0 &&
-           memcmp(&record->local, local, sizeof *local) == 0 && (mask != 0) == (instance->mask != 0);
+           memcmp(&place->scale, &scale, sizeof scale) == 0 && memcmp(&record->local, local, sizeof *local) == 0 &&
+           (mask != 0) == (instance->mask != 0);
+}
+
+static void refit_instance(tl_scene *scene, uint32_t i, const tl_scene_instance *instance, tl_aabb local)
+{
+    tl_scene_record *record = &((tl_scene_record *)(void *)((char *)scene + scene->records))[i];
+    tl_scene_place *place = &((tl_scene_place *)(void *)((char *)scene + scene->places))[i];
+    uint32_t *mask = &nodes_of(scene)[place->lane / TL_SCENE_WIDTH].mask[place->lane % TL_SCENE_WIDTH];
+    if (has_not_moved(record, place, instance, &local, *mask)) {
+        *mask = instance->mask;
+        return;
+    }
+    tl_aabb box = tl_scene_place_instance(record, place, instance, local);
+    tl_scene_set_lane(scene, place->lane, box, instance->mask);
 }
 
 tl_result tl_scene_refit(tl_scene *scene, const tl_scene_instance *instances, uint32_t count, float *growth_out,
@@ -140,17 +157,9 @@ tl_result tl_scene_refit(tl_scene *scene, const tl_scene_instance *instances, ui
             return tl_scene_refuse_instance(report_out, result, i);
         }
     }
-    tl_scene_record *records = (tl_scene_record *)(void *)((char *)scene + scene->records);
     for (uint32_t i = 0; i < count; i++) {
         (void)tl_scene_read_instance(&instances[i], &local);
-        tl_scene_record *record = &records[i];
-        uint32_t *mask = &nodes_of(scene)[record->lane / TL_SCENE_WIDTH].mask[record->lane % TL_SCENE_WIDTH];
-        if (has_not_moved(record, &instances[i], &local, *mask)) {
-            *mask = instances[i].mask;
-            continue;
-        }
-        tl_scene_place_instance(record, instances[i].pose, local);
-        tl_scene_set_lane(scene, record->lane, tl_scene_world_box(record), instances[i].mask);
+        refit_instance(scene, i, &instances[i], local);
     }
     tl_scene_fit_nodes(scene);
     if (growth_out != NULL) {

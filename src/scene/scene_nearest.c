@@ -23,6 +23,7 @@ typedef struct scene_nearest_search {
     const tl_scene *scene;
     const tl_scene_instance *instances;
     const tl_scene_record *records;
+    const tl_scene_place *places;
     const tl_scene_filter *filter;
     tl_vec3 at;
     float error; // metres
@@ -55,18 +56,21 @@ static void measure_boxes(const scene_nearest_search *s, const tl_scene_node *no
 
 static bool ask_soup(const scene_nearest_search *s, uint32_t instance, tl_soup_point *found)
 {
-    const tl_scene_record *record = &s->records[instance];
+    tl_scene_record room;
+    const tl_scene_record *record = tl_scene_rigid(&s->records[instance], &room);
+    const tl_scaled_soup soup = tl_scene_soup(&s->places[instance], s->instances[instance].soup);
     float reach = tl_minf(nextafterf(s->limit, INFINITY), s->max_distance);
-    return tl_soup_nearest(s->instances[instance].soup, tl_scene_point_to_instance(record, s->at), reach,
-                           tl_scene_triangles(s->filter), found) == TL_OK;
+    return tl_scaled_soup_nearest(&soup, tl_scene_point_to_instance(record, s->at), reach,
+                                  tl_scene_triangles(s->filter), found) == TL_OK;
 }
 
 static bool ask_shape(const scene_nearest_search *s, uint32_t instance, tl_soup_point *found)
 {
     tl_convex point = tl_convex_sphere(s->at, 0.0f);
     tl_separation apart;
-    tl_convex_distance(s->instances[instance].shape, s->records[instance].pose, &point, tl_transform_identity(), NULL,
-                       &apart);
+    tl_scaled_convex room;
+    const tl_convex *shape = tl_scene_shape(&s->places[instance], s->instances[instance].shape, &room);
+    tl_convex_distance(shape, s->records[instance].pose, &point, tl_transform_identity(), NULL, &apart);
     memset(found, 0, sizeof *found);
     found->point = apart.overlap ? s->at : apart.point_a;
     found->distance = apart.distance;
@@ -159,6 +163,7 @@ tl_result tl_scene_nearest(const tl_scene *scene, const tl_scene_instance *insta
     };
     s.max_distance = max_distance;
     s.records = tl_scene_records(scene);
+    s.places = tl_scene_places(scene);
     s.error = (fabsf(point.x) + fabsf(point.y) + fabsf(point.z)) * INSTANCE_POINT_ERROR + FLT_MIN;
     set_scene_limit(&s, max_distance);
     walk_nearest(&s);
@@ -166,9 +171,10 @@ tl_result tl_scene_nearest(const tl_scene *scene, const tl_scene_instance *insta
         return TL_NOT_FOUND;
     }
     if (instances[s.instance].soup != NULL) {
-        const tl_scene_record *record = &s.records[s.instance];
+        tl_scene_record room;
+        const tl_scene_record *record = tl_scene_rigid(&s.records[s.instance], &room);
         s.best.point = tl_scene_point_to_world(record, s.best.point);
-        s.best.normal = tl_scene_direction_to_world(record, s.best.normal);
+        s.best.normal = tl_scene_normal_to_world(record, s.best.normal);
     }
     nearest_out->point = s.best;
     nearest_out->instance = s.instance;

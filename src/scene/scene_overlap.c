@@ -14,6 +14,7 @@
 typedef struct scene_overlap_search {
     const tl_scene_instance *instances;
     const tl_scene_record *records;
+    const tl_scene_place *places;
     const tl_scene_filter *filter;
     const tl_moved_shape *shape;
     tl_scene_overlap *overlaps;
@@ -24,8 +25,16 @@ static_assert(sizeof(tl_scene_overlap) == 2 * sizeof(uint32_t), "an overlap is t
 
 static bool touches_shape(const scene_overlap_search *s, uint32_t instance)
 {
-    return tl_convex_overlap(s->instances[instance].shape, s->records[instance].pose, s->shape->convex, s->shape->pose,
-                             NULL);
+    tl_scaled_convex room;
+    const tl_convex *shape = tl_scene_shape(&s->places[instance], s->instances[instance].shape, &room);
+    return tl_convex_overlap(shape, s->records[instance].pose, s->shape->convex, s->shape->pose, NULL);
+}
+
+// The query's shape in the frame of an instance whose soup is asked at its scale.
+static tl_transform pose_at_soup(const scene_overlap_search *s, uint32_t instance)
+{
+    tl_scene_record room;
+    return tl_scene_pose_to_instance(tl_scene_rigid(&s->records[instance], &room), s->shape->pose);
 }
 
 static void spread_indices(tl_scene_overlap *free_part, uint32_t free_count, uint32_t count, uint32_t instance)
@@ -43,9 +52,9 @@ static void add_soup(scene_overlap_search *s, uint32_t instance)
     uint32_t free_count = s->count < s->capacity ? s->capacity - s->count : 0, count = 0;
     tl_scene_overlap *free_part = free_count > 0 ? s->overlaps + s->count : NULL;
     uint32_t *indices = free_count > 0 ? (uint32_t *)(void *)free_part + free_count : NULL;
-    tl_transform pose = tl_scene_pose_to_instance(&s->records[instance], s->shape->pose);
-    tl_result result = tl_soup_find_overlaps(s->instances[instance].soup, s->shape->convex, pose,
-                                             tl_scene_triangles(s->filter), indices, free_count, &count);
+    const tl_scaled_soup soup = tl_scene_soup(&s->places[instance], s->instances[instance].soup);
+    tl_result result = tl_scaled_soup_find_overlaps(&soup, s->shape->convex, pose_at_soup(s, instance),
+                                                    tl_scene_triangles(s->filter), indices, free_count, &count);
     if (result == TL_OK || result == TL_INCOMPLETE) {
         if (free_part != NULL) {
             spread_indices(free_part, free_count, count < free_count ? count : free_count, instance);
@@ -80,9 +89,9 @@ static bool visit_any(tl_scene_line *line, uint32_t instance)
     }
     bool touches = false;
     if (s->instances[instance].soup != NULL) {
-        tl_transform pose = tl_scene_pose_to_instance(&s->records[instance], s->shape->pose);
-        (void)tl_soup_overlaps(s->instances[instance].soup, s->shape->convex, pose, tl_scene_triangles(s->filter),
-                               &touches);
+        const tl_scaled_soup soup = tl_scene_soup(&s->places[instance], s->instances[instance].soup);
+        (void)tl_scaled_soup_overlaps(&soup, s->shape->convex, pose_at_soup(s, instance), tl_scene_triangles(s->filter),
+                                      &touches);
     } else if (s->instances[instance].shape != NULL) {
         touches = touches_shape(s, instance);
     }
@@ -115,7 +124,9 @@ static tl_result begin_overlap_search(const tl_scene *scene, const tl_scene_inst
         return TL_ERR_ARGUMENT;
     }
     TL_TRY(tl_moved_shape_make(query->shape, query->pose, no_motion(), moved));
-    scene_overlap_search s = { instances, tl_scene_records(scene), query->filter, moved, NULL, 0, 0 };
+    scene_overlap_search s = {
+        instances, tl_scene_records(scene), tl_scene_places(scene), query->filter, moved, NULL, 0, 0
+    };
     *search = s;
     return TL_OK;
 }

@@ -7,7 +7,8 @@
 // instance's space, in double, is left to those that pass. With S the sizes of all that rounds on the way, the line of
 // the test is off by 11 u S, the query's by 3 u S, and the slabs by 6 u S; the boxes in the world are widened by 44 u S
 // (instance_box.c, scene_walk.h), which is right for what shapes answer too; the pad is 128 u S. A component of the
-// direction below 2^-30 of the largest is taken as that: over the length of S it moves the ray by 2^-29 S.
+// direction below 2^-30 of the largest is taken as that: over the length of S it moves the ray by 2^-29 S. A scaled
+// instance's box is scaled, and lengths are the world's: a factor changes no rounding's share of a coordinate.
 //
 // A soup gets the best t so far as the ray's end, which cuts its own walk short and changes no answer: a hit's t does
 // not depend on where the ray ends, and ends count. A shape's t does, by a rounding, so shapes get the whole ray.
@@ -37,7 +38,7 @@ static inline tl_f64x4 lanes_of_point(const tl_vec3 *p)
 // tl_scene_point_to_instance and tl_scene_direction_to_instance.
 static TL_ALWAYS_INLINE tl_f32x4 point_to_local(const tl_scene_record *record, const tl_vec3 *p)
 {
-    if (!tl_scene_is_rotated(record)) {
+    if (!tl_scene_has_matrix(record)) {
         tl_vec3 moved = tl_scene_point_to_instance(record, *p);
         return tl_f32x4_make(moved.x, moved.y, moved.z, 0.0f);
     }
@@ -46,7 +47,7 @@ static TL_ALWAYS_INLINE tl_f32x4 point_to_local(const tl_scene_record *record, c
 
 static TL_ALWAYS_INLINE tl_f32x4 direction_to_local(const tl_scene_record *record, const tl_vec3 *d)
 {
-    return tl_scene_is_rotated(record) ? rotate_lanes_back(record, lanes_of_point(d)) : tl_f32x4_load_three(&d->x);
+    return tl_scene_has_matrix(record) ? rotate_lanes_back(record, lanes_of_point(d)) : tl_f32x4_load_three(&d->x);
 }
 
 // False: the line surely does not meet the instance's box in its own space before tmax.

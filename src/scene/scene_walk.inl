@@ -202,8 +202,8 @@ static TL_ALWAYS_INLINE bool prepare_line(tl_scene_line *line)
 static TL_NOINLINE bool visit_every(tl_scene_line *line)
 {
     for (uint32_t i = 0; i < line->scene->instance_count; i++) {
-        const tl_scene_record *record = &tl_scene_records(line->scene)[i];
-        uint32_t mask = tl_scene_nodes(line->scene)[record->lane / TL_SCENE_WIDTH].mask[record->lane % TL_SCENE_WIDTH];
+        uint32_t lane = tl_scene_places(line->scene)[i].lane;
+        uint32_t mask = tl_scene_nodes(line->scene)[lane / TL_SCENE_WIDTH].mask[lane % TL_SCENE_WIDTH];
         if ((mask & line->mask) != 0 && !visit_on_line(line, i, line->kind)) {
             return false;
         }

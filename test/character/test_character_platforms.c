@@ -225,9 +225,37 @@ static void test_crates(void **state)
     }
 }
 
+// On a deck that is scaled, mirrored too, it stands where the deck is larger, and falls beside it.
+static void test_scaled_decks(void **state)
+{
+    (void)state;
+    const tl_vec3 scales[] = { { 2, 2, 2 }, { 2, 0.5f, 3 }, { -2, 1, 2 }, { -2, -1, -2 } };
+    for (int k = 0; k < 8; k++) {
+        const tl_vec3 scale = scales[k / 2];
+        const float top = scale.y < 0 ? 2.5f : 2.0f;
+        stage s;
+        stage_begin(&s, k % 2 == 0, tl_vec3_make(0, 2, 0));
+        s.parts[MOVER].scale = scale;
+        tl_character on = standing(tl_vec3_make(-3.5f, 3, 3)), beside = standing(tl_vec3_make(4.6f, 3, 0));
+        for (int tick = 0; tick < 120; tick++) {
+            stage_tick(&s, &on, tl_vec3_make(0, 0, 0));
+            stage_tick(&s, &beside, tl_vec3_make(0, 0, 0));
+        }
+        TEST_CHECK(on.grounded == 1 && on.ground_instance == MOVER && fabsf(on.position.y - top) < 0.02f);
+        TEST_CHECK(beside.grounded == 1 && beside.ground_instance == GROUND && fabsf(beside.position.y) < 0.02f);
+        // Walks to the edge and off it, at 4 m.
+        for (int tick = 0; tick < 300 && on.ground_instance == MOVER; tick++) {
+            stage_tick(&s, &on, tl_vec3_make(-1, 0, 0));
+        }
+        TEST_CHECK(on.position.x < -3.95f && on.position.x > -4.6f);
+        stage_end(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_scaled_decks),
         cmocka_unit_test(test_lifts),
         cmocka_unit_test(test_turntable),
         cmocka_unit_test(test_jump_from_sinking_lift),

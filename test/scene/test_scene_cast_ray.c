@@ -15,6 +15,28 @@ static tl_vec3 vec(float x, float y, float z)
     return tl_vec3_make(x, y, z);
 }
 
+static bool cast_at_shape(const tl_scene_instance *instance, const tl_ray *ray, tl_convex_hit *found)
+{
+    if (tl_scale_is_one(instance->scale)) {
+        return tl_convex_cast_ray(instance->shape, instance->pose, ray->origin, ray->direction, ray->tmax, found);
+    }
+    bool met = tl_convex_cast_ray(instance->shape, tl_transform_identity(), scene_ray_point_in(instance, ray->origin),
+                                  scene_ray_direction_in(instance, ray->direction), ray->tmax, found);
+    found->normal = scene_ray_normal_out(instance, found->normal);
+    return met;
+}
+
+static bool touches_segment(const tl_scene_instance *instance, tl_vec3 a, tl_vec3 b)
+{
+    bool scaled = !tl_scale_is_one(instance->scale);
+    a = scaled ? scene_ray_point_in(instance, a) : a;
+    b = scaled ? scene_ray_point_in(instance, b) : b;
+    bool before = b.x != a.x ? b.x < a.x : b.y != a.y ? b.y < a.y : b.z < a.z;
+    tl_convex segment = tl_convex_capsule(before ? b : a, before ? a : b, 0);
+    return tl_convex_overlap(instance->shape, scaled ? tl_transform_identity() : instance->pose, &segment,
+                             tl_transform_identity(), NULL);
+}
+
 // What one instance says.
 static bool ask_instance(const tl_scene_instance *instances, uint32_t i, const tl_ray *ray,
                          const tl_ray_filter *triangles, tl_scene_hit *hit)
@@ -22,15 +44,14 @@ static bool ask_instance(const tl_scene_instance *instances, uint32_t i, const t
     memset(hit, 0, sizeof *hit);
     hit->instance = i;
     if (instances[i].soup != NULL) {
-        tl_ray local = { scene_point_in(&instances[i], ray->origin), scene_direction_in(&instances[i], ray->direction),
-                         ray->tmax };
+        tl_ray local = { scene_ray_point_in(&instances[i], ray->origin),
+                         scene_ray_direction_in(&instances[i], ray->direction), ray->tmax };
         bool met = tl_soup_cast_ray(instances[i].soup, &local, triangles, &hit->hit);
-        hit->hit.normal = scene_direction_out(&instances[i], hit->hit.normal);
+        hit->hit.normal = scene_ray_normal_out(&instances[i], hit->hit.normal);
         return met;
     }
     tl_convex_hit found;
-    if (instances[i].shape == NULL ||
-        !tl_convex_cast_ray(instances[i].shape, instances[i].pose, ray->origin, ray->direction, ray->tmax, &found)) {
+    if (instances[i].shape == NULL || !cast_at_shape(&instances[i], ray, &found)) {
         return false;
     }
     hit->hit.t = found.t;
@@ -78,12 +99,11 @@ static void check_sight(const tl_scene *scene, const tl_scene_instance *instance
             continue;
         }
         if (instances[i].soup != NULL) {
-            free = tl_soup_line_of_sight(instances[i].soup, scene_point_in(&instances[i], a),
-                                         scene_point_in(&instances[i], b), filter != NULL ? filter->triangles : NULL);
+            free =
+                tl_soup_line_of_sight(instances[i].soup, scene_ray_point_in(&instances[i], a),
+                                      scene_ray_point_in(&instances[i], b), filter != NULL ? filter->triangles : NULL);
         } else if (instances[i].shape != NULL) {
-            bool before = b.x != a.x ? b.x < a.x : b.y != a.y ? b.y < a.y : b.z < a.z;
-            tl_convex segment = tl_convex_capsule(before ? b : a, before ? a : b, 0);
-            free = !tl_convex_overlap(instances[i].shape, instances[i].pose, &segment, tl_transform_identity(), NULL);
+            free = !touches_segment(&instances[i], a, b);
         }
     }
     TEST_CHECK(tl_scene_line_of_sight(scene, instances, a, b, filter) == free);
@@ -256,7 +276,7 @@ static void test_identity(void **state)
     (void)state;
     model m = model_terrain(20, 2, vec(-10, 0, -10), 9);
     tl_soup *soup = model_soup(&m, NULL);
-    tl_scene_instance instance = { soup, NULL, tl_transform_identity(), 1 };
+    tl_scene_instance instance = { .soup = soup, .pose = tl_transform_identity(), .mask = 1 };
     instance.pose.rotation.w = -3; // a turn by nothing
     tl_scene *scene = scene_build(&instance, 1);
     test_random random = { 4 };
@@ -304,7 +324,7 @@ static void test_nothing_slips_through(void **state)
         tl_vec3 at = test_random_point(&random, vec(-1000, -1000, -1000), vec(1000, 1000, 1000));
         model m = model_ball(2, radius, 0.05f, k % 2 ? vec(0, 0, 0) : vec(3 * radius, 0, radius), k);
         tl_soup *soup = model_soup(&m, NULL);
-        tl_scene_instance instance = { soup, NULL, { scene_rotation(&random), at }, 1 };
+        tl_scene_instance instance = { .soup = soup, .pose = { scene_rotation(&random), at }, .mask = 1 };
         tl_scene *scene = scene_build(&instance, 1);
         tl_vec3 middle = k % 2 ? vec(0, 0, 0) : vec(3 * radius, 0, radius);
         for (uint32_t i = 0; i < 300; i++) {
@@ -363,9 +383,8 @@ static void test_flat_soups(void **state)
             tl_vec3 around = tl_scale(vec(1, 1, 1), range);
             tl_quat quarter = { 0, 0, 0, 0.7071068f };
             *(i % 3 == 0 ? &quarter.x : i % 3 == 1 ? &quarter.y : &quarter.z) = i % 2 ? 0.7071068f : -0.7071068f;
-            tl_scene_instance instance = {
-                soup, NULL, { quarter, test_random_point(&random, tl_neg(around), around) }, 1
-            };
+            tl_scene_instance instance = { .soup = soup, .mask = 1 };
+            instance.pose.position = test_random_point(&random, tl_neg(around), around);
             instance.pose.rotation = i % 5 == 0 ? scene_rotation(&random) : quarter;
             instances[i] = instance;
         }

@@ -40,8 +40,9 @@ static bool cast_at_instance(const tl_scene_instance *instance, const tl_convex 
                              tl_vec3 motion, tl_shape_hit *hit)
 {
     if (instance->soup != NULL) {
-        if (tl_soup_cast_shape(instance->soup, shape, pose_in(instance, pose), scene_direction_in(instance, motion),
-                               NULL, hit) != TL_OK) {
+        const tl_scaled_soup soup = scene_scaled_soup(instance);
+        if (tl_scaled_soup_cast_shape(&soup, shape, pose_in(instance, pose), scene_direction_in(instance, motion), NULL,
+                                      hit) != TL_OK) {
             return false;
         }
         hit->point = scene_point_out(instance, hit->point);
@@ -50,7 +51,9 @@ static bool cast_at_instance(const tl_scene_instance *instance, const tl_convex 
         return true;
     }
     tl_convex_hit met;
-    if (instance->shape == NULL || !tl_convex_cast(instance->shape, instance->pose, shape, pose, motion, &met)) {
+    tl_scaled_convex room;
+    const tl_convex *other = instance->shape != NULL ? scene_scaled_shape(instance, &room) : NULL;
+    if (other == NULL || !tl_convex_cast(other, instance->pose, shape, pose, motion, &met)) {
         return false;
     }
     memset(hit, 0, sizeof *hit);
@@ -60,7 +63,7 @@ static bool cast_at_instance(const tl_scene_instance *instance, const tl_convex 
     hit->normal = met.normal;
     if (met.initial_overlap) {
         tl_penetration in;
-        tl_convex_penetration(instance->shape, instance->pose, shape, pose, NULL, &in);
+        tl_convex_penetration(other, instance->pose, shape, pose, NULL, &in);
         hit->initial_overlap = true;
         hit->depth = in.depth;
         hit->point = in.point_a;
@@ -127,12 +130,14 @@ static void check_overlaps(const tl_scene *scene, const tl_scene_instance *insta
             continue;
         }
         uint32_t some = 0;
+        tl_scaled_convex room;
         if (instances[i].soup != NULL) {
-            TEST_RESULT(tl_soup_find_overlaps(instances[i].soup, shape, pose_in(&instances[i], pose), NULL, triangles,
-                                              5000, &some),
-                        TL_OK);
+            const tl_scaled_soup soup = scene_scaled_soup(&instances[i]);
+            TEST_RESULT(
+                tl_scaled_soup_find_overlaps(&soup, shape, pose_in(&instances[i], pose), NULL, triangles, 5000, &some),
+                TL_OK);
         } else if (instances[i].shape != NULL) {
-            some = tl_convex_overlap(instances[i].shape, instances[i].pose, shape, pose, NULL);
+            some = tl_convex_overlap(scene_scaled_shape(&instances[i], &room), instances[i].pose, shape, pose, NULL);
             triangles[0] = TL_NO_TRIANGLE;
         }
         for (uint32_t k = 0; k < some; k++) {
@@ -176,7 +181,8 @@ static void check_nearest(const tl_scene *scene, const tl_scene_instance *instan
             continue;
         }
         if (instances[i].soup != NULL) {
-            if (tl_soup_nearest(instances[i].soup, scene_point_in(&instances[i], at), reach, NULL, &p) != TL_OK) {
+            const tl_scaled_soup soup = scene_scaled_soup(&instances[i]);
+            if (tl_scaled_soup_nearest(&soup, scene_point_in(&instances[i], at), reach, NULL, &p) != TL_OK) {
                 continue;
             }
             p.point = scene_point_out(&instances[i], p.point);
@@ -184,7 +190,9 @@ static void check_nearest(const tl_scene *scene, const tl_scene_instance *instan
         } else if (instances[i].shape != NULL) {
             tl_convex point = tl_convex_sphere(at, 0);
             tl_separation apart;
-            tl_convex_distance(instances[i].shape, instances[i].pose, &point, tl_transform_identity(), NULL, &apart);
+            tl_scaled_convex room;
+            tl_convex_distance(scene_scaled_shape(&instances[i], &room), instances[i].pose, &point,
+                               tl_transform_identity(), NULL, &apart);
             memset(&p, 0, sizeof p);
             p.point = apart.overlap ? at : apart.point_a;
             p.normal = apart.normal;
@@ -234,7 +242,7 @@ static void check_box(const tl_scene *scene, const tl_scene_instance *instances,
     TEST_CHECK(b.seen != NULL && tl_scene_instances_in_box(scene, box, filter, mark_instance, &b));
     uint32_t all = b.count;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t lane = tl_scene_records(scene)[i].lane;
+        uint32_t lane = tl_scene_places(scene)[i].lane;
         const tl_scene_node *node = &tl_scene_nodes(scene)[lane / TL_SCENE_WIDTH];
         lane %= TL_SCENE_WIDTH;
         tl_aabb own = { vec(node->plane[0][lane], node->plane[2][lane], node->plane[4][lane]),
@@ -335,8 +343,8 @@ static void test_standing(void **state)
     uint32_t caught = 0, walked = 0, sunk = 0;
     for (uint32_t k = 0; k < 2000; k++) {
         bool is_soup = k % 2 == 0;
-        tl_scene_instance instance = { is_soup ? parts.soups[4] : NULL, is_soup ? NULL : &box, tl_transform_identity(),
-                                       1 };
+        tl_scene_instance instance = { .soup = is_soup ? parts.soups[4] : NULL, .shape = is_soup ? NULL : &box };
+        instance.mask = 1;
         instance.pose.position = test_random_point(&random, vec(900, 900, 900), vec(1000, 1000, 1000));
         tl_quat turn = { 0, test_random_range(&random, -1, 1), 0, 1 };
         instance.pose.rotation = turn;
@@ -369,7 +377,7 @@ static void test_bad_questions(void **state)
     (void)state;
     scene_parts parts;
     scene_parts_make(&parts, 1);
-    tl_scene_instance instance = { parts.soups[0], NULL, tl_transform_identity(), 1 };
+    tl_scene_instance instance = { .soup = parts.soups[0], .pose = tl_transform_identity(), .mask = 1 };
     tl_scene *scene = scene_build(&instance, 1);
     tl_convex sphere = tl_convex_sphere(vec(0, 0, 0), 1);
     tl_transform pose = tl_transform_identity(), bad = pose;

@@ -131,7 +131,7 @@ static void test_refused(void **state)
 {
     (void)state;
     tl_convex ball = tl_convex_sphere(tl_vec3_make(0, 0, 0), 1);
-    tl_scene_instance instance = { NULL, &ball, tl_transform_identity(), 1 };
+    tl_scene_instance instance = { .shape = &ball, .pose = tl_transform_identity(), .mask = 1 };
     tl_scene_versions *versions;
     TEST_RESULT(tl_scene_versions_create(&instance, 1, NULL, &versions, NULL), TL_OK);
     tl_scene_instance bad = instance;

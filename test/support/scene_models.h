@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Scenes for tests: soups and shapes at random poses, and the way of a question into an instance's space.
+// Scenes for tests: soups and shapes at random poses and scales, and the way of a question into an instance's space.
 
 #ifndef TALUS_TEST_SCENE_MODELS_H
 #define TALUS_TEST_SCENE_MODELS_H
 
+#include "math/scale.h"
 #include "math/vec3d.h"
 #include "soup_models.h"
 
@@ -87,11 +88,33 @@ static inline tl_quat scene_rotation(test_random *random)
     return q; // of any length
 }
 
-/// A random instance within `range` of `center`: a soup or a shape, turned, moved only, or nothing at all.
+static inline float scene_factor(test_random *random)
+{
+    uint32_t kind = test_random_below(random, 4);
+    return kind == 0   ? 2.0f
+           : kind == 1 ? -test_random_range(random, 0.4f, 2.5f)
+                       : test_random_range(random, 0.4f, 2.5f);
+}
+
+/// Mostly none; else one for all axes, mirrored or not, or, where the instance takes it, one for each.
+static inline tl_vec3 scene_scale(test_random *random, const tl_convex *shape)
+{
+    uint32_t kind = test_random_below(random, 6);
+    float x = scene_factor(random), y = scene_factor(random), z = scene_factor(random);
+    if (kind < 3) {
+        return kind == 0 ? tl_vec3_make(1, 1, 1) : tl_vec3_make(0, 0, 0);
+    }
+    if (kind == 3 || (shape != NULL && shape->radius > 0)) {
+        return tl_vec3_make(x, y < 0 ? -x : x, x);
+    }
+    return tl_vec3_make(x, y, shape != NULL && shape->kind == TL_CONVEX_CYLINDER ? -x : z);
+}
+
+/// A random instance within `range` of `center`: a soup or a shape, turned, moved only, or nothing at all; some scaled.
 static inline tl_scene_instance scene_instance(const scene_parts *parts, test_random *random, tl_vec3 center,
                                                float range)
 {
-    tl_scene_instance instance = { NULL, NULL, tl_transform_identity(), 1u << test_random_below(random, 4) };
+    tl_scene_instance instance = { .pose = tl_transform_identity(), .mask = 1u << test_random_below(random, 4) };
     uint32_t what = test_random_below(random, 20);
     if (what < 12) {
         instance.soup = parts->soups[what % SCENE_SOUPS];
@@ -103,6 +126,7 @@ static inline tl_scene_instance scene_instance(const scene_parts *parts, test_ra
     if (test_random_below(random, 5) != 0) {
         instance.pose.rotation = scene_rotation(random);
     }
+    instance.scale = scene_scale(random, instance.shape);
     return instance;
 }
 
@@ -128,7 +152,7 @@ static inline bool scene_is_turned(const tl_scene_instance *instance)
     return q.x != 0 || q.y != 0 || q.z != 0;
 }
 
-/// In the instance's space, as scene.h says: in double, rounded once.
+/// In the instance's space but for its scale, as scene.h says: in double, rounded once.
 static inline tl_vec3 scene_direction_in(const tl_scene_instance *instance, tl_vec3 v)
 {
     tl_frame frame = tl_frame_from(instance->pose);
@@ -153,6 +177,58 @@ static inline tl_vec3 scene_point_out(const tl_scene_instance *instance, tl_vec3
 {
     tl_frame frame = tl_frame_from(instance->pose);
     return tl_vec3d_to_float(tl_frame_point(&frame, tl_vec3d_from(p)));
+}
+
+/// The same for a ray, whose way in divides by the scale. The library's own, as its rounding is part of the answer.
+static inline tl_frame scene_ray_frame(const tl_scene_instance *instance)
+{
+    tl_frame frame = tl_frame_from(instance->pose);
+    for (int i = 0; i < 3; i++) {
+        frame.rows[i].x /= (double)instance->scale.x;
+        frame.rows[i].y /= (double)instance->scale.y;
+        frame.rows[i].z /= (double)instance->scale.z;
+    }
+    return frame;
+}
+
+static inline tl_vec3 scene_ray_direction_in(const tl_scene_instance *instance, tl_vec3 v)
+{
+    if (tl_scale_is_one(instance->scale)) {
+        return scene_direction_in(instance, v);
+    }
+    tl_frame frame = scene_ray_frame(instance);
+    return tl_vec3d_to_float(tl_frame_rotate_back(&frame, tl_vec3d_from(v)));
+}
+
+static inline tl_vec3 scene_ray_point_in(const tl_scene_instance *instance, tl_vec3 p)
+{
+    if (tl_scale_is_one(instance->scale)) {
+        return scene_point_in(instance, p);
+    }
+    tl_frame frame = scene_ray_frame(instance);
+    return tl_vec3d_to_float(tl_frame_rotate_back(&frame, tl_vec3d_sub(tl_vec3d_from(p), frame.origin)));
+}
+
+static inline tl_vec3 scene_ray_normal_out(const tl_scene_instance *instance, tl_vec3 v)
+{
+    if (tl_scale_is_one(instance->scale)) {
+        return scene_direction_out(instance, v);
+    }
+    tl_frame frame = scene_ray_frame(instance);
+    return tl_vec3d_unit_or_zero(tl_frame_rotate(&frame, tl_vec3d_from(v)));
+}
+
+/// An instance's soup and shape at its scale.
+static inline tl_scaled_soup scene_scaled_soup(const tl_scene_instance *instance)
+{
+    tl_scaled_soup scaled = { instance->soup, instance->scale };
+    return scaled;
+}
+
+static inline const tl_convex *scene_scaled_shape(const tl_scene_instance *instance, tl_scaled_convex *room)
+{
+    TEST_RESULT(tl_scaled_convex_make(instance->shape, instance->scale, room, NULL), TL_OK);
+    return &room->shape;
 }
 
 static inline bool scene_passes(const tl_scene_filter *filter, const tl_scene_instance *instances, uint32_t instance)

@@ -526,6 +526,13 @@ pub struct tl_contact_cache {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct tl_scaled_convex {
+    pub shape: tl_convex,
+    pub of: *const tl_convex,
+    pub scale: tl_vec3,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct tl_mesh_view {
     pub vertices: *const tl_vec3,
     pub vertex_count: u32,
@@ -720,6 +727,12 @@ pub struct tl_soup_pair {
     pub triangles: [u32; 2],
 }
 #[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scaled_soup {
+    pub soup: *const tl_soup,
+    pub scale: tl_vec3,
+}
+#[repr(C)]
 pub struct tl_scene {
     _private: [u8; 0],
 }
@@ -730,6 +743,7 @@ pub struct tl_scene_instance {
     pub shape: *const tl_convex,
     pub pose: tl_transform,
     pub mask: u32,
+    pub scale: tl_vec3,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -854,13 +868,6 @@ pub struct tl_character_report {
     pub sweeps: u32,
     pub hit_count: u32,
     pub hits: [tl_character_hit; 8],
-}
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_scaled_convex {
-    pub shape: tl_convex,
-    pub of: *const tl_convex,
-    pub scale: tl_vec3,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -2377,12 +2384,6 @@ pub struct tl_scene_versions_state {
     pub newest: u64,
     pub oldest: u64,
 }
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct tl_scaled_soup {
-    pub soup: *const tl_soup,
-    pub scale: tl_vec3,
-}
 extern "C" {
     pub fn tl_result_name(result: tl_result) -> *const c_char;
     pub fn tl_result_text(result: tl_result) -> *const c_char;
@@ -2577,6 +2578,12 @@ extern "C" {
         limits: *const tl_contact_limits,
         manifold_out: *mut tl_contact_manifold,
     ) -> u32;
+    pub fn tl_scaled_convex_make(
+        shape: *const tl_convex,
+        scale: tl_vec3,
+        scaled_out: *mut tl_scaled_convex,
+        report_out: *mut tl_report,
+    ) -> tl_result;
     pub fn tl_default_mesh_def() -> tl_mesh_def;
     pub fn tl_mesh_bake(
         view: *const tl_mesh_view,
@@ -2751,6 +2758,37 @@ extern "C" {
         visit: Option<tl_soup_bvh_box_fn>,
         user: *mut c_void,
     ) -> bool;
+    pub fn tl_scaled_soup_nearest(
+        scaled: *const tl_scaled_soup,
+        point: tl_vec3,
+        max_distance: f32,
+        filter: *const tl_ray_filter,
+        nearest_out: *mut tl_soup_point,
+    ) -> tl_result;
+    pub fn tl_scaled_soup_overlaps(
+        scaled: *const tl_scaled_soup,
+        shape: *const tl_convex,
+        pose: tl_transform,
+        filter: *const tl_ray_filter,
+        overlaps_out: *mut bool,
+    ) -> tl_result;
+    pub fn tl_scaled_soup_find_overlaps(
+        scaled: *const tl_scaled_soup,
+        shape: *const tl_convex,
+        pose: tl_transform,
+        filter: *const tl_ray_filter,
+        triangles_out: *mut u32,
+        capacity: u32,
+        count_out: *mut u32,
+    ) -> tl_result;
+    pub fn tl_scaled_soup_cast_shape(
+        scaled: *const tl_scaled_soup,
+        shape: *const tl_convex,
+        pose: tl_transform,
+        motion: tl_vec3,
+        filter: *const tl_ray_filter,
+        hit_out: *mut tl_shape_hit,
+    ) -> tl_result;
     pub fn tl_scene_bake(
         instances: *const tl_scene_instance,
         count: u32,
@@ -2838,12 +2876,6 @@ extern "C" {
         step: *const tl_character_step,
         character: *mut tl_character,
         report_out: *mut tl_character_report,
-    ) -> tl_result;
-    pub fn tl_scaled_convex_make(
-        shape: *const tl_convex,
-        scale: tl_vec3,
-        scaled_out: *mut tl_scaled_convex,
-        report_out: *mut tl_report,
     ) -> tl_result;
     pub fn tl_default_decompose_def() -> tl_decompose_def;
     pub fn tl_decomposition_bake(
@@ -4149,37 +4181,6 @@ extern "C" {
         versions: *mut tl_scene_versions,
         state_out: *mut tl_scene_versions_state,
     ) -> tl_result;
-    pub fn tl_scaled_soup_nearest(
-        scaled: *const tl_scaled_soup,
-        point: tl_vec3,
-        max_distance: f32,
-        filter: *const tl_ray_filter,
-        nearest_out: *mut tl_soup_point,
-    ) -> tl_result;
-    pub fn tl_scaled_soup_overlaps(
-        scaled: *const tl_scaled_soup,
-        shape: *const tl_convex,
-        pose: tl_transform,
-        filter: *const tl_ray_filter,
-        overlaps_out: *mut bool,
-    ) -> tl_result;
-    pub fn tl_scaled_soup_find_overlaps(
-        scaled: *const tl_scaled_soup,
-        shape: *const tl_convex,
-        pose: tl_transform,
-        filter: *const tl_ray_filter,
-        triangles_out: *mut u32,
-        capacity: u32,
-        count_out: *mut u32,
-    ) -> tl_result;
-    pub fn tl_scaled_soup_cast_shape(
-        scaled: *const tl_scaled_soup,
-        shape: *const tl_convex,
-        pose: tl_transform,
-        motion: tl_vec3,
-        filter: *const tl_ray_filter,
-        hit_out: *mut tl_shape_hit,
-    ) -> tl_result;
 }
 
 #[cfg(all(test, target_pointer_width = "64"))]
@@ -4401,6 +4402,10 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_contact_cache, b_to_a), 228);
         assert_eq!(core::mem::offset_of!(tl_contact_cache, proven_depth), 276);
         assert_eq!(core::mem::offset_of!(tl_contact_cache, polytope), 280);
+        assert_eq!(core::mem::size_of::<tl_scaled_convex>(), 104);
+        assert_eq!(core::mem::offset_of!(tl_scaled_convex, shape), 0);
+        assert_eq!(core::mem::offset_of!(tl_scaled_convex, of), 80);
+        assert_eq!(core::mem::offset_of!(tl_scaled_convex, scale), 88);
         assert_eq!(core::mem::size_of::<tl_mesh_view>(), 40);
         assert_eq!(core::mem::offset_of!(tl_mesh_view, vertices), 0);
         assert_eq!(core::mem::offset_of!(tl_mesh_view, vertex_count), 8);
@@ -4544,11 +4549,15 @@ mod layout {
         assert_eq!(core::mem::size_of::<tl_soup_pair>(), 56);
         assert_eq!(core::mem::offset_of!(tl_soup_pair, corners), 0);
         assert_eq!(core::mem::offset_of!(tl_soup_pair, triangles), 48);
-        assert_eq!(core::mem::size_of::<tl_scene_instance>(), 48);
+        assert_eq!(core::mem::size_of::<tl_scaled_soup>(), 24);
+        assert_eq!(core::mem::offset_of!(tl_scaled_soup, soup), 0);
+        assert_eq!(core::mem::offset_of!(tl_scaled_soup, scale), 8);
+        assert_eq!(core::mem::size_of::<tl_scene_instance>(), 64);
         assert_eq!(core::mem::offset_of!(tl_scene_instance, soup), 0);
         assert_eq!(core::mem::offset_of!(tl_scene_instance, shape), 8);
         assert_eq!(core::mem::offset_of!(tl_scene_instance, pose), 16);
         assert_eq!(core::mem::offset_of!(tl_scene_instance, mask), 44);
+        assert_eq!(core::mem::offset_of!(tl_scene_instance, scale), 48);
         assert_eq!(core::mem::size_of::<tl_scene_stats>(), 32);
         assert_eq!(core::mem::offset_of!(tl_scene_stats, size), 0);
         assert_eq!(core::mem::offset_of!(tl_scene_stats, instance_count), 8);
@@ -4633,10 +4642,6 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_character_report, sweeps), 104);
         assert_eq!(core::mem::offset_of!(tl_character_report, hit_count), 108);
         assert_eq!(core::mem::offset_of!(tl_character_report, hits), 112);
-        assert_eq!(core::mem::size_of::<tl_scaled_convex>(), 104);
-        assert_eq!(core::mem::offset_of!(tl_scaled_convex, shape), 0);
-        assert_eq!(core::mem::offset_of!(tl_scaled_convex, of), 80);
-        assert_eq!(core::mem::offset_of!(tl_scaled_convex, scale), 88);
         assert_eq!(core::mem::size_of::<tl_decompose_def>(), 64);
         assert_eq!(core::mem::offset_of!(tl_decompose_def, tolerance), 0);
         assert_eq!(
@@ -5908,8 +5913,5 @@ mod layout {
         );
         assert_eq!(core::mem::offset_of!(tl_scene_versions_state, newest), 8);
         assert_eq!(core::mem::offset_of!(tl_scene_versions_state, oldest), 16);
-        assert_eq!(core::mem::size_of::<tl_scaled_soup>(), 24);
-        assert_eq!(core::mem::offset_of!(tl_scaled_soup, soup), 0);
-        assert_eq!(core::mem::offset_of!(tl_scaled_soup, scale), 8);
     }
 }
