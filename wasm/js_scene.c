@@ -52,6 +52,12 @@ void TL_JS_FULL_EXPORT(js_scene_place)(tl_js_scene *self, uint32_t i)
     self->instances[i].pose = tl_js_pose(0);
 }
 
+/// Slot: the factors.
+void TL_JS_FULL_EXPORT(js_scene_scale)(tl_js_scene *self, uint32_t i)
+{
+    self->instances[i].scale = tl_js_vec3(0);
+}
+
 void TL_JS_FULL_EXPORT(js_scene_mask)(tl_js_scene *self, uint32_t i, uint32_t mask)
 {
     self->instances[i].mask = mask;

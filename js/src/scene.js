@@ -90,6 +90,11 @@ export class Scene extends Handle {
       putPose(0, change.pose);
       wasm.js_scene_place(scene, index);
     }
+    if (change.scale !== undefined) {
+      const scale = change.scale ?? 1;
+      putVec3(0, typeof scale === 'number' ? [scale, scale, scale] : scale);
+      wasm.js_scene_scale(scene, index);
+    }
     if (change.mask !== undefined) wasm.js_scene_mask(scene, index, change.mask);
   }
 

@@ -62,6 +62,24 @@ test('instances move, change and are ignored', () => {
   scene.free();
 });
 
+test('instances have scales', () => {
+  const soup = Soup.bake(floor());
+  const box = { type: 'box', halfExtents: [1, 1, 1] };
+  const scene = Scene.bake([{ soup, scale: [2, 1, 2] }, { shape: box, scale: [1, 3, 1] }, { shape: BALL, pose: { position: [5, 0, 0] }, scale: 2 }]);
+  const down = (x) => {
+    const { t, instance } = scene.castRay(x, 9, 0, 0, -1, 0);
+    return [Number(t.toFixed(4)), instance]; // shapes are asked by iteration
+  };
+  assert.deepEqual([down(0), down(5)], [[6, 1], [7, 2]]);
+  scene.set(1, { scale: null });
+  scene.refit();
+  assert.deepEqual(down(0), [8, 1]);
+  scene.set(2, { scale: [1, 2, 1] });
+  const wrong = errorOf(() => scene.refit());
+  assert.deepEqual([wrong.result, wrong.elementIndex], ['TL_ERR_ARGUMENT', 2]);
+  scene.free();
+});
+
 test('what a scene points to outlives its own free', () => {
   const soup = Soup.bake(floor()), hull = Hull.bake(cube().vertices);
   const scene = Scene.bake([{ soup }, { shape: hull, pose: { position: [0, 5, 0] } }]);

@@ -205,7 +205,15 @@ void golden_soups(const tl_mesh_view *view)
     refitted_soup(view);
 }
 
-void golden_scene(const tl_soup *soup)
+// Soups along each axis another, mirrored; shapes alike along all, which suits rounded ones too.
+static tl_vec3 roll_scale(dice *random, const tl_convex *shape)
+{
+    const tl_aabb box = { { 0.5f, 0.5f, 0.5f }, { 2, 2, 2 } };
+    const tl_vec3 scale = roll_in_box(random, box);
+    return shape == NULL ? tl_vec3_make(-scale.x, scale.y, scale.z) : tl_vec3_make(scale.x, -scale.x, scale.x);
+}
+
+static void scene_answers(const tl_soup *soup, bool scaled, const char *what)
 {
     enum { INSTANCES = 60 };
     tl_convex shapes[5];
@@ -220,6 +228,9 @@ void golden_scene(const tl_soup *soup)
         instances[i].pose.position = roll_in_box(&random, box);
         instances[i].pose.rotation = roll_rotation(&random);
         instances[i].mask = 1;
+        if (scaled) {
+            instances[i].scale = roll_scale(&random, instances[i].shape);
+        }
     }
     tl_scene *scene;
     MUST(tl_scene_bake(instances, INSTANCES, NULL, &scene, NULL));
@@ -249,6 +260,12 @@ void golden_scene(const tl_soup *soup)
             }
         }
     }
-    digest_print(&d, "scene", "answers");
+    digest_print(&d, "scene", what);
     tl_blob_free(scene);
+}
+
+void golden_scene(const tl_soup *soup)
+{
+    scene_answers(soup, false, "answers");
+    scene_answers(soup, true, "scaled");
 }

@@ -4,13 +4,18 @@ import type { Freeable, Pose, Vec3, Vec3Like } from './base.js';
 import type { Shape } from './convex.js';
 import type { Soup, TriangleFilter } from './soup.js';
 
-/** A soup or a convex shape at a pose; with neither, nothing is there. */
+/** A soup or a convex shape at a pose and a scale; with neither, nothing is there. */
 export interface Instance {
   soup?: Soup | null;
   /** No `points`: give a `Hull` of them. */
   shape?: Shape | null;
   /** From the instance's space to the world. Default: the identity. */
   pose?: Pose | null;
+  /**
+   * Factors along the instance's own axes, before the pose, mirrored where negative; one number for all. What is rounded
+   * takes one size for all axes. Default 1.
+   */
+  scale?: number | Vec3Like | null;
   /** Your own 32 bits, by which queries ignore instances; 0 is ignored by all. Default 1. */
   mask?: number;
 }
