@@ -78,7 +78,8 @@ static bool make_polygons(const tl_nav_tile *tile, tile_polygons *out)
 {
     size_t polygons = tile->polygon_count;
     memset(out, 0, sizeof(*out));
-    uint32_t *word = calloc(2 * (size_t)tile->corner_count + 3 * polygons, sizeof(uint32_t));
+    const size_t corners = tile->corner_count, coordinates = 3 * (size_t)tile->vertex_count;
+    uint32_t *word = calloc(3 * corners + 3 * polygons + coordinates, sizeof(uint32_t));
     out->block = word;
     if (word == NULL) {
         return false;
@@ -91,17 +92,22 @@ static bool make_polygons(const tl_nav_tile *tile, tile_polygons *out)
     union {
         const void *from;
         void *to;
-    } vertices, first, indices;
-    vertices.from = tl_nav_tile_at(tile, tile->vertices);
+    } first;
     first.from = tl_nav_tile_at(tile, tile->first_corner);
-    indices.from = tl_nav_tile_at(tile, tile->corner_vertices);
-    m->vertices = vertices.to;
     m->first = first.to;
-    m->indices = indices.to;
     m->neighbours = word;
     m->regions = word + tile->corner_count;
     m->areas = m->regions + polygons;
     m->contours = m->areas + polygons;
+    m->indices = m->contours + polygons;
+    m->vertices = (int32_t *)(m->indices + corners);
+    for (uint32_t k = 0; k < tile->corner_count; ++k) {
+        m->indices[k] = tl_nav_tile_corner_vertex(tile, k);
+    }
+    for (uint32_t v = 0; v < tile->vertex_count; ++v) {
+        const tl_nav_lattice_point point = tl_nav_tile_vertex(tile, v);
+        memcpy(m->vertices + 3 * (size_t)v, point.at, sizeof point.at);
+    }
     m->cell_size = tile->cell_size;
     m->cell_height = tile->cell_height;
     m->max_verts_per_poly = TL_NAV_MAX_CORNERS;

@@ -74,7 +74,8 @@ static void add_surface(draw_scene *scene, const tl_nav_tile *tile, uint32_t pol
 {
     const tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
     for (uint32_t i = 0; i < surface.triangle_count; i++) {
-        const uint16_t *corner = surface.triangles[i].corner;
+        const tl_nav_detail_triangle triangle = tl_nav_surface_triangle(&surface, i);
+        const uint16_t *corner = triangle.corner;
         draw_add_triangle(scene, lifted_detail(surface.vertices[corner[0]], lift),
                           lifted_detail(surface.vertices[corner[1]], lift),
                           lifted_detail(surface.vertices[corner[2]], lift), colour);
@@ -111,12 +112,12 @@ static void add_tile_polygon(draw_scene *scene, const tl_nav_tile *tile, uint32_
     const tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
     add_surface(scene, tile, polygon, 0.0f, colour);
     for (uint32_t i = 0; i < 3 * surface.triangle_count; i++) {
-        const tl_nav_detail_triangle *triangle = &surface.triangles[i / 3];
-        if ((triangle->edge_flags >> i % 3 & 1u) == 0) {
+        const tl_nav_detail_triangle triangle = tl_nav_surface_triangle(&surface, i / 3);
+        if ((triangle.edge_flags >> i % 3 & 1u) == 0) {
             continue;
         }
-        const tl_vec3 a = surface.vertices[triangle->corner[i % 3]];
-        const tl_vec3 b = surface.vertices[triangle->corner[(i + 1) % 3]];
+        const tl_vec3 a = surface.vertices[triangle.corner[i % 3]];
+        const tl_vec3 b = surface.vertices[triangle.corner[(i + 1) % 3]];
         const bool wall = links[edge_under(corners, count, tl_lerp(a, b, 0.5f))] == TL_NAV_LINK_WALL;
         draw_add_line(scene, a, b, wall ? WALL_COLOUR : INNER_COLOUR, wall ? 1.6f : 0.9f, 0.85f);
     }

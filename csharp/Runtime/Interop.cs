@@ -1272,7 +1272,6 @@ namespace Talus.Interop
         public int low;
         public int high;
         public uint first_profile;
-        public uint profile_count;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1315,8 +1314,10 @@ namespace Talus.Interop
         public float agent_radius;
         public float agent_max_climb;
         public tl_aabb bounds;
+        public uint wide;
+        public uint reserved;
+        public ulong nodes;
         public ulong first_corner;
-        public ulong corners;
         public ulong links;
         public ulong corner_vertices;
         public ulong vertices;
@@ -1326,7 +1327,6 @@ namespace Talus.Interop
         public ulong detail_first_triangle;
         public ulong detail_vertices;
         public ulong detail_triangles;
-        public ulong nodes;
         public ulong portals;
         public ulong profile;
     }
@@ -1370,8 +1370,15 @@ namespace Talus.Interop
     {
         public tl_vec3* vertices;
         public uint vertex_count;
-        public tl_nav_detail_triangle* triangles;
         public uint triangle_count;
+        public void* triangles;
+        public byte is_wide;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_lattice_point
+    {
+        public fixed int at[3];
     }
 
     [StructLayout(LayoutKind.Sequential)]

@@ -6,6 +6,8 @@
 // A tile has every polygon corner twice: as integers on the lattice, for exact decisions on seams and convexity, and as
 // floats in metres, polygon by polygon, for queries. The floats are computed from the integers by one formula
 // (tl_nav_tile_position), so that two tiles give a point of their common seam the same bits.
+//
+// What only bakes, checks and seams read is stored in as few bits as a tile needs: it is read by the functions below.
 
 #ifndef TALUS_NAV_TILE_H
 #define TALUS_NAV_TILE_H
@@ -57,7 +59,7 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail);
 // Limits, checked when a tile is baked and again when its bytes are.
 
 #define TL_NAV_TILE_MAGIC        0x5456414eu ///< "NAVT"
-#define TL_NAV_TILE_VERSION      1u
+#define TL_NAV_TILE_VERSION      2u
 #define TL_NAV_MAX_CORNERS       64         ///< of one polygon
 #define TL_NAV_MAX_TILE_POLYGONS (1u << 28) ///< so that a polygon's number fits a reference (nav_query.h)
 #define TL_NAV_MAX_AREA          255        ///< areas are 1 to 255, 0 is not walkable
@@ -67,11 +69,16 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail);
 #define TL_NAV_MAX_TILE_DEPTH    40         ///< of the BVH: log2 of the polygons, with reserve
 
 // ---------------------------------------------------------------------------------------------------------
-// The layout. Offsets are bytes from the start of the blob, multiples of 64, in the order of the fields; all padding
-// is zero. Read it through the functions below.
+// The layout. Offsets are bytes from the start of the blob, multiples of 8, in the order of the fields; all padding is
+// zero. Read it through the functions below.
 
-#define TL_NAV_LINK_WALL   UINT32_MAX  ///< nothing lies across this edge
-#define TL_NAV_LINK_PORTAL 0x80000000u ///< | index of a tl_nav_portal: other tiles' polygons may lie across this edge
+// tl_nav_tile.wide: which arrays have their wider elements. Each bit is set where a tile needs it, and only there.
+#define TL_NAV_WIDE_TRIANGLES 1u ///< some patch has more than 256 vertices
+#define TL_NAV_WIDE_LATTICE   2u ///< some lattice coordinate is no 16-bit number
+#define TL_NAV_WIDE_CORNERS   4u ///< there are more than 65,536 lattice vertices
+
+#define TL_NAV_LINK_WALL      UINT32_MAX  ///< nothing lies across this edge
+#define TL_NAV_LINK_PORTAL    0x80000000u ///< | index of a tl_nav_portal: other tiles' polygons may lie across this edge
 
 /// The fifth side of a tile, after those towards x-, z+, x+ and z-: edges that were cut when a place was divided into
 /// layers. Across them lies a polygon of another layer of the same place, with the same two vertices.
@@ -84,11 +91,11 @@ typedef struct tl_nav_portal {
     uint32_t corner;        ///< index in the corner arrays where the edge starts
     int32_t low, high;      ///< lattice, low < high: its stretch along the side (z on sides 0 and 2, x on 1 and 3). Of
                             ///< a cut: the layer across, and what tells cuts with the same ends apart, 0 for the first
-    uint32_t first_profile; ///< its heights, from low to high, both ends included
-    uint32_t profile_count; ///< >= 2; 0 for a cut, whose ends are the same in both tiles
+    uint32_t first_profile; ///< its heights between the ends, from low to high; they end where the next portal's begin.
+                            ///< A cut has none: the two tiles have one edge
 } tl_nav_portal;
 
-/// A height of the surface along a portal; straight between two of them.
+/// A height of the surface along a portal, between its ends; straight from one to the next.
 typedef struct tl_nav_profile_point {
     float along;  ///< lattice units along the side, in the tile
     float height; ///< metres
@@ -123,18 +130,19 @@ typedef struct tl_nav_tile {
     float cell_height;    ///< metres
     float agent_height, agent_radius, agent_max_climb; ///< metres
     tl_aabb bounds;                                    ///< metres, of the surface
+    uint32_t wide;                                     ///< TL_NAV_WIDE_... bits
+    uint32_t reserved;                                 ///< 0
+    uint64_t nodes;                                    ///< tl_nav_tile_node [node_count]
     uint64_t first_corner;                             ///< uint32_t [polygon_count + 1]
-    uint64_t corners;                                  ///< tl_vec3 [corner_count], metres
     uint64_t links;               ///< uint32_t [corner_count]: polygon, TL_NAV_LINK_WALL or TL_NAV_LINK_PORTAL | portal
-    uint64_t corner_vertices;     ///< uint32_t [corner_count]
-    uint64_t vertices;            ///< int32_t [3 * vertex_count], lattice
+    uint64_t corner_vertices;     ///< uint16_t or uint32_t [corner_count]
+    uint64_t vertices;            ///< uint16_t or int32_t [3 * vertex_count], lattice
     uint64_t flags;               ///< uint64_t [polygon_count]
     uint64_t areas;               ///< uint8_t [polygon_count]
     uint64_t detail_first_vertex; ///< uint32_t [polygon_count + 1]
     uint64_t detail_first_triangle; ///< uint32_t [polygon_count + 1]
-    uint64_t detail_vertices;  ///< tl_vec3 [detail_vertex_count], metres; a patch begins with its polygon's corners
-    uint64_t detail_triangles; ///< tl_nav_detail_triangle [detail_triangle_count]
-    uint64_t nodes;            ///< tl_nav_tile_node [node_count]
+    uint64_t detail_vertices;  ///< tl_vec3 [detail_vertex_count], metres: of each polygon its corners, then added ones
+    uint64_t detail_triangles; ///< uint8_t or uint16_t [4 * detail_triangle_count]: corners, then edge_flags
     uint64_t portals;          ///< tl_nav_portal [portal_count]
     uint64_t profile;          ///< tl_nav_profile_point [profile_count]
 } tl_nav_tile;
@@ -155,7 +163,8 @@ typedef struct tl_nav_tile_source {
     /// and cell_height place the lattice. A portal edge that does not lie on its side of the tile (x or z = 0 or
     /// tile_size) is a wall.
     const tl_polygon_mesh *polygons;
-    /// One patch a polygon, or NULL: the polygons are their own surface.
+    /// One patch a polygon, or NULL: the polygons are their own surface. The first vertices of a patch are the
+    /// polygon's corners, whatever the detail says of them, as in Detour: so no gap opens between the two.
     const tl_nav_detail *detail;
     int32_t tile_x, tile_z; ///< |.| <= TL_NAV_MAX_TILE_INDEX
     uint32_t tile_size;     ///< cells of a whole tile without its border; 0: the only tile, at (0, 0)
@@ -235,7 +244,8 @@ static inline const tl_vec3 *tl_nav_tile_corners(const tl_nav_tile *tile, uint32
 {
     const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
     *count_out = first[1] - first[0];
-    return (const tl_vec3 *)tl_nav_tile_at(tile, tile->corners) + first[0];
+    return (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices) +
+           ((const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex))[polygon];
 }
 
 /// The first portal of a side; those of side s end where those of s + 1 begin. `side` <= TL_NAV_SIDE_COUNT.
@@ -266,6 +276,15 @@ static inline const tl_nav_portal *tl_nav_tile_portals(const tl_nav_tile *tile)
     return (const tl_nav_portal *)tl_nav_tile_at(tile, tile->portals);
 }
 
+/// The heights along a portal between its ends, from low to high.
+static inline const tl_nav_profile_point *tl_nav_tile_profile(const tl_nav_tile *tile, uint32_t portal,
+                                                              uint32_t *count_out)
+{
+    const tl_nav_portal *at = tl_nav_tile_portals(tile) + portal;
+    *count_out = (portal + 1 < tile->portal_count ? at[1].first_profile : tile->profile_count) - at[0].first_profile;
+    return (const tl_nav_profile_point *)tl_nav_tile_at(tile, tile->profile) + at[0].first_profile;
+}
+
 static inline uint8_t tl_nav_tile_area(const tl_nav_tile *tile, uint32_t polygon)
 {
     return ((const uint8_t *)tl_nav_tile_at(tile, tile->areas))[polygon];
@@ -285,8 +304,9 @@ static inline const tl_nav_tile_node *tl_nav_tile_nodes(const tl_nav_tile *tile)
 typedef struct tl_nav_surface {
     const tl_vec3 *vertices;
     uint32_t vertex_count;
-    const tl_nav_detail_triangle *triangles;
     uint32_t triangle_count;
+    const void *triangles; ///< read by tl_nav_surface_triangle: four numbers each
+    bool is_wide;          ///< of 16 bits, not of 8
 } tl_nav_surface;
 
 static inline tl_nav_surface tl_nav_tile_surface(const tl_nav_tile *tile, uint32_t polygon)
@@ -296,17 +316,57 @@ static inline tl_nav_surface tl_nav_tile_surface(const tl_nav_tile *tile, uint32
     tl_nav_surface surface;
     surface.vertices = (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices) + vertex[0];
     surface.vertex_count = vertex[1] - vertex[0];
-    surface.triangles = (const tl_nav_detail_triangle *)tl_nav_tile_at(tile, tile->detail_triangles) + triangle[0];
     surface.triangle_count = triangle[1] - triangle[0];
+    surface.is_wide = (tile->wide & TL_NAV_WIDE_TRIANGLES) != 0;
+    surface.triangles =
+        tl_nav_tile_at(tile, tile->detail_triangles + ((uint64_t)triangle[0] << (surface.is_wide ? 3 : 2)));
     return surface;
 }
 
+/// `index` < triangle_count.
+static inline tl_nav_detail_triangle tl_nav_surface_triangle(const tl_nav_surface *surface, uint32_t index)
+{
+    uint16_t numbers[4];
+    for (size_t k = 0; k < 4; k++) {
+        const size_t at = 4 * (size_t)index + k;
+        numbers[k] =
+            surface->is_wide ? ((const uint16_t *)surface->triangles)[at] : ((const uint8_t *)surface->triangles)[at];
+    }
+    tl_nav_detail_triangle triangle = { { numbers[0], numbers[1], numbers[2] }, numbers[3] };
+    return triangle;
+}
+
+/// Exact coordinates in a tile: x, y, z in lattice units.
+typedef struct tl_nav_lattice_point {
+    int32_t at[3];
+} tl_nav_lattice_point;
+
+/// `vertex` < vertex_count.
+static inline tl_nav_lattice_point tl_nav_tile_vertex(const tl_nav_tile *tile, uint32_t vertex)
+{
+    const void *vertices = tl_nav_tile_at(tile, tile->vertices);
+    tl_nav_lattice_point point;
+    for (size_t axis = 0; axis < 3; axis++) {
+        point.at[axis] = (tile->wide & TL_NAV_WIDE_LATTICE) != 0
+                             ? ((const int32_t *)vertices)[3 * (size_t)vertex + axis]
+                             : (int32_t)((const uint16_t *)vertices)[3 * (size_t)vertex + axis];
+    }
+    return point;
+}
+
+/// The lattice vertex of a corner. `corner` < corner_count: an index in the corner arrays.
+static inline uint32_t tl_nav_tile_corner_vertex(const tl_nav_tile *tile, uint32_t corner)
+{
+    const void *vertices = tl_nav_tile_at(tile, tile->corner_vertices);
+    return (tile->wide & TL_NAV_WIDE_CORNERS) != 0 ? ((const uint32_t *)vertices)[corner]
+                                                   : ((const uint16_t *)vertices)[corner];
+}
+
 /// A corner's exact lattice coordinates in its tile.
-static inline const int32_t *tl_nav_tile_lattice(const tl_nav_tile *tile, uint32_t polygon, uint32_t corner)
+static inline tl_nav_lattice_point tl_nav_tile_lattice(const tl_nav_tile *tile, uint32_t polygon, uint32_t corner)
 {
     const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner);
-    const uint32_t *vertex = (const uint32_t *)tl_nav_tile_at(tile, tile->corner_vertices);
-    return (const int32_t *)tl_nav_tile_at(tile, tile->vertices) + 3 * (size_t)vertex[first[polygon] + corner];
+    return tl_nav_tile_vertex(tile, tl_nav_tile_corner_vertex(tile, first[polygon] + corner));
 }
 
 /// Whether the ends a and b of a cut stand in the order that both tiles agree on: by x, then z, then y.
@@ -316,13 +376,13 @@ static inline bool tl_nav_cut_rises(const int32_t *a, const int32_t *b)
 }
 
 /// The ends of a cut in that order.
-static inline void tl_nav_cut_ends(const tl_nav_tile *tile, const tl_nav_portal *cut, const int32_t *ends_out[2])
+static inline void tl_nav_cut_ends(const tl_nav_tile *tile, const tl_nav_portal *cut, tl_nav_lattice_point ends_out[2])
 {
     const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + cut->polygon;
     const uint32_t edge = cut->corner - first[0];
-    const int32_t *a = tl_nav_tile_lattice(tile, cut->polygon, edge);
-    const int32_t *b = tl_nav_tile_lattice(tile, cut->polygon, cut->corner + 1 < first[1] ? edge + 1 : 0);
-    const bool rises = tl_nav_cut_rises(a, b);
+    const tl_nav_lattice_point a = tl_nav_tile_lattice(tile, cut->polygon, edge);
+    const tl_nav_lattice_point b = tl_nav_tile_lattice(tile, cut->polygon, cut->corner + 1 < first[1] ? edge + 1 : 0);
+    const bool rises = tl_nav_cut_rises(a.at, b.at);
     ends_out[0] = rises ? a : b;
     ends_out[1] = rises ? b : a;
 }
@@ -333,13 +393,12 @@ static inline int tl_nav_cut_compare(const tl_nav_tile *tile_a, const tl_nav_por
                                      const tl_nav_portal *b)
 {
     const int axes[3] = { 0, 2, 1 };
-    const int32_t *ends_a[2];
-    const int32_t *ends_b[2];
+    tl_nav_lattice_point ends_a[2], ends_b[2];
     tl_nav_cut_ends(tile_a, a, ends_a);
     tl_nav_cut_ends(tile_b, b, ends_b);
     for (int i = 0; i < 6; i++) {
-        const int32_t at_a = ends_a[i / 3][axes[i % 3]];
-        const int32_t at_b = ends_b[i / 3][axes[i % 3]];
+        const int32_t at_a = ends_a[i / 3].at[axes[i % 3]];
+        const int32_t at_b = ends_b[i / 3].at[axes[i % 3]];
         if (at_a != at_b) {
             return at_a < at_b ? -1 : 1;
         }

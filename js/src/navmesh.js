@@ -145,10 +145,11 @@ export class Navmesh extends Handle {
     return Array.from(slots, (slot) => {
       wasm.js_tile_info(this._address, slot);
       const s = SLOT;
-      const [firstCorner, corners, links, flags, areas, firstVertex, firstTriangle, vertices, triangles] = F64.subarray(s + 16, s + 25);
+      const [firstCorner, links, flags, areas, firstVertex, firstTriangle, vertices, triangles] = F64.subarray(s + 17, s + 25);
       return { slot, address: F64[s], size: F64[s + 1], x: F64[s + 2], z: F64[s + 3], layer: F64[s + 4], polygonCount: F64[s + 5],
                area: F64[s + 6], bounds: slotAabb(7), cornerCount: F64[s + 13], vertexCount: F64[s + 14], triangleCount: F64[s + 15],
-               firstCorner, corners, links, flags, areas, firstVertex, firstTriangle, vertices, triangles, firstRef: U64[s + 25] };
+               hasWideTriangles: F64[s + 16] !== 0,
+               firstCorner, links, flags, areas, firstVertex, firstTriangle, vertices, triangles, firstRef: U64[s + 25] };
     });
   }
 
@@ -177,11 +178,14 @@ export class Navmesh extends Handle {
       result.island.set(U32.subarray(islands / 4, islands / 4 + n), polygon);
       result.area.set(U8.subarray(tile.areas, tile.areas + n), polygon);
       result.flags.set(U64.subarray(tile.flags / 8, tile.flags / 8 + n), polygon);
-      result.corners.set(F32.subarray(tile.corners / 4, tile.corners / 4 + 3 * tile.cornerCount), 3 * corner);
       result.links.set(U32.subarray(tile.links / 4, tile.links / 4 + tile.cornerCount), corner);
       for (let p = 0; p < n; p++) {
+        // A surface's first vertices are its polygon's corners.
+        const first = U32[tile.firstCorner / 4 + p], corners = U32[tile.firstCorner / 4 + p + 1] - first;
+        const from = tile.vertices / 4 + 3 * U32[tile.firstVertex / 4 + p];
+        result.corners.set(F32.subarray(from, from + 3 * corners), 3 * (corner + first));
         result.refs[polygon + p] = tile.firstRef + BigInt(p);
-        result.first[polygon + p] = corner + U32[tile.firstCorner / 4 + p];
+        result.first[polygon + p] = corner + first;
         result.tile[polygon + p] = t;
       }
       polygon += n;
@@ -198,7 +202,7 @@ export class Navmesh extends Handle {
     let vertex = 0, triangle = 0, polygon = 0;
     for (const tile of tiles) {
       vertices.set(F32.subarray(tile.vertices / 4, tile.vertices / 4 + 3 * tile.vertexCount), 3 * vertex);
-      const corners = new Uint16Array(U8.buffer, tile.triangles, 4 * tile.triangleCount);
+      const corners = new (tile.hasWideTriangles ? Uint16Array : Uint8Array)(U8.buffer, tile.triangles, 4 * tile.triangleCount);
       for (let p = 0; p < tile.polygonCount; p++, polygon++) {
         const base = vertex + U32[tile.firstVertex / 4 + p];
         for (let t = U32[tile.firstTriangle / 4 + p]; t < U32[tile.firstTriangle / 4 + p + 1]; t++) {

@@ -204,8 +204,9 @@ static PyObject *navmesh_surface(PyObject *self, PyObject *args)
             tl_nav_surface surface = tl_nav_tile_surface(tile, p);
             good = vertex + surface.vertex_count <= vertices && triangle + surface.triangle_count <= triangles;
             for (uint32_t t = 0; good && t < surface.triangle_count; t++, triangle++) {
+                const tl_nav_detail_triangle face = tl_nav_surface_triangle(&surface, t);
                 for (int k = 0; k < 3; k++) {
-                    ((uint32_t *)b[1].buf)[3 * triangle + k] = (uint32_t)vertex + surface.triangles[t].corner[k];
+                    ((uint32_t *)b[1].buf)[3 * triangle + k] = (uint32_t)vertex + face.corner[k];
                 }
                 ((uint32_t *)b[2].buf)[triangle] = polygon;
             }

@@ -13,13 +13,8 @@
 
 tl_aabb tl_nav_polygon_box(const tl_nav_tile *tile, uint32_t polygon)
 {
-    uint32_t count = 0;
-    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
+    const tl_nav_surface surface = tl_nav_tile_surface(tile, polygon); // the corners among its vertices
     tl_aabb box = tl_aabb_empty();
-    for (uint32_t i = 0; i < count; i++) {
-        box = tl_aabb_add_point(box, corners[i]);
-    }
-    tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
     for (uint32_t i = 0; i < surface.vertex_count; i++) {
         box = tl_aabb_add_point(box, surface.vertices[i]);
     }

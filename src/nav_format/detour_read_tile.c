@@ -139,8 +139,9 @@ static bool has_area_and_is_convex(const int32_t *vertices, const tl_detour_poly
     for (uint32_t k = 0; k < polygon->vertex_count; k++) {
         corners[k] = polygon->vertices[k];
     }
-    return tl_nav_double_area(vertices, corners, polygon->vertex_count) > 0 &&
-           tl_nav_is_convex(vertices, corners, polygon->vertex_count);
+    tl_nav_lattice_polygon outline;
+    tl_nav_gather_polygon(vertices, corners, polygon->vertex_count, &outline);
+    return tl_nav_double_area(&outline) > 0 && tl_nav_is_convex(&outline);
 }
 
 // Numbers the polygons that stay.

@@ -10,6 +10,7 @@
 #include "base/assert.h"
 #include "base/byte_order.h"
 #include "base/host.h"
+#include "nav_format/lattice_polygon.h"
 #include "nav_format/triangle_fan.h"
 
 #include <math.h>
@@ -262,7 +263,6 @@ static tl_result make_header(set_tile at, tl_detour_header *header, tl_detour_re
 static void write_polygon(const tl_nav_tile *tile, uint32_t p, uint8_t *bytes)
 {
     const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
-    const uint32_t *vertices = (const uint32_t *)tl_nav_tile_at(tile, tile->corner_vertices) + first[p];
     tl_detour_polygon out;
     memset(&out, 0, sizeof out);
     out.first_link = UINT32_MAX;
@@ -271,7 +271,7 @@ static void write_polygon(const tl_nav_tile *tile, uint32_t p, uint8_t *bytes)
     out.area_and_type = (uint8_t)(tl_nav_tile_area(tile, p) | TL_DETOUR_GROUND << 6);
     for (uint32_t k = 0; k < out.vertex_count; k++) {
         uint32_t across = tl_nav_tile_neighbour(tile, p, k);
-        out.vertices[k] = (uint16_t)vertices[k];
+        out.vertices[k] = (uint16_t)tl_nav_tile_corner_vertex(tile, first[p] + k);
         out.neighbours[k] = across == TL_NO_POLYGON ? 0
                             : across >= TL_PORTAL   ? (uint16_t)(TL_DETOUR_EXTERNAL | DETOUR_SIDES[across & 3u])
                                                     : (uint16_t)(across + 1);
@@ -281,11 +281,9 @@ static void write_polygon(const tl_nav_tile *tile, uint32_t p, uint8_t *bytes)
 
 static void write_vertices(const tl_nav_tile *tile, uint8_t *bytes)
 {
-    const int32_t *lattice = tl_nav_tile_at(tile, tile->vertices);
     for (uint32_t i = 0; i < tile->vertex_count; i++) {
-        const int32_t *v = lattice + 3 * (size_t)i;
-        float out[3] = { position_x(tile, v[0]), tl_nav_tile_position(tile->origin.y, 0, 0, v[1], tile->cell_height),
-                         position_z(tile, v[2]) };
+        const tl_vec3 v = tl_nav_lattice_position(tile, tl_nav_tile_vertex(tile, i));
+        const float out[3] = { v.x, v.y, v.z };
         memcpy(bytes + i * sizeof out, out, sizeof out);
     }
 }
@@ -318,7 +316,8 @@ static void write_detail(const tl_nav_tile *tile, const tl_detour_offsets *at, u
         }
         uint8_t *out = bytes + at->detail_triangles + 4 * (uint64_t)triangle;
         for (uint32_t i = 0; i < triangles; i++) {
-            write_triangle(plain ? tl_nav_fan_triangle(i, corner_count) : surface.triangles[i], out + 4 * (size_t)i);
+            write_triangle(plain ? tl_nav_fan_triangle(i, corner_count) : tl_nav_surface_triangle(&surface, i),
+                           out + 4 * (size_t)i);
         }
         vertex += added;
         triangle += triangles;

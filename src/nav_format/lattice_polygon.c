@@ -6,17 +6,38 @@
 
 #include "base/exact_floats.h"
 
-bool tl_nav_is_convex(const int32_t *vertices, const uint32_t *corners, uint32_t count)
+#include <string.h>
+
+void tl_nav_gather_polygon(const int32_t *vertices, const uint32_t *corners, uint32_t count,
+                           tl_nav_lattice_polygon *polygon_out)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        memcpy(polygon_out->points + 3 * (size_t)i, vertices + 3 * (size_t)corners[i], 3 * sizeof *vertices);
+    }
+    polygon_out->count = count;
+}
+
+void tl_nav_gather_tile_polygon(const tl_nav_tile *tile, uint32_t polygon, tl_nav_lattice_polygon *polygon_out)
+{
+    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
+    polygon_out->count = first[1] - first[0];
+    for (uint32_t i = 0; i < polygon_out->count; i++) {
+        const tl_nav_lattice_point point = tl_nav_tile_vertex(tile, tl_nav_tile_corner_vertex(tile, first[0] + i));
+        memcpy(polygon_out->points + 3 * (size_t)i, point.at, sizeof point.at);
+    }
+}
+
+bool tl_nav_is_convex(const tl_nav_lattice_polygon *polygon)
 {
     // Every corner against every edge: right turns alone would let a pentagram pass.
-    for (uint32_t i = 0; i < count; i++) {
-        const int32_t *a = vertices + 3 * (size_t)corners[i];
-        const int32_t *b = vertices + 3 * (size_t)corners[i + 1 < count ? i + 1 : 0];
+    for (uint32_t i = 0; i < polygon->count; i++) {
+        const int32_t *a = polygon->points + 3 * (size_t)i;
+        const int32_t *b = polygon->points + 3 * (size_t)(i + 1 < polygon->count ? i + 1 : 0);
         if (a[0] == b[0] && a[2] == b[2]) {
             return false;
         }
-        for (uint32_t k = 0; k < count; k++) {
-            if (tl_nav_area2(a, b, vertices + 3 * (size_t)corners[k]) > 0) {
+        for (uint32_t k = 0; k < polygon->count; k++) {
+            if (tl_nav_area2(a, b, polygon->points + 3 * (size_t)k) > 0) {
                 return false;
             }
         }
@@ -24,12 +45,12 @@ bool tl_nav_is_convex(const int32_t *vertices, const uint32_t *corners, uint32_t
     return true;
 }
 
-int64_t tl_nav_double_area(const int32_t *vertices, const uint32_t *corners, uint32_t count)
+int64_t tl_nav_double_area(const tl_nav_lattice_polygon *polygon)
 {
-    const int32_t *apex = vertices + 3 * (size_t)corners[0];
+    const int32_t *points = polygon->points;
     int64_t sum = 0;
-    for (uint32_t i = 1; i + 1 < count; i++) {
-        sum -= tl_nav_area2(apex, vertices + 3 * (size_t)corners[i], vertices + 3 * (size_t)corners[i + 1]);
+    for (uint32_t i = 1; i + 1 < polygon->count; i++) {
+        sum -= tl_nav_area2(points, points + 3 * (size_t)i, points + 3 * (size_t)(i + 1));
     }
     return sum;
 }

@@ -56,17 +56,6 @@ static profile_frame make_frame(const tl_nav_tile_source *source, uint32_t side)
     return frame;
 }
 
-// Heights of the patch's own copy of a corner, or of the polygon where there is no detail.
-static float corner_height(const tl_nav_tile_source *source, uint32_t p, uint32_t k)
-{
-    const tl_polygon_mesh *polygons = source->polygons;
-    if (source->detail != NULL) {
-        return source->detail->vertices[source->detail->patches[p].first_vertex + (k - polygons->first[p])].y;
-    }
-    int32_t y = polygons->vertices[3 * (size_t)polygons->indices[k] + 1];
-    return tl_nav_tile_position(source->origin.y, 0, 0, y, polygons->cell_height);
-}
-
 // The added vertices of a patch that lie on the border strictly between low and high, sorted; returns their number.
 static uint32_t border_vertices(const tl_nav_tile_source *source, const tl_nav_portal *portal, uint32_t side,
                                 tl_sort_item *items, tl_sort_item *scratch)
@@ -91,35 +80,20 @@ static uint32_t border_vertices(const tl_nav_tile_source *source, const tl_nav_p
     return count;
 }
 
-static void append_profile(tl_nav_portals *portals, float along, float height)
+static void bake_profile(const tl_nav_tile_source *source, uint32_t side, const tl_nav_portal *portal,
+                         tl_sort_item *items, tl_sort_item *scratch, tl_nav_portals *portals)
 {
-    tl_nav_profile_point point = { along, height };
-    portals->profile[portals->profile_count++] = point;
-}
-
-static void bake_profile(const tl_nav_tile_source *source, uint32_t side, tl_nav_portal *portal, tl_sort_item *items,
-                         tl_sort_item *scratch, tl_nav_portals *portals)
-{
-    const tl_polygon_mesh *polygons = source->polygons;
-    uint32_t p = portal->polygon;
-    uint32_t next = portal->corner + 1 < polygons->first[p + 1] ? portal->corner + 1 : polygons->first[p];
-    bool rising = side < 2; // sides 0 and 1 run from low to high
-    portal->first_profile = portals->profile_count;
-    append_profile(portals, (float)portal->low, corner_height(source, p, rising ? portal->corner : next));
-    if (source->detail != NULL) {
-        profile_frame frame = make_frame(source, side);
-        uint32_t count = border_vertices(source, portal, side, items, scratch);
-        for (uint32_t i = 0; i < count; i++) {
-            // Two vertices at one place: the first stands for both.
-            if (i == 0 || items[i].key != items[i - 1].key) {
-                tl_vec3 v = source->detail->vertices[items[i].value];
-                double along = ((double)(frame.along_x ? v.x : v.z) - frame.origin_along) / frame.cell;
-                append_profile(portals, (float)along, v.y);
-            }
+    const profile_frame frame = make_frame(source, side);
+    const uint32_t count = border_vertices(source, portal, side, items, scratch);
+    for (uint32_t i = 0; i < count; i++) {
+        // Two vertices at one place: the first stands for both.
+        if (i == 0 || items[i].key != items[i - 1].key) {
+            const tl_vec3 v = source->detail->vertices[items[i].value];
+            const double along = ((double)(frame.along_x ? v.x : v.z) - frame.origin_along) / frame.cell;
+            const tl_nav_profile_point point = { (float)along, v.y };
+            portals->profile[portals->profile_count++] = point;
         }
     }
-    append_profile(portals, (float)portal->high, corner_height(source, p, rising ? next : portal->corner));
-    portal->profile_count = portals->profile_count - portal->first_profile;
 }
 
 // An integer as one that sorts alike without a sign.
@@ -207,7 +181,7 @@ static tl_nav_portal make_portal(const tl_polygon_mesh *polygons, uint32_t p, ui
     uint32_t axis = tl_nav_side_axis(side);
     int32_t a = polygons->vertices[3 * (size_t)polygons->indices[k] + axis];
     int32_t b = polygons->vertices[3 * (size_t)polygons->indices[next] + axis];
-    tl_nav_portal portal = { p, k, a < b ? a : b, a < b ? b : a, 0, 0 };
+    tl_nav_portal portal = { p, k, a < b ? a : b, a < b ? b : a, 0 };
     return portal;
 }
 
@@ -219,7 +193,7 @@ static void gather_cuts(const tl_nav_tile_source *source, uint32_t made, tl_nav_
         while (cut->corner >= source->polygons->first[p + 1]) {
             p++;
         }
-        tl_nav_portal portal = { p, cut->corner, (int32_t)cut->layer, (int32_t)cut->ordinal, 0, 0 };
+        tl_nav_portal portal = { p, cut->corner, (int32_t)cut->layer, (int32_t)cut->ordinal, 0 };
         sides[made + i] = TL_NAV_SIDE_CUT;
         portals[made + i] = portal;
     }
@@ -240,7 +214,7 @@ tl_result tl_nav_bake_portals(const tl_nav_tile_source *source, tl_arena *arena,
         for (uint32_t k = polygons->first[p]; k < polygons->first[p + 1]; k++) {
             if (side_of_edge(source, p, k) < 4) {
                 count++;
-                profile_capacity += 2 + (uint64_t)patch_vertices;
+                profile_capacity += patch_vertices;
             }
         }
     }
@@ -271,9 +245,8 @@ tl_result tl_nav_bake_portals(const tl_nav_tile_source *source, tl_arena *arena,
         while (side < TL_NAV_SIDE_CUT && i >= portals_out->side_end[side]) {
             side++;
         }
-        if (side == TL_NAV_SIDE_CUT) {
-            portals_out->portals[i].first_profile = portals_out->profile_count;
-        } else {
+        portals_out->portals[i].first_profile = portals_out->profile_count;
+        if (side < TL_NAV_SIDE_CUT && source->detail != NULL) {
             bake_profile(source, side, &portals_out->portals[i], items, scratch, portals_out);
         }
     }

@@ -118,11 +118,13 @@ static tl_result check_shape(const tl_polygon_mesh *polygons, uint32_t p, tl_rep
             return tl_report_fail(report, TL_ERR_INDEX, "polygon", p, "a corner names no vertex");
         }
     }
-    int64_t area2 = tl_nav_double_area(polygons->vertices, polygons->indices + begin, end - begin);
+    tl_nav_lattice_polygon outline;
+    tl_nav_gather_polygon(polygons->vertices, polygons->indices + begin, end - begin, &outline);
+    const int64_t area2 = tl_nav_double_area(&outline);
     if (area2 == 0) {
         return tl_report_fail(report, TL_ERR_DEGENERATE, "polygon", p, "it has no area");
     }
-    if (area2 < 0 || !tl_nav_is_convex(polygons->vertices, polygons->indices + begin, end - begin)) {
+    if (area2 < 0 || !tl_nav_is_convex(&outline)) {
         return tl_report_fail(report, TL_ERR_WINDING, "polygon", p, "it is not convex, or wound the wrong way");
     }
     return TL_OK;

@@ -54,7 +54,10 @@ static tl_result check_scalars(const tl_nav_tile *tile, tl_report *report)
                  tile->agent_radius >= 0.0f && isfinite(tile->agent_radius) && tile->agent_max_climb >= 0.0f &&
                  isfinite(tile->agent_max_climb) && isfinite(tile->origin.x) && isfinite(tile->origin.y) &&
                  isfinite(tile->origin.z);
-    bool sides = tile->layer <= TL_NAV_MAX_LAYER;
+    const uint32_t widths = TL_NAV_WIDE_TRIANGLES | TL_NAV_WIDE_LATTICE | TL_NAV_WIDE_CORNERS;
+    const bool has_wide_corners = (tile->wide & TL_NAV_WIDE_CORNERS) != 0;
+    bool sides = tile->layer <= TL_NAV_MAX_LAYER && (tile->wide & ~widths) == 0 && tile->reserved == 0 &&
+                 has_wide_corners == (tile->vertex_count > UINT16_MAX + 1u);
     for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         sides = sides && tl_nav_tile_side_first(tile, side) <= tl_nav_tile_side_first(tile, side + 1);
     }
@@ -95,30 +98,40 @@ static bool is_range_table(const uint32_t *first, uint32_t count, uint32_t low, 
     return true;
 }
 
-static tl_result check_tile_corners(const tl_nav_tile *tile, tl_report *report)
+static tl_result check_lattice(const tl_nav_tile *tile, tl_report *report)
 {
-    const int32_t *vertices = tl_nav_tile_at(tile, tile->vertices);
-    for (uint64_t i = 0; i < 3 * (uint64_t)tile->vertex_count; i++) {
-        if (vertices[i] < -TL_MAX_CONTOUR_COORDINATE || vertices[i] > TL_MAX_CONTOUR_COORDINATE) {
-            return corrupt(report, "vertex", i / 3);
+    bool is_wide = false;
+    for (uint32_t i = 0; i < tile->vertex_count; i++) {
+        const tl_nav_lattice_point v = tl_nav_tile_vertex(tile, i);
+        for (int axis = 0; axis < 3; axis++) {
+            if (v.at[axis] < -TL_MAX_CONTOUR_COORDINATE || v.at[axis] > TL_MAX_CONTOUR_COORDINATE) {
+                return corrupt(report, "vertex", i);
+            }
+            is_wide = is_wide || v.at[axis] < 0 || v.at[axis] > UINT16_MAX;
         }
     }
-    const uint32_t *corner_vertices = tl_nav_tile_at(tile, tile->corner_vertices);
-    const tl_vec3 *corners = tl_nav_tile_at(tile, tile->corners);
     for (uint32_t k = 0; k < tile->corner_count; k++) {
-        if (corner_vertices[k] >= tile->vertex_count) {
-            return corrupt(report, "corner", k);
-        }
-        const int32_t *v = vertices + 3 * (size_t)corner_vertices[k];
-        tl_vec3 expected = { tl_nav_tile_position(tile->origin.x, tile->tile_x, tile->tile_size, v[0], tile->cell_size),
-                             tl_nav_tile_position(tile->origin.y, 0, 0, v[1], tile->cell_height),
-                             tl_nav_tile_position(tile->origin.z, tile->tile_z, tile->tile_size, v[2],
-                                                  tile->cell_size) };
-        if (!is_point(expected) || !same_bits(&expected, &corners[k], sizeof expected)) {
+        if (tl_nav_tile_corner_vertex(tile, k) >= tile->vertex_count) {
             return corrupt(report, "corner", k);
         }
     }
-    return TL_OK;
+    return is_wide == ((tile->wide & TL_NAV_WIDE_LATTICE) != 0) ? TL_OK : corrupt(report, "header", TL_NO_ELEMENT);
+}
+
+// As tl_nav_links_back of a source.
+static bool tile_links_back(const tl_nav_tile *tile, const uint32_t *first, uint32_t polygon, uint32_t corner)
+{
+    const uint32_t *links = tl_nav_tile_at(tile, tile->links);
+    const uint32_t other = links[corner];
+    const uint32_t begin = tl_nav_tile_corner_vertex(tile, corner);
+    const uint32_t end = tl_nav_tile_corner_vertex(tile, corner + 1 < first[polygon + 1] ? corner + 1 : first[polygon]);
+    for (uint32_t k = first[other]; k < first[other + 1]; k++) {
+        if (links[k] == polygon && tl_nav_tile_corner_vertex(tile, k) == end &&
+            tl_nav_tile_corner_vertex(tile, k + 1 < first[other + 1] ? k + 1 : first[other]) == begin) {
+            return true;
+        }
+    }
+    return false;
 }
 
 static bool is_link(const tl_nav_tile *tile, const uint32_t *first, uint32_t p, uint32_t k)
@@ -132,8 +145,7 @@ static bool is_link(const tl_nav_tile *tile, const uint32_t *first, uint32_t p, 
         uint32_t portal = link & ~TL_NAV_LINK_PORTAL;
         return portal < tile->portal_count && tl_nav_tile_portals(tile)[portal].corner == k;
     }
-    return link < tile->polygon_count && link != p &&
-           tl_nav_links_back(first, tl_nav_tile_at(tile, tile->corner_vertices), links, p, k);
+    return link < tile->polygon_count && link != p && tile_links_back(tile, first, p, k);
 }
 
 static tl_result check_polygons(const tl_nav_tile *tile, tl_report *report)
@@ -142,15 +154,12 @@ static tl_result check_polygons(const tl_nav_tile *tile, tl_report *report)
     if (!is_range_table(first, tile->polygon_count, 3, TL_NAV_MAX_CORNERS, tile->corner_count)) {
         return corrupt(report, "polygon", TL_NO_ELEMENT);
     }
-    TL_TRY(check_tile_corners(tile, report));
-    const uint32_t *corner_vertices = tl_nav_tile_at(tile, tile->corner_vertices);
-    const int32_t *vertices = tl_nav_tile_at(tile, tile->vertices);
+    TL_TRY(check_lattice(tile, report));
     double area = 0.0;
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        const uint32_t *corners = corner_vertices + first[p];
-        uint32_t count = first[p + 1] - first[p];
-        if (tl_nav_tile_area(tile, p) == 0 || tl_nav_double_area(vertices, corners, count) <= 0 ||
-            !tl_nav_is_convex(vertices, corners, count)) {
+        tl_nav_lattice_polygon outline;
+        tl_nav_gather_tile_polygon(tile, p, &outline);
+        if (tl_nav_tile_area(tile, p) == 0 || tl_nav_double_area(&outline) <= 0 || !tl_nav_is_convex(&outline)) {
             return corrupt(report, "polygon", p);
         }
         for (uint32_t k = first[p]; k < first[p + 1]; k++) {
@@ -166,8 +175,8 @@ static tl_result check_polygons(const tl_nav_tile *tile, tl_report *report)
 static bool is_surface(const tl_nav_tile *tile, uint32_t p)
 {
     uint32_t corner_count = 0;
-    const tl_vec3 *corners = tl_nav_tile_corners(tile, p, &corner_count);
-    tl_nav_surface surface = tl_nav_tile_surface(tile, p);
+    tl_nav_tile_corners(tile, p, &corner_count);
+    const tl_nav_surface surface = tl_nav_tile_surface(tile, p);
     if (surface.vertex_count < corner_count) {
         return false;
     }
@@ -177,15 +186,15 @@ static bool is_surface(const tl_nav_tile *tile, uint32_t p)
         }
     }
     for (uint32_t i = 0; i < corner_count; i++) {
-        if (!same_bits(&surface.vertices[i].x, &corners[i].x, sizeof(float)) ||
-            !same_bits(&surface.vertices[i].z, &corners[i].z, sizeof(float))) {
+        const tl_vec3 expected = tl_nav_lattice_position(tile, tl_nav_tile_lattice(tile, p, i));
+        if (!same_bits(&expected, &surface.vertices[i], sizeof expected)) {
             return false;
         }
     }
     for (uint32_t i = 0; i < surface.triangle_count; i++) {
-        const tl_nav_detail_triangle *triangle = &surface.triangles[i];
-        if (triangle->corner[0] >= surface.vertex_count || triangle->corner[1] >= surface.vertex_count ||
-            triangle->corner[2] >= surface.vertex_count || triangle->edge_flags > 7) {
+        const tl_nav_detail_triangle triangle = tl_nav_surface_triangle(&surface, i);
+        if (triangle.corner[0] >= surface.vertex_count || triangle.corner[1] >= surface.vertex_count ||
+            triangle.corner[2] >= surface.vertex_count || triangle.edge_flags > 7) {
             return false;
         }
     }
@@ -200,35 +209,38 @@ static tl_result check_surfaces(const tl_nav_tile *tile, tl_report *report)
         !is_range_table(first_triangle, tile->polygon_count, 1, UINT32_MAX, tile->detail_triangle_count)) {
         return corrupt(report, "patch", TL_NO_ELEMENT);
     }
+    bool is_wide = false;
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         if (!is_surface(tile, p)) {
             return corrupt(report, "patch", p);
         }
+        is_wide = is_wide || first_vertex[p + 1] - first_vertex[p] > UINT8_MAX + 1u;
     }
-    return TL_OK;
+    return is_wide == ((tile->wide & TL_NAV_WIDE_TRIANGLES) != 0) ? TL_OK : corrupt(report, "header", TL_NO_ELEMENT);
 }
 
-static bool is_profile(const tl_nav_tile *tile, const tl_nav_portal *portal)
+// Whether the heights along a portal, whose range is within the profile, rise from its low end to its high one.
+static bool is_profile(const tl_nav_tile *tile, uint32_t index)
 {
-    const tl_nav_profile_point *profile = tl_nav_tile_at(tile, tile->profile);
-    if (portal->profile_count < 2 || portal->first_profile > tile->profile_count ||
-        portal->profile_count > tile->profile_count - portal->first_profile) {
-        return false;
-    }
-    const tl_nav_profile_point *points = profile + portal->first_profile;
-    uint32_t last = portal->profile_count - 1;
-    bool right = points[0].along == (float)portal->low && points[last].along == (float)portal->high;
-    for (uint32_t i = 0; i <= last; i++) {
-        right = right && is_place(points[i].height) && (i == 0 || points[i - 1].along <= points[i].along);
+    const tl_nav_portal *portal = &tl_nav_tile_portals(tile)[index];
+    uint32_t count = 0;
+    const tl_nav_profile_point *points = tl_nav_tile_profile(tile, index, &count);
+    bool right = true;
+    for (uint32_t i = 0; i < count; i++) {
+        right = right && is_place(points[i].height) && points[i].along > (float)portal->low &&
+                points[i].along < (float)portal->high && (i == 0 || points[i - 1].along <= points[i].along);
     }
     return right;
 }
 
 // Of a cut: the layer across is another one. Where it lies is its edge's business.
-static bool is_cut(const tl_nav_tile *tile, const tl_nav_portal *portal)
+static bool is_cut(const tl_nav_tile *tile, uint32_t index)
 {
+    const tl_nav_portal *portal = &tl_nav_tile_portals(tile)[index];
+    uint32_t profile_count = 0;
+    tl_nav_tile_profile(tile, index, &profile_count);
     return portal->low >= 0 && (uint32_t)portal->low <= TL_NAV_MAX_LAYER && (uint32_t)portal->low != tile->layer &&
-           portal->high >= 0 && portal->profile_count == 0;
+           portal->high >= 0 && profile_count == 0;
 }
 
 // Whether a portal's edge is this portal's own, on whatever side.
@@ -242,17 +254,18 @@ static bool is_own_edge(const tl_nav_tile *tile, uint32_t index)
            links[portal->corner] == (TL_NAV_LINK_PORTAL | index);
 }
 
-static bool is_on_border(const tl_nav_tile *tile, const tl_nav_portal *portal, uint32_t side)
+static bool is_on_border(const tl_nav_tile *tile, uint32_t index, uint32_t side)
 {
+    const tl_nav_portal *portal = &tl_nav_tile_portals(tile)[index];
     const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
     uint32_t p = portal->polygon;
     uint32_t edge = portal->corner - first[p];
     uint32_t next = portal->corner + 1 < first[p + 1] ? edge + 1 : 0;
-    const int32_t *a = tl_nav_tile_lattice(tile, p, edge);
-    const int32_t *b = tl_nav_tile_lattice(tile, p, next);
+    const tl_nav_lattice_point begin = tl_nav_tile_lattice(tile, p, edge), end = tl_nav_tile_lattice(tile, p, next);
+    const int32_t *a = begin.at, *b = end.at;
     uint32_t axis = tl_nav_side_axis(side);
     return tl_nav_on_side(a, b, side, tile->tile_size) && portal->low == (a[axis] < b[axis] ? a[axis] : b[axis]) &&
-           portal->high == (a[axis] < b[axis] ? b[axis] : a[axis]) && is_profile(tile, portal);
+           portal->high == (a[axis] < b[axis] ? b[axis] : a[axis]) && is_profile(tile, index);
 }
 
 // Whether the portal before stands before this one of the same side. Both are edges of their own.
@@ -269,19 +282,24 @@ static tl_result check_portals(const tl_nav_tile *tile, tl_report *report)
 {
     const tl_nav_portal *portals = tl_nav_tile_portals(tile);
     uint32_t profile_end = 0;
+    for (uint32_t i = 0; i < tile->portal_count; i++) {
+        if (portals[i].first_profile < profile_end || portals[i].first_profile > tile->profile_count) {
+            return corrupt(report, "portal", i);
+        }
+        profile_end = portals[i].first_profile;
+    }
     for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         const uint32_t begin = tl_nav_tile_side_first(tile, side);
         for (uint32_t i = begin; i < tl_nav_tile_side_first(tile, side + 1); i++) {
             const tl_nav_portal *portal = &portals[i];
-            if (portal->first_profile != profile_end || !is_own_edge(tile, i) ||
-                !(side == TL_NAV_SIDE_CUT ? is_cut(tile, portal) : is_on_border(tile, portal, side)) ||
+            if (!is_own_edge(tile, i) || !(side == TL_NAV_SIDE_CUT ? is_cut(tile, i) : is_on_border(tile, i, side)) ||
                 (i > begin && !is_ordered(tile, side, portal - 1, portal))) {
                 return corrupt(report, "portal", i);
             }
-            profile_end += portals[i].profile_count;
         }
     }
-    return profile_end == tile->profile_count ? TL_OK : corrupt(report, "portal", TL_NO_ELEMENT);
+    const bool has_all = tile->portal_count > 0 ? portals[0].first_profile == 0 : tile->profile_count == 0;
+    return has_all ? TL_OK : corrupt(report, "portal", TL_NO_ELEMENT);
 }
 
 typedef struct tree_check {

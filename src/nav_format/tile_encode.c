@@ -18,6 +18,20 @@ static void *array_of(tl_nav_tile *tile, uint64_t offset)
     return (char *)tile + offset;
 }
 
+// Which arrays need their wider elements.
+static void bake_widths(const tl_nav_tile_source *source, tl_nav_tile *tile)
+{
+    const tl_polygon_mesh *polygons = source->polygons;
+    tile->wide = polygons->vertex_count > UINT16_MAX + 1u ? TL_NAV_WIDE_CORNERS : 0;
+    for (size_t i = 0; i < 3 * (size_t)polygons->vertex_count; i++) {
+        const bool fits = polygons->vertices[i] >= 0 && polygons->vertices[i] <= UINT16_MAX;
+        tile->wide |= fits ? 0 : TL_NAV_WIDE_LATTICE;
+    }
+    for (uint32_t p = 0; source->detail != NULL && p < polygons->polygon_count; p++) {
+        tile->wide |= source->detail->patches[p].vertex_count > UINT8_MAX + 1u ? TL_NAV_WIDE_TRIANGLES : 0;
+    }
+}
+
 static void bake_header(const tl_nav_tile_source *source, const tl_nav_portals *portals, tl_nav_tile *tile)
 {
     const tl_polygon_mesh *polygons = source->polygons;
@@ -49,21 +63,31 @@ static void bake_header(const tl_nav_tile_source *source, const tl_nav_portals *
     tile->agent_height = source->agent_height;
     tile->agent_radius = source->agent_radius;
     tile->agent_max_climb = source->agent_max_climb;
+    bake_widths(source, tile);
+}
+
+// In 32 bits or in 16, which hold them.
+static void bake_integers(const uint32_t *from, size_t count, bool is_wide, void *to)
+{
+    if (is_wide) {
+        memcpy(to, from, count * sizeof *from);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        ((uint16_t *)to)[i] = (uint16_t)from[i];
+    }
 }
 
 static void bake_polygons(const tl_nav_tile_source *source, tl_nav_tile *tile)
 {
     const tl_polygon_mesh *polygons = source->polygons;
     memcpy(array_of(tile, tile->first_corner), polygons->first, (polygons->polygon_count + 1u) * sizeof(uint32_t));
-    memcpy(array_of(tile, tile->corner_vertices), polygons->indices, polygons->index_count * sizeof(uint32_t));
-    memcpy(array_of(tile, tile->vertices), polygons->vertices, 3 * (size_t)polygons->vertex_count * sizeof(int32_t));
-    tl_vec3 *corners = array_of(tile, tile->corners);
+    bake_integers((const uint32_t *)polygons->vertices, 3 * (size_t)polygons->vertex_count,
+                  (tile->wide & TL_NAV_WIDE_LATTICE) != 0, array_of(tile, tile->vertices));
+    bake_integers(polygons->indices, polygons->index_count, (tile->wide & TL_NAV_WIDE_CORNERS) != 0,
+                  array_of(tile, tile->corner_vertices));
     uint32_t *links = array_of(tile, tile->links);
     for (uint32_t k = 0; k < polygons->index_count; k++) {
-        const int32_t *v = polygons->vertices + 3 * (size_t)polygons->indices[k];
-        corners[k].x = tl_nav_tile_position(tile->origin.x, tile->tile_x, tile->tile_size, v[0], tile->cell_size);
-        corners[k].y = tl_nav_tile_position(tile->origin.y, 0, 0, v[1], tile->cell_height);
-        corners[k].z = tl_nav_tile_position(tile->origin.z, tile->tile_z, tile->tile_size, v[2], tile->cell_size);
         uint32_t across = polygons->neighbours[k];
         links[k] = across >= TL_PORTAL ? TL_NAV_LINK_WALL : across;
     }
@@ -88,26 +112,49 @@ static void bake_portals(const tl_nav_portals *portals, tl_nav_tile *tile)
     }
 }
 
-// The corners of a patch are the polygon's own, bit by bit, so that no gap opens between the two; heights are kept.
-static void bake_patch(const tl_nav_detail *detail, uint32_t p, const tl_vec3 *corners, uint32_t corner_count,
-                       tl_vec3 *vertices, tl_nav_detail_triangle *triangles)
+// Four numbers a triangle: 8 bits hold the corners of a patch of at most 256 vertices.
+static void bake_triangle(const tl_nav_tile *tile, tl_nav_detail_triangle triangle, uint32_t index, void *triangles)
 {
-    const tl_nav_detail_patch *patch = &detail->patches[p];
-    memcpy(vertices, detail->vertices + patch->first_vertex, patch->vertex_count * sizeof *vertices);
-    memcpy(triangles, detail->triangles + patch->first_triangle, patch->triangle_count * sizeof *triangles);
-    for (uint32_t i = 0; i < corner_count; i++) {
-        vertices[i].x = corners[i].x;
-        vertices[i].z = corners[i].z;
+    const uint16_t numbers[4] = { triangle.corner[0], triangle.corner[1], triangle.corner[2], triangle.edge_flags };
+    for (size_t k = 0; k < 4; k++) {
+        if ((tile->wide & TL_NAV_WIDE_TRIANGLES) != 0) {
+            ((uint16_t *)triangles)[4 * (size_t)index + k] = numbers[k];
+        } else {
+            ((uint8_t *)triangles)[4 * (size_t)index + k] = (uint8_t)numbers[k];
+        }
     }
 }
 
-static void bake_fan(const tl_vec3 *corners, uint32_t corner_count, tl_vec3 *vertices,
-                     tl_nav_detail_triangle *triangles)
+// A polygon's own corners, bit by bit, so that no gap opens between it and its surface.
+static void bake_corners(const tl_nav_tile *tile, uint32_t p, tl_vec3 *vertices)
 {
-    memcpy(vertices, corners, corner_count * sizeof *vertices);
-    for (uint32_t i = 0; i + 2 < corner_count; i++) {
-        triangles[i] = tl_nav_fan_triangle(i, corner_count);
+    uint32_t count = 0;
+    tl_nav_tile_corners(tile, p, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        vertices[i] = tl_nav_lattice_position(tile, tl_nav_tile_lattice(tile, p, i));
     }
+}
+
+// A polygon's surface. `index` of its first triangle. Returns how many it has.
+static uint32_t bake_patch(const tl_nav_detail *detail, const tl_nav_tile *tile, uint32_t p, uint32_t index,
+                           tl_vec3 *vertices, void *triangles)
+{
+    uint32_t corner_count = 0;
+    tl_nav_tile_corners(tile, p, &corner_count);
+    bake_corners(tile, p, vertices);
+    if (detail == NULL) {
+        for (uint32_t i = 0; i + 2 < corner_count; i++) {
+            bake_triangle(tile, tl_nav_fan_triangle(i, corner_count), index + i, triangles);
+        }
+        return corner_count - 2;
+    }
+    const tl_nav_detail_patch *patch = &detail->patches[p];
+    memcpy(vertices + corner_count, detail->vertices + patch->first_vertex + corner_count,
+           (patch->vertex_count - corner_count) * sizeof *vertices);
+    for (uint32_t i = 0; i < patch->triangle_count; i++) {
+        bake_triangle(tile, detail->triangles[patch->first_triangle + i], index + i, triangles);
+    }
+    return patch->triangle_count;
 }
 
 static void bake_surface(const tl_nav_tile_source *source, tl_nav_tile *tile)
@@ -115,21 +162,14 @@ static void bake_surface(const tl_nav_tile_source *source, tl_nav_tile *tile)
     uint32_t *first_vertex = array_of(tile, tile->detail_first_vertex);
     uint32_t *first_triangle = array_of(tile, tile->detail_first_triangle);
     tl_vec3 *vertices = array_of(tile, tile->detail_vertices);
-    tl_nav_detail_triangle *triangles = array_of(tile, tile->detail_triangles);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        uint32_t corner_count = 0;
-        const tl_vec3 *corners = tl_nav_tile_corners(tile, p, &corner_count);
-        tl_vec3 *vertex = vertices + first_vertex[p];
-        tl_nav_detail_triangle *triangle = triangles + first_triangle[p];
-        if (source->detail != NULL) {
-            bake_patch(source->detail, p, corners, corner_count, vertex, triangle);
-            first_vertex[p + 1] = first_vertex[p] + source->detail->patches[p].vertex_count;
-            first_triangle[p + 1] = first_triangle[p] + source->detail->patches[p].triangle_count;
-        } else {
-            bake_fan(corners, corner_count, vertex, triangle);
-            first_vertex[p + 1] = first_vertex[p] + corner_count;
-            first_triangle[p + 1] = first_triangle[p] + corner_count - 2;
-        }
+        uint32_t vertex_count = 0;
+        tl_nav_tile_corners(tile, p, &vertex_count);
+        vertex_count = source->detail != NULL ? source->detail->patches[p].vertex_count : vertex_count;
+        const uint32_t triangle_count = bake_patch(source->detail, tile, p, first_triangle[p],
+                                                   vertices + first_vertex[p], array_of(tile, tile->detail_triangles));
+        first_vertex[p + 1] = first_vertex[p] + vertex_count;
+        first_triangle[p + 1] = first_triangle[p] + triangle_count;
     }
 }
 

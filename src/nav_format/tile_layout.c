@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Where the arrays of a tile lie: behind the header, in the header's order, each at the next multiple of 64.
+// Where the arrays of a tile lie: behind the header, in the header's order, each at the next multiple of 8. The nodes
+// come first, where they are aligned to their own size: searches go from one to another that is far away.
 
 #include "nav_format/tile_layout.h"
 
@@ -9,42 +10,44 @@
 #include <string.h>
 
 _Static_assert(sizeof(tl_nav_tile) == 256, "the header has no hidden padding");
-_Static_assert(sizeof(tl_nav_portal) == 24 && sizeof(tl_nav_profile_point) == 8, "no hidden padding");
-_Static_assert(sizeof(tl_nav_tile_node) == 32 && sizeof(tl_nav_detail_triangle) == 8, "no hidden padding");
-_Static_assert(offsetof(tl_nav_tile, profile) - offsetof(tl_nav_tile, first_corner) ==
+_Static_assert(sizeof(tl_nav_portal) == 20 && sizeof(tl_nav_profile_point) == 8, "no hidden padding");
+_Static_assert(sizeof(tl_nav_tile_node) == 32, "no hidden padding");
+_Static_assert(offsetof(tl_nav_tile, profile) - offsetof(tl_nav_tile, nodes) ==
                    (TL_NAV_TILE_ARRAYS - 1) * sizeof(uint64_t),
                "the offsets stand side by side, one an array");
 
-static uint64_t align_up(uint64_t value)
+static uint64_t align_up(uint64_t value, uint64_t alignment)
 {
-    return (value + TL_BLOB_ALIGNMENT - 1) & ~(uint64_t)(TL_BLOB_ALIGNMENT - 1);
+    return (value + alignment - 1) & ~(alignment - 1);
 }
 
 void tl_nav_tile_extents(const tl_nav_tile *tile, tl_nav_extent extents_out[TL_NAV_TILE_ARRAYS])
 {
     uint64_t polygons = tile->polygon_count;
     uint64_t corners = tile->corner_count;
+    const uint32_t corner_size = (tile->wide & TL_NAV_WIDE_CORNERS) != 0 ? 4 : 2;
+    const uint32_t coordinate_size = (tile->wide & TL_NAV_WIDE_LATTICE) != 0 ? 4 : 2;
+    const uint32_t triangle_size = (tile->wide & TL_NAV_WIDE_TRIANGLES) != 0 ? 8 : 4;
     const uint64_t sizes[TL_NAV_TILE_ARRAYS] = {
-        (polygons + 1) * sizeof(uint32_t),                                      // first_corner
-        corners * sizeof(tl_vec3),                                              // corners
-        corners * sizeof(uint32_t),                                             // links
-        corners * sizeof(uint32_t),                                             // corner_vertices
-        3 * (uint64_t)tile->vertex_count * sizeof(int32_t),                     // vertices
-        polygons * sizeof(uint64_t),                                            // flags
-        polygons,                                                               // areas
-        (polygons + 1) * sizeof(uint32_t),                                      // detail_first_vertex
-        (polygons + 1) * sizeof(uint32_t),                                      // detail_first_triangle
-        (uint64_t)tile->detail_vertex_count * sizeof(tl_vec3),                  // detail_vertices
-        (uint64_t)tile->detail_triangle_count * sizeof(tl_nav_detail_triangle), // detail_triangles
-        (uint64_t)tile->node_count * sizeof(tl_nav_tile_node),                  // nodes
-        (uint64_t)tile->portal_count * sizeof(tl_nav_portal),                   // portals
-        (uint64_t)tile->profile_count * sizeof(tl_nav_profile_point),           // profile
+        (uint64_t)tile->node_count * sizeof(tl_nav_tile_node),        // nodes
+        (polygons + 1) * sizeof(uint32_t),                            // first_corner
+        corners * sizeof(uint32_t),                                   // links
+        corners * corner_size,                                        // corner_vertices
+        3 * (uint64_t)tile->vertex_count * coordinate_size,           // vertices
+        polygons * sizeof(uint64_t),                                  // flags
+        polygons,                                                     // areas
+        (polygons + 1) * sizeof(uint32_t),                            // detail_first_vertex
+        (polygons + 1) * sizeof(uint32_t),                            // detail_first_triangle
+        (uint64_t)tile->detail_vertex_count * sizeof(tl_vec3),        // detail_vertices
+        (uint64_t)tile->detail_triangle_count * triangle_size,        // detail_triangles
+        (uint64_t)tile->portal_count * sizeof(tl_nav_portal),         // portals
+        (uint64_t)tile->profile_count * sizeof(tl_nav_profile_point), // profile
     };
     uint64_t offset = sizeof(tl_nav_tile);
     for (uint32_t i = 0; i < TL_NAV_TILE_ARRAYS; i++) {
         extents_out[i].offset = offset;
         extents_out[i].size = sizes[i];
-        extents_out[i].end = align_up(offset + sizes[i]);
+        extents_out[i].end = align_up(offset + sizes[i], i + 1 < TL_NAV_TILE_ARRAYS ? 8 : TL_BLOB_ALIGNMENT);
         offset = extents_out[i].end;
     }
 }
@@ -55,5 +58,5 @@ void tl_nav_tile_set_offsets(tl_nav_tile *tile, const tl_nav_extent extents[TL_N
     for (uint32_t i = 0; i < TL_NAV_TILE_ARRAYS; i++) {
         offsets[i] = extents[i].offset;
     }
-    memcpy(&tile->first_corner, offsets, sizeof offsets);
+    memcpy(&tile->nodes, offsets, sizeof offsets);
 }

@@ -8,14 +8,14 @@
 
 #include <talus/nav_tile.h>
 
-enum { TL_NAV_TILE_ARRAYS = 14 };
+enum { TL_NAV_TILE_ARRAYS = 13 };
 
 /// One array of the tile: [offset, offset + size), padding up to `end`.
 typedef struct tl_nav_extent {
     uint64_t offset, size, end;
 } tl_nav_extent;
 
-/// The arrays in their order, from the counts in `tile`. The last one's end is the blob's size.
+/// The arrays in their order, from the counts and widths in `tile`. The last one's end is the blob's size.
 /// No overflow for any counts: each array is below 2^38 bytes.
 void tl_nav_tile_extents(const tl_nav_tile *tile, tl_nav_extent extents_out[TL_NAV_TILE_ARRAYS]);
 

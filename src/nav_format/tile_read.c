@@ -17,9 +17,7 @@ uint32_t tl_nav_tile_neighbour(const tl_nav_tile *tile, uint32_t polygon, uint32
 
 double tl_nav_tile_polygon_area(const tl_nav_tile *tile, uint32_t polygon)
 {
-    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
-    const uint32_t *corner_vertices = tl_nav_tile_at(tile, tile->corner_vertices);
-    int64_t area2 = tl_nav_double_area(tl_nav_tile_at(tile, tile->vertices), corner_vertices + first[polygon],
-                                       first[polygon + 1] - first[polygon]);
-    return 0.5 * (double)area2 * ((double)tile->cell_size * (double)tile->cell_size);
+    tl_nav_lattice_polygon outline;
+    tl_nav_gather_tile_polygon(tile, polygon, &outline);
+    return 0.5 * (double)tl_nav_double_area(&outline) * ((double)tile->cell_size * (double)tile->cell_size);
 }

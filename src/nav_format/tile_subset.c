@@ -37,6 +37,7 @@ static tl_result allocate_subset(subset *s, tl_arena *arena)
     s->vertex_number = TL_PUSH_ZERO(arena, uint32_t, tile->vertex_count);
     s->flags = TL_PUSH(arena, uint64_t, tile->polygon_count);
     s->detail.patches = TL_PUSH(arena, tl_nav_detail_patch, tile->polygon_count);
+    s->detail.triangles = TL_PUSH(arena, tl_nav_detail_triangle, tile->detail_triangle_count);
     mesh->vertices = TL_PUSH(arena, int32_t, 3 * (uint64_t)tile->vertex_count);
     mesh->first = TL_PUSH(arena, uint32_t, (uint64_t)tile->polygon_count + 1);
     mesh->indices = TL_PUSH(arena, uint32_t, tile->corner_count);
@@ -44,8 +45,8 @@ static tl_result allocate_subset(subset *s, tl_arena *arena)
     mesh->areas = TL_PUSH(arena, uint32_t, tile->polygon_count);
     s->cuts = TL_PUSH(arena, tl_nav_cut, tile->corner_count);
     return s->cuts != NULL && s->number != NULL && s->vertex_number != NULL && s->flags != NULL &&
-                   s->detail.patches != NULL && mesh->vertices != NULL && mesh->first != NULL &&
-                   mesh->indices != NULL && mesh->neighbours != NULL && mesh->areas != NULL
+                   s->detail.patches != NULL && s->detail.triangles != NULL && mesh->vertices != NULL &&
+                   mesh->first != NULL && mesh->indices != NULL && mesh->neighbours != NULL && mesh->areas != NULL
                ? TL_OK
                : TL_ERR_MEMORY;
 }
@@ -54,17 +55,16 @@ static void number_what_is_kept(subset *s)
 {
     const tl_nav_tile *tile = s->tile;
     const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
-    const uint32_t *vertex = tl_nav_tile_at(tile, tile->corner_vertices);
-    const int32_t *lattice = tl_nav_tile_at(tile, tile->vertices);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         s->number[p] = keeps(s, p) ? s->mesh.polygon_count++ : TL_NO_POLYGON;
         for (uint32_t k = first[p]; s->number[p] != TL_NO_POLYGON && k < first[p + 1]; k++) {
-            s->vertex_number[vertex[k]] = 1;
+            s->vertex_number[tl_nav_tile_corner_vertex(tile, k)] = 1;
         }
     }
     for (uint32_t v = 0; v < tile->vertex_count; v++) {
         if (s->vertex_number[v] != 0) {
-            memcpy(s->mesh.vertices + 3 * (size_t)s->mesh.vertex_count, lattice + 3 * (size_t)v, 3 * sizeof *lattice);
+            const tl_nav_lattice_point point = tl_nav_tile_vertex(tile, v);
+            memcpy(s->mesh.vertices + 3 * (size_t)s->mesh.vertex_count, point.at, sizeof point.at);
             s->vertex_number[v] = s->mesh.vertex_count++;
         }
     }
@@ -100,7 +100,6 @@ static void copy_kept_polygon(subset *s, uint32_t p)
 {
     const tl_nav_tile *tile = s->tile;
     const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
-    const uint32_t *vertex = tl_nav_tile_at(tile, tile->corner_vertices);
     const uint32_t *first_vertex = tl_nav_tile_at(tile, tile->detail_first_vertex);
     const uint32_t *first_triangle = tl_nav_tile_at(tile, tile->detail_first_triangle);
     const uint32_t to = s->number[p];
@@ -110,24 +109,26 @@ static void copy_kept_polygon(subset *s, uint32_t p)
     s->flags[to] = tl_nav_tile_flags(tile, p);
     for (uint32_t k = first[p]; k < first[p + 1]; k++) {
         mesh->neighbours[mesh->index_count] = subset_across(s, p, k, k - first[p]);
-        mesh->indices[mesh->index_count++] = s->vertex_number[vertex[k]];
+        mesh->indices[mesh->index_count++] = s->vertex_number[tl_nav_tile_corner_vertex(tile, k)];
+    }
+    const tl_nav_surface surface = tl_nav_tile_surface(tile, p);
+    for (uint32_t i = 0; i < surface.triangle_count; i++) {
+        s->detail.triangles[first_triangle[p] + i] = tl_nav_surface_triangle(&surface, i);
     }
     const tl_nav_detail_patch patch = { first_vertex[p], first_vertex[p + 1] - first_vertex[p], first_triangle[p],
                                         first_triangle[p + 1] - first_triangle[p] };
     s->detail.patches[to] = patch;
 }
 
-// The source's arrays are read only; its structs have no const because builds own theirs.
+// The source's array is read only; its struct has no const because builds own theirs.
 static void borrow_surface(const tl_nav_tile *tile, tl_nav_detail *detail)
 {
     union {
         const void *from;
         void *to;
-    } vertices, triangles;
+    } vertices;
     vertices.from = tl_nav_tile_at(tile, tile->detail_vertices);
-    triangles.from = tl_nav_tile_at(tile, tile->detail_triangles);
     detail->vertices = vertices.to;
-    detail->triangles = triangles.to;
     detail->vertex_count = tile->detail_vertex_count;
     detail->triangle_count = tile->detail_triangle_count;
 }

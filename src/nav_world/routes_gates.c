@@ -148,9 +148,8 @@ static void sort_stretches(seam_stretch *items, uint32_t count)
 static uint32_t fan_corner(const tl_nav_tile *tile, uint32_t polygon, uint32_t vertex)
 {
     const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
-    const uint32_t *vertices = tl_nav_tile_at(tile, tile->corner_vertices);
     for (uint32_t i = first[0]; i < first[1]; i++) {
-        if (vertices[i] == vertex) {
+        if (tl_nav_tile_corner_vertex(tile, i) == vertex) {
             return i - first[0];
         }
     }
@@ -161,13 +160,13 @@ static uint32_t fan_corner(const tl_nav_tile *tile, uint32_t polygon, uint32_t v
 static uint32_t vertex_on_side(const tl_nav_tile *tile, uint32_t polygon, uint32_t side, int32_t along)
 {
     const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
-    const uint32_t *vertices = tl_nav_tile_at(tile, tile->corner_vertices);
     const int32_t line = side == 1 || side == 2 ? (int32_t)tile->tile_size : 0;
     const int axis = side % 2 == 0 ? 0 : 2;
     for (uint32_t i = first[0]; i < first[1]; i++) {
-        const int32_t *v = tl_nav_tile_lattice(tile, polygon, i - first[0]);
-        if (v[axis] == line && v[2 - axis] == along) {
-            return vertices[i];
+        const uint32_t vertex = tl_nav_tile_corner_vertex(tile, i);
+        const tl_nav_lattice_point v = tl_nav_tile_vertex(tile, vertex);
+        if (v.at[axis] == line && v.at[2 - axis] == along) {
+            return vertex;
         }
     }
     return UINT32_MAX;

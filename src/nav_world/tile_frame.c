@@ -33,21 +33,18 @@ static float moved(const axis_move *move, float at)
     return (float)((steps - move->new_steps) * step);
 }
 
-// A polygon's corners from the lattice, then its surface, whose first points are these corners.
+// A polygon's surface, whose first points are its corners: these from the lattice.
 static void move_polygon(tl_nav_tile *tile, uint32_t polygon, const axis_move *x, const axis_move *z)
 {
     char *bytes = (char *)tile;
     const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
     const uint32_t *surface = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex) + polygon;
-    tl_vec3 *corners = (tl_vec3 *)(bytes + tile->corners) + first[0];
     tl_vec3 *points = (tl_vec3 *)(bytes + tile->detail_vertices) + surface[0];
     const uint32_t corner_count = first[1] - first[0];
     for (uint32_t i = 0; i < corner_count; i++) {
-        const int32_t *v = tl_nav_tile_lattice(tile, polygon, i);
-        corners[i].x = tl_nav_tile_position(tile->origin.x, tile->tile_x, tile->tile_size, v[0], tile->cell_size);
-        corners[i].z = tl_nav_tile_position(tile->origin.z, tile->tile_z, tile->tile_size, v[2], tile->cell_size);
-        points[i].x = corners[i].x;
-        points[i].z = corners[i].z;
+        const tl_nav_lattice_point v = tl_nav_tile_lattice(tile, polygon, i);
+        points[i].x = tl_nav_tile_position(tile->origin.x, tile->tile_x, tile->tile_size, v.at[0], tile->cell_size);
+        points[i].z = tl_nav_tile_position(tile->origin.z, tile->tile_z, tile->tile_size, v.at[2], tile->cell_size);
     }
     for (uint32_t i = corner_count; i < surface[1] - surface[0]; i++) {
         points[i].x = moved(x, points[i].x);
@@ -57,13 +54,8 @@ static void move_polygon(tl_nav_tile *tile, uint32_t polygon, const axis_move *x
 
 static tl_aabb moved_polygon_box(const tl_nav_tile *tile, uint32_t polygon)
 {
-    uint32_t count = 0;
-    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
     const tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
     tl_aabb box = tl_aabb_empty();
-    for (uint32_t i = 0; i < count; i++) {
-        box = tl_aabb_add_point(box, corners[i]);
-    }
     for (uint32_t i = 0; i < surface.vertex_count; i++) {
         box = tl_aabb_add_point(box, surface.vertices[i]);
     }

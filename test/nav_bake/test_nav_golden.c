@@ -99,10 +99,10 @@ static void built_in_levels(void **state)
     static const struct {
         const char *name;
         uint64_t hash, layered_hash;
-    } golden[] = { { "courtyard", 0x169e20c7d23686ff, 0x9a4b313e9944e3a8 },
-                   { "dungeon", 0x730af8b47efc841a, 0x8035deb9dba43ad5 },
-                   { "terrain", 0x1f5bc1f4a2b6d8d1, 0x68ee4509b2d82f31 },
-                   { "city", 0x7a9ce523b58b41a5, 0xbf30351f3530bb30 } };
+    } golden[] = { { "courtyard", 0x8583f941090d9c91, 0x46ccbcefb3745b12 },
+                   { "dungeon", 0x532b25b887cff07e, 0x1f79574ae5203ecc },
+                   { "terrain", 0xcd453051655c1427, 0xdc85743637eb129b },
+                   { "city", 0x1765ee157b148771, 0x09b596c5de777fd5 } };
     const tl_tasks two = { run_on_two_threads, 2, NULL };
     bool equal = true;
     for (size_t i = 0; i < 4; i++) {

@@ -4,6 +4,8 @@
 
 #include "nav_fixture.h"
 
+#include "base/byte_order.h"
+
 #include <math.h>
 
 static const char *const ROOM[] = { "00#0", "0000", "#r..", "0.1." };
@@ -26,8 +28,8 @@ static void test_example(void **state)
     TEST_CHECK(corners[2].x == (float)((double)1000.1f + 16 * (double)0.3f));
     TEST_CHECK(tl_nav_tile_neighbour(tile, 0, 0) == TL_NO_POLYGON);
     TEST_CHECK(tl_nav_tile_neighbour(tile, 0, 2) == 1);
-    TEST_CHECK(tl_nav_tile_lattice(tile, 0, 2)[0] == FIXTURE_STEP &&
-               tl_nav_tile_lattice(tile, 0, 2)[2] == FIXTURE_STEP);
+    TEST_CHECK(tl_nav_tile_lattice(tile, 0, 2).at[0] == FIXTURE_STEP &&
+               tl_nav_tile_lattice(tile, 0, 2).at[2] == FIXTURE_STEP);
     TEST_CHECK(tl_nav_tile_area(tile, 0) == TL_NAV_MAX_AREA && tl_nav_tile_flags(tile, 0) == 1);
     tl_nav_surface surface = tl_nav_tile_surface(tile, 0);
     TEST_CHECK(surface.vertex_count == 4 && surface.triangle_count == 2);
@@ -64,12 +66,100 @@ static void test_profile(void **state)
     tl_nav_tile_source source = fixture_source(&mesh);
     tl_nav_tile *tile = NULL;
     TEST_RESULT(tl_nav_tile_encode(&source, NULL, &tile, NULL), TL_OK);
-    const tl_nav_portal *portal = tl_nav_tile_portals(tile);
-    const tl_nav_profile_point *profile = tl_nav_tile_at(tile, tile->profile);
-    TEST_CHECK(portal[0].profile_count == 3 && portal[1].profile_count == 2);
-    TEST_CHECK(profile[1].along == 4.0f && profile[1].height == 3.0f);
+    uint32_t counts[2];
+    const tl_nav_profile_point *profile = tl_nav_tile_profile(tile, 0, &counts[0]);
+    tl_nav_tile_profile(tile, 1, &counts[1]);
+    TEST_CHECK(counts[0] == 1 && counts[1] == 0 && tile->profile_count == 1);
+    TEST_CHECK(profile[0].along == 4.0f && profile[0].height == 3.0f);
     tl_blob_free(tile);
     fixture_free_mesh(&mesh);
+}
+
+// A tile with wider elements where it needs them: it says what it was made from, can be taken apart, has the other byte
+// order and back, and is refused where it says another width than it needs.
+static void check_widths(const fixture_mesh *mesh, uint32_t expected)
+{
+    const tl_nav_tile_source source = fixture_source(mesh);
+    const tl_polygon_mesh *polygons = source.polygons;
+    tl_nav_tile *tile = NULL, *again = NULL;
+    TEST_RESULT(tl_nav_tile_encode(&source, NULL, &tile, NULL), TL_OK);
+    TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
+    TEST_CHECK(tile->wide == expected);
+    for (uint32_t k = 0; k < polygons->index_count; k++) {
+        const tl_nav_lattice_point at = tl_nav_tile_vertex(tile, tl_nav_tile_corner_vertex(tile, k));
+        TEST_CHECK(memcmp(at.at, polygons->vertices + 3 * (size_t)polygons->indices[k], sizeof at.at) == 0);
+    }
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        const tl_nav_surface surface = tl_nav_tile_surface(tile, p);
+        TEST_CHECK(surface.vertex_count == source.detail->patches[p].vertex_count);
+        for (uint32_t i = 0; i < surface.triangle_count; i++) {
+            const tl_nav_detail_triangle triangle = tl_nav_surface_triangle(&surface, i);
+            TEST_CHECK(memcmp(&triangle, source.detail->triangles + source.detail->patches[p].first_triangle + i,
+                              sizeof triangle) == 0);
+        }
+    }
+    uint8_t *keep = malloc(tile->polygon_count);
+    memset(keep, 1, tile->polygon_count);
+    TEST_RESULT(tl_nav_tile_subset(tile, keep, NULL, &again, NULL), TL_OK);
+    tl_byte_swap swap = { (uint8_t *)tile, tile->blob.size, false, true };
+    tl_nav_tile_swap_words(&swap);
+    TEST_CHECK(swap.fits && tile->blob.size != swap.size);
+    swap.to_host = true;
+    tl_nav_tile_swap_words(&swap);
+    TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
+    TEST_RESULT(tl_nav_tile_check(again, again->blob.size, NULL), TL_OK);
+    TEST_CHECK(again->wide == (expected & ~TL_NAV_WIDE_CORNERS)); // without vertices that no polygon has
+    for (uint32_t bit = 1; bit <= TL_NAV_WIDE_CORNERS; bit *= 2) {
+        tile->wide ^= bit;
+        TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_CORRUPT);
+        tile->wide ^= bit;
+    }
+    tile->wide |= 2 * TL_NAV_WIDE_CORNERS;
+    TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_CORRUPT);
+    free(keep);
+    tl_blob_free(again);
+    tl_blob_free(tile);
+}
+
+static void test_widths(void **state)
+{
+    (void)state;
+    fixture_level level = fixture_make(ROOM, 4);
+    level.detail = true;
+    for (uint32_t wide = 0; wide < 8; wide++) {
+        fixture_mesh mesh = fixture_build_mesh(&level, 0, 0);
+        if ((wide & TL_NAV_WIDE_TRIANGLES) != 0) {
+            // A patch that uses one more vertex than bytes tell apart.
+            tl_nav_detail_patch *patch = &mesh.detail.patches[2];
+            const uint32_t first = mesh.detail.vertex_count, before = patch->vertex_count;
+            mesh.detail.vertices = realloc(mesh.detail.vertices, (first + 257u) * sizeof *mesh.detail.vertices);
+            memcpy(mesh.detail.vertices + first, mesh.detail.vertices + patch->first_vertex,
+                   before * sizeof *mesh.detail.vertices);
+            for (uint32_t i = before; i < 257; i++) {
+                mesh.detail.vertices[first + i] = mesh.detail.vertices[first + before - 1];
+            }
+            mesh.detail.vertex_count += 257;
+            patch->first_vertex = first;
+            patch->vertex_count = 257;
+            mesh.detail.triangles[patch->first_triangle].corner[2] = 256;
+        }
+        if ((wide & TL_NAV_WIDE_LATTICE) != 0) {
+            for (uint32_t i = 0; i < mesh.mesh.vertex_count; i++) {
+                mesh.mesh.vertices[3 * (size_t)i] += wide < 4 ? -3 : UINT16_MAX - 8; // below, or above
+            }
+        }
+        if ((wide & TL_NAV_WIDE_CORNERS) != 0) {
+            const uint32_t count = UINT16_MAX + 2u;
+            mesh.mesh.vertices = realloc(mesh.mesh.vertices, 3 * (size_t)count * sizeof *mesh.mesh.vertices);
+            memset(mesh.mesh.vertices + 3 * (size_t)mesh.mesh.vertex_count, 0,
+                   3 * (size_t)(count - mesh.mesh.vertex_count) * sizeof *mesh.mesh.vertices);
+            memcpy(mesh.mesh.vertices + 3 * (size_t)(count - 1), mesh.mesh.vertices + 3 * (size_t)mesh.mesh.indices[0],
+                   3 * sizeof *mesh.mesh.vertices);
+            mesh.mesh.vertex_count = count;
+        }
+        check_widths(&mesh, wide);
+        fixture_free_mesh(&mesh);
+    }
 }
 
 static void refuse(fixture_mesh *mesh, const tl_nav_tile_source *source, tl_result expected, const char *name)
@@ -142,9 +232,9 @@ static void test_random_tiles(void **state)
         tl_nav_tile *a = fixture_build_tile(&level, 0, 0, NULL);
         tl_nav_tile *b = fixture_build_tile(&level, 1, 0, NULL);
         for (uint32_t i = 0; a != NULL && b != NULL && i < a->corner_count; i++) {
-            tl_vec3 corner = ((const tl_vec3 *)tl_nav_tile_at(a, a->corners))[i];
+            tl_vec3 corner = fixture_corner(a, i);
             for (uint32_t k = 0; k < b->corner_count; k++) {
-                tl_vec3 other = ((const tl_vec3 *)tl_nav_tile_at(b, b->corners))[k];
+                tl_vec3 other = fixture_corner(b, k);
                 if (tl_distance(corner, other) < 0.5f * level.cell_size) {
                     TEST_CHECK(memcmp(&corner, &other, sizeof corner) == 0);
                     shared_vertices++;
@@ -277,10 +367,10 @@ static void test_other_bytes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_example),     cmocka_unit_test(test_portals),      cmocka_unit_test(test_profile),
-        cmocka_unit_test(test_bad_sources), cmocka_unit_test(test_random_tiles), cmocka_unit_test(test_same_bytes),
-        cmocka_unit_test(test_memory),      cmocka_unit_test(test_truncated),    cmocka_unit_test(test_bit_flips),
-        cmocka_unit_test(test_other_bytes),
+        cmocka_unit_test(test_example),    cmocka_unit_test(test_widths),      cmocka_unit_test(test_portals),
+        cmocka_unit_test(test_profile),    cmocka_unit_test(test_bad_sources), cmocka_unit_test(test_random_tiles),
+        cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_memory),      cmocka_unit_test(test_truncated),
+        cmocka_unit_test(test_bit_flips),  cmocka_unit_test(test_other_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

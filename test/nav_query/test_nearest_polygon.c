@@ -83,7 +83,8 @@ static void test_height(void **state)
         tl_nav_surface surface = tl_nav_tile_surface(tile, p);
         tl_nav_ref ref = tl_navmesh_polygon_ref(navmesh, 0, p);
         for (uint32_t i = 0; i < surface.triangle_count; i++) {
-            const uint16_t *corner = surface.triangles[i].corner;
+            const tl_nav_detail_triangle triangle = tl_nav_surface_triangle(&surface, i);
+            const uint16_t *corner = triangle.corner;
             tl_vec3 a = surface.vertices[corner[0]], b = surface.vertices[corner[1]], c = surface.vertices[corner[2]];
             float u = test_random_unit(&random), v = test_random_unit(&random) * (1.0f - u);
             tl_vec3 point = tl_mul_add(tl_mul_add(a, tl_sub(b, a), u), tl_sub(c, a), v);

@@ -229,8 +229,8 @@ static void test_seam_oracle(void **state)
                         TL_OK);
             for (uint32_t k = tl_nav_tile_side_first(b, 0); k < tl_nav_tile_side_first(b, 1); k++) {
                 const tl_nav_portal *q = &tl_nav_tile_portals(b)[k];
-                float height_p = ((const tl_vec3 *)tl_nav_tile_at(a, a->corners))[p->corner].y;
-                float height_q = ((const tl_vec3 *)tl_nav_tile_at(b, b->corners))[q->corner].y;
+                float height_p = fixture_corner(a, p->corner).y;
+                float height_q = fixture_corner(b, q->corner).y;
                 int32_t low = p->low > q->low ? p->low : q->low, high = p->high < q->high ? p->high : q->high;
                 bool meet = fabsf(height_p - height_q) < 0.1f;
                 bool found = false;
@@ -263,8 +263,8 @@ static uint64_t links_of_bent_seam(float height_a, float bend_a, float height_b,
     TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
     for (int32_t x = 0; x < 2; x++) {
         fixture_mesh mesh = fixture_build_mesh(&level, x, 0);
-        for (uint32_t i = 0; i < 4; i++) {
-            mesh.detail.vertices[i].y = x == 0 ? height_a : height_b;
+        for (uint32_t i = 0; i < mesh.mesh.vertex_count; i++) {
+            mesh.mesh.vertices[3 * (size_t)i + 1] = (int32_t)((x == 0 ? height_a : height_b) / mesh.mesh.cell_height);
         }
         mesh.detail.vertices[4] = tl_vec3_make(4.0f, x == 0 ? bend_a : bend_b, x == 0 ? 1.5f : 2.5f);
         tl_nav_tile_source source = fixture_source(&mesh);
@@ -283,13 +283,14 @@ static void test_heights_along_the_seam(void **state)
 {
     (void)state;
     TEST_CHECK(links_of_bent_seam(0, 0, 0, 0) == 2);
-    TEST_CHECK(links_of_bent_seam(0, 0, 0.62f, 0.62f) == 2);
-    TEST_CHECK(links_of_bent_seam(0, 0, 0.63f, 0.63f) == 0);
-    TEST_CHECK(links_of_bent_seam(0, 3, 3, 3) == 2);   // a hill that touches the upper floor at its bend
-    TEST_CHECK(links_of_bent_seam(0, 2, 3, 3) == 0);   // one that does not
-    TEST_CHECK(links_of_bent_seam(0, 9, 3, 3) == 2);   // one that runs through it
-    TEST_CHECK(links_of_bent_seam(0, 9, 30, 3) == 2);  // two slopes that cross between bends
-    TEST_CHECK(links_of_bent_seam(0, 9, 10, 11) == 0); // a hill under a hill
+    TEST_CHECK(links_of_bent_seam(0, 0, 0.625f, 0.625f) == 2);
+    TEST_CHECK(links_of_bent_seam(0, 0, 0.75f, 0.63f) == 0);
+    TEST_CHECK(links_of_bent_seam(0, 0, 0.75f, 0.62f) == 2); // at their bends alone
+    TEST_CHECK(links_of_bent_seam(0, 3, 3, 3) == 2);         // a hill that touches the upper floor at its bend
+    TEST_CHECK(links_of_bent_seam(0, 2, 3, 3) == 0);         // one that does not
+    TEST_CHECK(links_of_bent_seam(0, 9, 3, 3) == 2);         // one that runs through it
+    TEST_CHECK(links_of_bent_seam(0, 9, 30, 3) == 2);        // two slopes that cross between bends
+    TEST_CHECK(links_of_bent_seam(0, 9, 10, 11) == 0);       // a hill under a hill
 }
 
 static void test_memory(void **state)

@@ -418,6 +418,27 @@ static inline uint32_t fixture_index_of(const fixture_refs *all, tl_nav_ref ref)
     return 0;
 }
 
+/// Where a corner is, metres, by its index in the tile's corner arrays.
+static inline tl_vec3 fixture_corner(const tl_nav_tile *tile, uint32_t corner)
+{
+    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner);
+    uint32_t polygon = 0, count = 0;
+    while (first[polygon + 1] <= corner) {
+        polygon++;
+    }
+    return tl_nav_tile_corners(tile, polygon, &count)[corner - first[polygon]];
+}
+
+static inline bool fixture_same_triangles(const tl_nav_surface *a, const tl_nav_surface *b)
+{
+    bool same = a->triangle_count == b->triangle_count;
+    for (uint32_t i = 0; same && i < a->triangle_count; i++) {
+        const tl_nav_detail_triangle s = tl_nav_surface_triangle(a, i), t = tl_nav_surface_triangle(b, i);
+        same = memcmp(&s, &t, sizeof s) == 0;
+    }
+    return same;
+}
+
 /// A random point on a random polygon: a random mix of its corners.
 static inline tl_nav_location fixture_random_location(const tl_navmesh *navmesh, const fixture_refs *all,
                                                       test_random *random)

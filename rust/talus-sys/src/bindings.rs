@@ -1081,7 +1081,6 @@ pub struct tl_nav_portal {
     pub low: i32,
     pub high: i32,
     pub first_profile: u32,
-    pub profile_count: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1121,8 +1120,10 @@ pub struct tl_nav_tile {
     pub agent_radius: f32,
     pub agent_max_climb: f32,
     pub bounds: tl_aabb,
+    pub wide: u32,
+    pub reserved: u32,
+    pub nodes: u64,
     pub first_corner: u64,
-    pub corners: u64,
     pub links: u64,
     pub corner_vertices: u64,
     pub vertices: u64,
@@ -1132,7 +1133,6 @@ pub struct tl_nav_tile {
     pub detail_first_triangle: u64,
     pub detail_vertices: u64,
     pub detail_triangles: u64,
-    pub nodes: u64,
     pub portals: u64,
     pub profile: u64,
 }
@@ -1172,8 +1172,14 @@ pub struct tl_nav_tile_stack {
 pub struct tl_nav_surface {
     pub vertices: *const tl_vec3,
     pub vertex_count: u32,
-    pub triangles: *const tl_nav_detail_triangle,
     pub triangle_count: u32,
+    pub triangles: *const c_void,
+    pub is_wide: bool,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_nav_lattice_point {
+    pub at: [i32; 3],
 }
 #[repr(C)]
 pub struct tl_navmesh {
@@ -4849,13 +4855,12 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_detail, allocator), 48);
         assert_eq!(core::mem::offset_of!(tl_nav_detail, block), 72);
         assert_eq!(core::mem::offset_of!(tl_nav_detail, block_size), 80);
-        assert_eq!(core::mem::size_of::<tl_nav_portal>(), 24);
+        assert_eq!(core::mem::size_of::<tl_nav_portal>(), 20);
         assert_eq!(core::mem::offset_of!(tl_nav_portal, polygon), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_portal, corner), 4);
         assert_eq!(core::mem::offset_of!(tl_nav_portal, low), 8);
         assert_eq!(core::mem::offset_of!(tl_nav_portal, high), 12);
         assert_eq!(core::mem::offset_of!(tl_nav_portal, first_profile), 16);
-        assert_eq!(core::mem::offset_of!(tl_nav_portal, profile_count), 20);
         assert_eq!(core::mem::size_of::<tl_nav_profile_point>(), 8);
         assert_eq!(core::mem::offset_of!(tl_nav_profile_point, along), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_profile_point, height), 4);
@@ -4889,21 +4894,22 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_tile, agent_radius), 112);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, agent_max_climb), 116);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, bounds), 120);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, first_corner), 144);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, corners), 152);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, links), 160);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, corner_vertices), 168);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, vertices), 176);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, flags), 184);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, areas), 192);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, detail_first_vertex), 200);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, wide), 144);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, reserved), 148);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, nodes), 152);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, first_corner), 160);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, links), 168);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, corner_vertices), 176);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, vertices), 184);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, flags), 192);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, areas), 200);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, detail_first_vertex), 208);
         assert_eq!(
             core::mem::offset_of!(tl_nav_tile, detail_first_triangle),
-            208
+            216
         );
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, detail_vertices), 216);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, detail_triangles), 224);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, nodes), 232);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, detail_vertices), 224);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, detail_triangles), 232);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, portals), 240);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, profile), 248);
         assert_eq!(core::mem::size_of::<tl_nav_cut>(), 12);
@@ -4934,8 +4940,11 @@ mod layout {
         assert_eq!(core::mem::size_of::<tl_nav_surface>(), 32);
         assert_eq!(core::mem::offset_of!(tl_nav_surface, vertices), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_surface, vertex_count), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_surface, triangle_count), 12);
         assert_eq!(core::mem::offset_of!(tl_nav_surface, triangles), 16);
-        assert_eq!(core::mem::offset_of!(tl_nav_surface, triangle_count), 24);
+        assert_eq!(core::mem::offset_of!(tl_nav_surface, is_wide), 24);
+        assert_eq!(core::mem::size_of::<tl_nav_lattice_point>(), 12);
+        assert_eq!(core::mem::offset_of!(tl_nav_lattice_point, at), 0);
         assert_eq!(core::mem::size_of::<tl_nav_link>(), 40);
         assert_eq!(core::mem::offset_of!(tl_nav_link, to), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_link, edge), 8);

@@ -68,11 +68,12 @@ static tl_vec3 point_in_polygon(const tl_nav_tile *tile, uint32_t polygon, uint6
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
-    const int32_t *first = tl_nav_tile_lattice(tile, polygon, 0);
+    const tl_nav_lattice_point first = tl_nav_tile_lattice(tile, polygon, 0);
     uint32_t i = 1;
     for (; i + 2 < count; i++) {
-        uint64_t area = doubled_triangle_area(first, tl_nav_tile_lattice(tile, polygon, i),
-                                              tl_nav_tile_lattice(tile, polygon, i + 1));
+        const tl_nav_lattice_point a = tl_nav_tile_lattice(tile, polygon, i);
+        const tl_nav_lattice_point b = tl_nav_tile_lattice(tile, polygon, i + 1);
+        const uint64_t area = doubled_triangle_area(first.at, a.at, b.at);
         if (at < area) {
             break;
         }

@@ -19,15 +19,15 @@ static uint64_t doubled_polygon_area(const tl_nav_tile *tile, uint32_t polygon)
 {
     uint32_t count = 0;
     tl_nav_tile_corners(tile, polygon, &count);
-    const int32_t *origin = tl_nav_tile_lattice(tile, polygon, 0);
+    const tl_nav_lattice_point origin = tl_nav_tile_lattice(tile, polygon, 0);
     int64_t sum = 0;
     for (uint32_t i = 1; i + 1 < count; i++) {
-        const int32_t *a = tl_nav_tile_lattice(tile, polygon, i);
-        const int32_t *b = tl_nav_tile_lattice(tile, polygon, i + 1);
-        int64_t ax = (int64_t)a[0] - origin[0];
-        int64_t az = (int64_t)a[2] - origin[2];
-        int64_t bx = (int64_t)b[0] - origin[0];
-        int64_t bz = (int64_t)b[2] - origin[2];
+        const tl_nav_lattice_point a = tl_nav_tile_lattice(tile, polygon, i);
+        const tl_nav_lattice_point b = tl_nav_tile_lattice(tile, polygon, i + 1);
+        int64_t ax = (int64_t)a.at[0] - origin.at[0];
+        int64_t az = (int64_t)a.at[2] - origin.at[2];
+        int64_t bx = (int64_t)b.at[0] - origin.at[0];
+        int64_t bz = (int64_t)b.at[2] - origin.at[2];
         sum += bx * az - bz * ax;
     }
     return sum > 0 ? (uint64_t)sum : 0;

@@ -5,6 +5,7 @@
 // No triangle may hold the point by a rounding's breadth, at an edge of the patch. Then the triangle that misses it
 // least answers, with its negative weights cut off; so a point on a polygon always has a height.
 
+#include "base/compiler.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/surface.h"
 
@@ -83,8 +84,9 @@ static float nearest_vertex_height(const tl_nav_surface *surface, double x, doub
 
 static void corners_of(const tl_nav_surface *surface, uint32_t triangle, const tl_vec3 *corners_out[3])
 {
+    const tl_nav_detail_triangle at = tl_nav_surface_triangle(surface, triangle);
     for (int k = 0; k < 3; k++) {
-        corners_out[k] = &surface->vertices[surface->triangles[triangle].corner[k]];
+        corners_out[k] = &surface->vertices[at.corner[k]];
     }
 }
 
@@ -142,20 +144,25 @@ static bool code_vertices(const tl_nav_surface *surface, float x, float z, uint8
     return true;
 }
 
-static bool find_height(const tl_nav_surface *of, float x, float z, float *height_out)
+// Compiled for each width of a triangle's corners.
+static TL_ALWAYS_INLINE bool find_height_in(const tl_nav_surface *surface, bool is_wide, float x, float z,
+                                            float *height_out)
 {
-    const tl_nav_surface surface = *of;
     uint8_t codes[MAX_CODES];
-    bool has_codes = code_vertices(&surface, x, z, codes);
-    for (uint32_t i = 0; i < surface.triangle_count; i++) {
-        const uint16_t *at = surface.triangles[i].corner;
+    const bool has_codes = code_vertices(surface, x, z, codes);
+    for (uint32_t i = 0; i < surface->triangle_count; i++) {
+        uint32_t at[3];
+        for (size_t k = 0; k < 3; k++) {
+            const size_t number = 4 * (size_t)i + k;
+            at[k] = is_wide ? ((const uint16_t *)surface->triangles)[number]
+                            : ((const uint8_t *)surface->triangles)[number];
+        }
         if (has_codes && (codes[at[0]] & codes[at[1]] & codes[at[2]]) != 0) {
             continue;
         }
-        const tl_vec3 *corners[3];
+        const tl_vec3 *corners[3] = { &surface->vertices[at[0]], &surface->vertices[at[1]], &surface->vertices[at[2]] };
         double parts[3];
         triangle_weights weights;
-        corners_of(&surface, i, corners);
         divide_triangle(*corners[0], *corners[1], *corners[2], (double)x, (double)z, parts);
         if (has_no_negative_part(parts) && weigh(parts, &weights)) {
             *height_out = mix_heights(corners, &weights);
@@ -163,6 +170,13 @@ static bool find_height(const tl_nav_surface *of, float x, float z, float *heigh
         }
     }
     return false;
+}
+
+static bool find_height(const tl_nav_surface *of, float x, float z, float *height_out)
+{
+    const tl_nav_surface surface = *of;
+    return surface.is_wide ? find_height_in(&surface, true, x, z, height_out)
+                           : find_height_in(&surface, false, x, z, height_out);
 }
 
 bool tl_nav_find_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, float z, float *height_out)

@@ -13,37 +13,53 @@
 #include <math.h>
 #include <string.h>
 
-// A profile and a place between two of its points.
+// The heights along a portal, from end to end, and a place between two of them.
 typedef struct profile_cursor {
-    const tl_nav_profile_point *points;
-    uint32_t count;
-    uint32_t at; // the segment [at, at + 1]
+    tl_nav_profile_point ends[2];
+    const tl_nav_profile_point *inner;
+    uint32_t count; // of all
+    uint32_t at;    // the segment [at, at + 1]
 } profile_cursor;
 
-static profile_cursor cursor_of(const tl_nav_tile *tile, const tl_nav_portal *portal)
+// At its ends a portal is as high as its corners.
+static profile_cursor cursor_of(const tl_nav_tile *tile, uint32_t portal, uint32_t side)
 {
-    const tl_nav_profile_point *profile = tl_nav_tile_at(tile, tile->profile);
-    profile_cursor cursor = { profile + portal->first_profile, portal->profile_count, 0 };
+    const tl_nav_portal *at = tl_nav_tile_portals(tile) + portal;
+    const uint32_t edge = at->corner - ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[at->polygon];
+    const bool rising = side < 2; // sides 0 and 1 run from low to high
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, at->polygon, &count);
+    const float begin = corners[edge].y, end = corners[edge + 1 < count ? edge + 1 : 0].y;
+    profile_cursor cursor = {
+        { { (float)at->low, rising ? begin : end }, { (float)at->high, rising ? end : begin } }, NULL, 0, 0
+    };
+    cursor.inner = tl_nav_tile_profile(tile, portal, &cursor.count);
+    cursor.count += 2;
     return cursor;
+}
+
+static tl_nav_profile_point profile_point_at(const profile_cursor *cursor, uint32_t i)
+{
+    return i == 0 ? cursor->ends[0] : i + 1 < cursor->count ? cursor->inner[i - 1] : cursor->ends[1];
 }
 
 // The height at `along`, which never decreases from call to call.
 static double profile_height(profile_cursor *cursor, double along)
 {
-    while (cursor->at + 2 < cursor->count && (double)cursor->points[cursor->at + 1].along <= along) {
+    while (cursor->at + 2 < cursor->count && (double)profile_point_at(cursor, cursor->at + 1).along <= along) {
         cursor->at++;
     }
-    const tl_nav_profile_point *a = &cursor->points[cursor->at];
-    double length = (double)a[1].along - (double)a[0].along;
-    double t = length > 0.0 ? (along - (double)a[0].along) / length : 0.0;
-    return (double)a[0].height + t * ((double)a[1].height - (double)a[0].height);
+    const tl_nav_profile_point a = profile_point_at(cursor, cursor->at), b = profile_point_at(cursor, cursor->at + 1);
+    double length = (double)b.along - (double)a.along;
+    double t = length > 0.0 ? (along - (double)a.along) / length : 0.0;
+    return (double)a.height + t * ((double)b.height - (double)a.height);
 }
 
 // The next kink behind `along`, or `high`.
 static double next_kink(const profile_cursor *cursor, double along, double high)
 {
     for (uint32_t i = cursor->at; i < cursor->count; i++) {
-        double kink = (double)cursor->points[i].along;
+        double kink = (double)profile_point_at(cursor, i).along;
         if (kink > along) {
             return kink < high ? kink : high;
         }
@@ -77,7 +93,8 @@ typedef struct seam {
     const tl_nav_tile *tiles[2];
     uint32_t slots[2];
     uint32_t sides[2];
-    const tl_nav_portal *portals[2]; // of the sides
+    uint32_t first[2];               // portals of the sides
+    const tl_nav_portal *portals[2]; // these
     uint32_t counts[2];
     double tolerance; // metres
 } seam;
@@ -94,13 +111,14 @@ static seam make_seam(const tl_nav_tile_side *a, const tl_nav_tile_side *b)
     seam s = { { a->tile, b->tile },
                { a->slot, b->slot },
                { a->side, b->side },
+               { 0, 0 },
                { NULL, NULL },
                { 0, 0 },
                height_tolerance(a->tile, b->tile) };
     for (int i = 0; i < 2; i++) {
-        const uint32_t first = tl_nav_tile_side_first(s.tiles[i], s.sides[i]);
-        s.portals[i] = tl_nav_tile_portals(s.tiles[i]) + first;
-        s.counts[i] = tl_nav_tile_side_first(s.tiles[i], s.sides[i] + 1) - first;
+        s.first[i] = tl_nav_tile_side_first(s.tiles[i], s.sides[i]);
+        s.portals[i] = tl_nav_tile_portals(s.tiles[i]) + s.first[i];
+        s.counts[i] = tl_nav_tile_side_first(s.tiles[i], s.sides[i] + 1) - s.first[i];
     }
     return s;
 }
@@ -121,7 +139,8 @@ static void for_each_overlap(const seam *s, pair_fn *pair, void *user)
             int32_t low = a->low > b->low ? a->low : b->low;
             int32_t high = a->high < b->high ? a->high : b->high;
             if (low < high &&
-                profiles_meet(cursor_of(s->tiles[0], a), cursor_of(s->tiles[1], b), low, high, s->tolerance)) {
+                profiles_meet(cursor_of(s->tiles[0], s->first[0] + i, s->sides[0]),
+                              cursor_of(s->tiles[1], s->first[1] + j, s->sides[1]), low, high, s->tolerance)) {
                 pair(s, i, j, low, high, user);
             }
         }
@@ -132,9 +151,10 @@ static void for_each_overlap(const seam *s, pair_fn *pair, void *user)
 static bool runs_up(const tl_nav_tile *tile, const tl_nav_portal *cut)
 {
     const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + cut->polygon;
-    const int32_t *ends[2];
+    tl_nav_lattice_point ends[2];
     tl_nav_cut_ends(tile, cut, ends);
-    return ends[0] == tl_nav_tile_lattice(tile, cut->polygon, cut->corner - first[0]);
+    const tl_nav_lattice_point start = tl_nav_tile_lattice(tile, cut->polygon, cut->corner - first[0]);
+    return memcmp(&ends[0], &start, sizeof start) == 0;
 }
 
 // The cuts of one tile that lead to the other's layer: both stand in the same order.
