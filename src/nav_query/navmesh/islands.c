@@ -48,7 +48,8 @@ static void free_arrays(const tl_allocator *allocator, tl_nav_islands *islands)
     tl_release_array(allocator, islands->nodes, capacity, sizeof *islands->nodes);
     tl_release_array(allocator, islands->pieces, capacity, sizeof *islands->pieces);
     tl_release_array(allocator, islands->seeds, capacity, sizeof *islands->seeds);
-    tl_release_array(allocator, islands->labels[0], TL_NAV_ISLAND_KINDS * 2 * capacity, sizeof **islands->labels);
+    tl_release_array(allocator, islands->labels[0], TL_NAV_ISLAND_KINDS * tl_nav_label_room(islands),
+                     sizeof **islands->labels);
 }
 
 void tl_nav_free_islands(tl_navmesh *navmesh)
@@ -65,7 +66,8 @@ tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
     if (needed <= old->capacity) {
         return TL_OK;
     }
-    const uint64_t capacity = needed + needed / 4;
+    // The first tile is often the only one.
+    const uint64_t capacity = old->capacity > 0 ? needed + needed / 4 : needed;
     if (2 * capacity > UINT32_MAX) {
         return TL_ERR_LIMIT;
     }
@@ -74,12 +76,13 @@ tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
     grown.nodes = tl_allocate_array(allocator, capacity, sizeof *grown.nodes);
     grown.pieces = tl_allocate_array(allocator, capacity, sizeof *grown.pieces);
     grown.seeds = tl_allocate_array(allocator, capacity, sizeof *grown.seeds);
-    grown.labels[0] = tl_allocate_array(allocator, TL_NAV_ISLAND_KINDS * 2 * capacity, sizeof **grown.labels);
+    const uint64_t room = tl_nav_label_room(&grown);
+    grown.labels[0] = tl_allocate_array(allocator, TL_NAV_ISLAND_KINDS * room, sizeof **grown.labels);
     if (grown.nodes == NULL || grown.pieces == NULL || grown.seeds == NULL || grown.labels[0] == NULL) {
         free_arrays(allocator, &grown);
         return TL_ERR_MEMORY;
     }
-    grown.labels[1] = grown.labels[0] + 2 * capacity;
+    grown.labels[1] = grown.labels[0] + room;
     if (old->capacity > 0) {
         memcpy(grown.nodes, old->nodes, old->used * sizeof *grown.nodes);
         for (int kind = 0; kind < TL_NAV_ISLAND_KINDS; kind++) {
@@ -92,7 +95,7 @@ tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
     navmesh->islands = grown;
     tl_nav_touch_all(grown.history, TL_NAV_PAGED_ISLAND_NODES, capacity);
     for (uint32_t kind = 0; kind < TL_NAV_ISLAND_KINDS; kind++) {
-        tl_nav_touch_all(grown.history, TL_NAV_PAGED_LABELS + kind, 2 * capacity);
+        tl_nav_touch_all(grown.history, TL_NAV_PAGED_LABELS + kind, room);
     }
     return TL_OK;
 }
@@ -102,7 +105,7 @@ static void name_anew(tl_nav_islands *islands, tl_nav_island_kind kind)
 {
     tl_nav_island_label *labels = islands->labels[kind];
     tl_nav_touch_all(islands->history, TL_NAV_PAGED_ISLAND_NODES, islands->capacity);
-    tl_nav_touch_all(islands->history, TL_NAV_PAGED_LABELS + (uint32_t)kind, 2 * (uint64_t)islands->capacity);
+    tl_nav_touch_all(islands->history, TL_NAV_PAGED_LABELS + (uint32_t)kind, tl_nav_label_room(islands));
     for (uint32_t i = 0; i < islands->label_count[kind]; i++) {
         labels[i].parent = tl_nav_label_root(labels, i);
         labels[i].size = UINT32_MAX;
@@ -124,8 +127,8 @@ static void name_anew(tl_nav_islands *islands, tl_nav_island_kind kind)
 
 void tl_nav_reserve_labels(tl_nav_islands *islands, tl_nav_island_kind kind, uint32_t count)
 {
-    // There are no more roots in use than nodes, and `count` is no more than nodes either: half of the room.
-    if ((uint64_t)islands->label_count[kind] + count > 2 * (uint64_t)islands->capacity) {
+    // No more labels are in use than there are nodes, new ones included: of the groups of a split one keeps its label.
+    if ((uint64_t)islands->label_count[kind] + count > tl_nav_label_room(islands)) {
         name_anew(islands, kind);
     }
 }

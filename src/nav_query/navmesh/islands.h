@@ -50,7 +50,7 @@ typedef struct tl_nav_islands {
     tl_nav_island_node *nodes;                        ///< [capacity]
     tl_nav_island_piece *pieces;                      ///< [capacity]
     uint32_t *seeds;                                  ///< [capacity]: nodes that have lost a way
-    tl_nav_island_label *labels[TL_NAV_ISLAND_KINDS]; ///< [2 * capacity]
+    tl_nav_island_label *labels[TL_NAV_ISLAND_KINDS]; ///< [tl_nav_label_room]
     uint32_t capacity;
     uint32_t used;       ///< nodes below have been used once
     uint32_t free;       ///< head of the chain of free nodes
@@ -59,6 +59,13 @@ typedef struct tl_nav_islands {
     uint32_t seed_count;
     uint32_t seam_seed_count; ///< the first ones, which have lost a way over a seam
 } tl_nav_islands;
+
+/// How many labels of each kind there is room for: no fewer than nodes, which is what nodes can have, and some that are
+/// used up by edits before all are named anew.
+static inline uint64_t tl_nav_label_room(const tl_nav_islands *islands)
+{
+    return (uint64_t)islands->capacity + islands->capacity / 4;
+}
 
 /// Room for `count` more components. TL_ERR_MEMORY, TL_ERR_LIMIT.
 tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count);

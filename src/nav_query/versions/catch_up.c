@@ -43,7 +43,7 @@ static void list_arrays(const tl_navmesh *navmesh, version_array *arrays)
         { navmesh->buckets, navmesh->bucket_count, sizeof *navmesh->buckets },
         { navmesh->area_table, sums, sizeof *navmesh->area_table },
         { islands->nodes, islands->capacity, sizeof *islands->nodes },
-        { islands->labels[0], TL_NAV_ISLAND_KINDS * 2 * (uint64_t)islands->capacity, sizeof **islands->labels },
+        { islands->labels[0], TL_NAV_ISLAND_KINDS * tl_nav_label_room(islands), sizeof **islands->labels },
         { links->entries, links->capacity, sizeof *links->entries },
         { links->buckets, 2 * (uint64_t)links->capacity, sizeof *links->buckets },
         { links->short_cuts, links->capacity, sizeof *links->short_cuts },
@@ -59,7 +59,7 @@ static void set_arrays(tl_navmesh *navmesh, const version_array *arrays)
     navmesh->area_table = (uint64_t *)arrays[AREA_SUMS].at;
     islands->nodes = (tl_nav_island_node *)arrays[ISLAND_NODES].at;
     islands->labels[0] = (tl_nav_island_label *)arrays[ISLAND_LABELS].at;
-    islands->labels[1] = islands->labels[0] != NULL ? islands->labels[0] + 2 * (uint64_t)islands->capacity : NULL;
+    islands->labels[1] = islands->labels[0] != NULL ? islands->labels[0] + tl_nav_label_room(islands) : NULL;
     navmesh->offmesh.entries = (tl_nav_offmesh_entry *)arrays[LINK_ENTRIES].at;
     navmesh->offmesh.buckets = (uint32_t *)arrays[LINK_BUCKETS].at;
     navmesh->offmesh.short_cuts = (uint32_t *)arrays[SHORT_CUTS].at;
