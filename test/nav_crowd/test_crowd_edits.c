@@ -4,7 +4,7 @@
 // and groups form, walk in other formations and part. Nobody leaves the mesh, is lost or stays for ever; and three
 // crowds, on one, two and eight threads (pthread) and as many instruction sets as there are, stay the same to the bit.
 //
-//   test_crowd_edits [STEPS (1200) [AGENTS (150) [EVERY (1) [SEED (21, then 29 and 31)]]]]
+//   test_crowd_edits [STEPS (1200) [AGENTS (150) [EVERY (4) [SEED (21, then 29 and 31)]]]]
 //
 // Seeds 29 and 31 ended once with a doorway that those who had arrived in it, or stood in their slots, never left; one
 // window of 32 is compared there.
@@ -41,7 +41,7 @@ enum {
     SECOND = 20          // steps
 };
 
-static uint32_t step_count = 1200, agent_count = 150, window_every = 1;
+static uint32_t step_count = 1200, agent_count = 150, window_every = 4;
 static uint64_t seed = 21;
 
 typedef struct edit_world {
@@ -378,7 +378,7 @@ static uint32_t settle(edit_world *w, uint32_t step)
         TEST_RESULT(tl_nav_obstacles_remove(w->obstacles, w->ids[--w->obstacle_count]), TL_OK);
     }
     TEST_RESULT(tl_nav_obstacles_update(w->obstacles, w->navmesh, UINT32_MAX, NULL, NULL), TL_OK);
-    window_every = 1;
+    window_every = window_every < 8 ? 8 : window_every; // it takes thousands of steps
     begin_window(w, step);
     give_goals(w, true);
     tl_nav_crowd_step_report report = { .arrived = 0 };
@@ -445,11 +445,11 @@ static void run_edits(uint64_t with)
     TEST_CHECK(w.off_mesh == 0 && w.lost == 0 && w.edits * EDIT_EVERY >= step_count && w.goals > agent_count);
     TEST_CHECK((float)w.longest * DT < LONG);
     TEST_CHECK(w.group_count == 0 || step_count < 1200 || (w.formed > w.group_count && w.parted > 0));
-    for (uint32_t c = 0; c < CROWDS; c++) {
+    for (uint32_t c = 0; c < w.crowd_count; c++) {
         TEST_CHECK(tl_nav_crowd_count(w.crowds[c]) == agent_count);
         TEST_CHECK(tl_nav_crowd_hash(w.crowds[c]) == tl_nav_crowd_hash(w.crowds[0]));
     }
-    for (uint32_t c = 0; c < CROWDS; c++) {
+    for (uint32_t c = 0; c < w.crowd_count; c++) {
         tl_nav_crowd_destroy(w.crowds[c]);
         free(w.agents[c]);
     }
