@@ -285,12 +285,12 @@ typedef struct tl_contact_cache {
 /// corners.
 ///
 /// With a cache, contacts stay what they were: the last ones are chosen again while they span half of what the patch
-/// does and the deepest of them is within TL_CONTACT_SLACK of the tolerance; and the last normal serves while the
-/// motion since its proof cannot have made another one shallower by more than that. Then no corner has moved by more
-/// than about that either: the last contacts go along with A, their separations are measured anew, and no face is
-/// looked for. Without a cache the deepest point is exact. Costs at most a distance, a penetration depth and a search
-/// for each shape's face; linear in the corners of both faces. `limits` may be NULL. Poses, threads as in
-/// tl_convex_distance; `cache` may be NULL.
+/// does and the deepest of them is within TL_CONTACT_SLACK of the tolerance; and the last normal serves while it is
+/// proven that no other one is shallower by more than that: by how far the pair has moved, or by what proved the depth,
+/// looked at anew. Where no corner has moved by more than about that either, the last contacts go along with A, their
+/// separations are measured anew, and no face is looked for. Without a cache the deepest point is exact. Costs at most
+/// a distance, a penetration depth and a search for each shape's face; linear in the corners of both faces. `limits`
+/// may be NULL. Poses, threads as in tl_convex_distance; `cache` may be NULL.
 TL_API uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                                    const tl_contact_limits *limits, tl_contact_cache *cache,
                                    tl_contact_manifold *manifold_out);
