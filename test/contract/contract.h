@@ -111,6 +111,18 @@ typedef struct contract_entry {
         return TL_OK;                                                                                                  \
     }
 
+/// An input or an output, or NULL where the case asks for that one.
+#define CONTRACT_INPUT(run, number, pointer)                                                                           \
+    ((run)->what == CONTRACT_NULL_INPUT && (run)->variant == (number) ? NULL : (pointer))
+#define CONTRACT_OUTPUT(run, number, pointer)                                                                          \
+    ((run)->what == CONTRACT_NULL_OUTPUT && (run)->variant == (number) ? NULL : (pointer))
+
+/// A pose at a place; without a rotation where the case asks for a zeroed one.
+tl_transform contract_pose(const contract_run *run, tl_vec3 position);
+
+/// Three ways to say that nothing is ignored: no filter, one that is zeroed, and one whose callback accepts all.
+const tl_ray_filter *contract_ray_filter(const contract_run *run, tl_ray_filter *filter);
+
 /// A hash of bytes, for `answer`.
 uint64_t contract_hash(const void *bytes, size_t size, uint64_t seed);
 

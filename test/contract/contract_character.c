@@ -6,9 +6,6 @@
 
 #include <string.h>
 
-#define INPUT(run, number, pointer)                                                                                    \
-    ((run)->what == CONTRACT_NULL_INPUT && (run)->variant == (number) ? NULL : (pointer))
-
 static const char *const DEF_FIELDS[] = {
     "radius", "height", "step_height", "max_slope", "gap", "max_triangles", NULL
 };
@@ -61,8 +58,9 @@ static tl_result move(contract_run *run)
         level.soup = run->variant == 3 ? NULL : level.soup;
     }
     const tl_character before = character;
-    const tl_result result = tl_character_move(INPUT(run, 0, mover), INPUT(run, 1, &level), INPUT(run, 2, &step),
-                                               INPUT(run, 3, &character), run->wants_report ? &report : NULL);
+    const tl_result result =
+        tl_character_move(CONTRACT_INPUT(run, 0, mover), CONTRACT_INPUT(run, 1, &level), CONTRACT_INPUT(run, 2, &step),
+                          CONTRACT_INPUT(run, 3, &character), run->wants_report ? &report : NULL);
     run->own_report = report.base;
     run->is_clear = memcmp(&before, &character, sizeof before) == 0;
     run->answer = contract_hash(&character, sizeof character, 0);

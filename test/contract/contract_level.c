@@ -24,6 +24,31 @@ bool contract_is_zero(const void *bytes, size_t size)
     return true;
 }
 
+tl_transform contract_pose(const contract_run *run, tl_vec3 position)
+{
+    tl_transform pose = tl_transform_identity();
+    pose.position = position;
+    if (run->what == CONTRACT_ZERO_ROTATION) {
+        pose.rotation.w = 0;
+    }
+    return pose;
+}
+
+static bool accept_all(uint32_t triangle, uint16_t material, void *user)
+{
+    (void)triangle;
+    (void)material;
+    (void)user;
+    return true;
+}
+
+const tl_ray_filter *contract_ray_filter(const contract_run *run, tl_ray_filter *filter)
+{
+    memset(filter, 0, sizeof *filter);
+    filter->accept = run->what == CONTRACT_ZEROED_FILTER ? NULL : accept_all;
+    return run->what == CONTRACT_NULL_DEF ? NULL : filter;
+}
+
 static const tl_vec3 VERTICES[] = {
     { 0, 0, 0 }, { 0, 0, 20 }, { 20, 0, 20 }, { 20, 0, 0 }, // the floor
     { 8, 0, 8 }, { 8, 0, 12 }, { 12, 0, 12 }, { 12, 0, 8 }, // the box's bottom

@@ -6,11 +6,6 @@
 
 #include <string.h>
 
-#define INPUT(run, number, pointer)                                                                                    \
-    ((run)->what == CONTRACT_NULL_INPUT && (run)->variant == (number) ? NULL : (pointer))
-#define OUTPUT(run, number, pointer)                                                                                   \
-    ((run)->what == CONTRACT_NULL_OUTPUT && (run)->variant == (number) ? NULL : (pointer))
-
 enum { LEVEL, BALL, COUNT };
 
 // The level, and a ball above it.
@@ -58,16 +53,6 @@ static const tl_scene_filter *filter_of(const contract_run *run, tl_scene_filter
     return run->what == CONTRACT_NULL_DEF ? NULL : filter;
 }
 
-static tl_transform pose_of(const contract_run *run, tl_vec3 position)
-{
-    tl_transform pose = tl_transform_identity();
-    pose.position = position;
-    if (run->what == CONTRACT_ZERO_ROTATION) {
-        pose.rotation.w = 0;
-    }
-    return pose;
-}
-
 static uint64_t first_hit(const scene_fixture *f, const tl_scene *scene, const tl_scene_filter *filter)
 {
     const tl_ray ray = { { 4, 10, 10 }, { 0, -1, 0 }, INFINITY };
@@ -81,8 +66,8 @@ static tl_result bake(contract_run *run)
     scene_fixture f;
     place(&f, run->what == CONTRACT_ZERO_ROTATION);
     const tl_result result =
-        tl_scene_bake(INPUT(run, 0, f.instances), COUNT, run->what == CONTRACT_NULL_DEF ? NULL : run->host,
-                      OUTPUT(run, 0, &f.scene), run->report);
+        tl_scene_bake(CONTRACT_INPUT(run, 0, f.instances), COUNT, run->what == CONTRACT_NULL_DEF ? NULL : run->host,
+                      CONTRACT_OUTPUT(run, 0, &f.scene), run->report);
     run->is_clear = f.scene == NULL;
     run->answer = f.scene != NULL ? first_hit(&f, f.scene, NULL) : 0;
     tl_blob_free(f.scene);
@@ -95,8 +80,8 @@ static tl_result refit(contract_run *run)
     place(&f, run->what == CONTRACT_ZERO_ROTATION);
     TEST_RESULT(tl_scene_bake(f.instances, COUNT, NULL, &f.scene, NULL), TL_OK);
     float growth = 7.0f;
-    const tl_result result =
-        tl_scene_refit(INPUT(run, 0, f.scene), INPUT(run, 1, f.instances), COUNT, &growth, run->report);
+    const tl_result result = tl_scene_refit(CONTRACT_INPUT(run, 0, f.scene), CONTRACT_INPUT(run, 1, f.instances), COUNT,
+                                            &growth, run->report);
     run->is_clear = growth == 0.0f;
     run->answer = first_hit(&f, f.scene, NULL);
     tl_blob_free(f.scene);
@@ -133,10 +118,10 @@ static tl_result cast_shape(contract_run *run)
     const tl_convex shape = tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(0.5f, 0.5f, 0.5f), 0);
     tl_scene_shape_hit hit;
     memset(&hit, 0xff, sizeof hit);
-    const tl_result result = tl_scene_cast_shape(INPUT(run, 0, f->scene), INPUT(run, 1, f->instances),
-                                                 INPUT(run, 2, &shape), pose_of(run, tl_vec3_make(4, 8, 10)),
-                                                 tl_vec3_make(0, run->what == CONTRACT_NOT_FOUND ? 8.0f : -8.0f, 0),
-                                                 filter_of(run, &filter), OUTPUT(run, 0, &hit));
+    const tl_result result = tl_scene_cast_shape(
+        CONTRACT_INPUT(run, 0, f->scene), CONTRACT_INPUT(run, 1, f->instances), CONTRACT_INPUT(run, 2, &shape),
+        contract_pose(run, tl_vec3_make(4, 8, 10)), tl_vec3_make(0, run->what == CONTRACT_NOT_FOUND ? 8.0f : -8.0f, 0),
+        filter_of(run, &filter), CONTRACT_OUTPUT(run, 0, &hit));
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&hit, sizeof hit);
     run->answer = contract_hash(&hit.hit.t, sizeof hit.hit.t, hit.instance);
     return result;
@@ -147,11 +132,11 @@ static tl_result overlaps(contract_run *run)
     const scene_fixture *f = fixture();
     tl_scene_filter filter;
     const tl_convex shape = tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(1, 1, 1), 0);
-    const tl_scene_overlap_query query = { INPUT(run, 3, &shape), pose_of(run, tl_vec3_make(4, 3, 10)),
+    const tl_scene_overlap_query query = { CONTRACT_INPUT(run, 3, &shape), contract_pose(run, tl_vec3_make(4, 3, 10)),
                                            filter_of(run, &filter) };
     bool touches = true;
-    const tl_result result = tl_scene_overlaps(INPUT(run, 0, f->scene), INPUT(run, 1, f->instances),
-                                               INPUT(run, 2, &query), OUTPUT(run, 0, &touches));
+    const tl_result result = tl_scene_overlaps(CONTRACT_INPUT(run, 0, f->scene), CONTRACT_INPUT(run, 1, f->instances),
+                                               CONTRACT_INPUT(run, 2, &query), CONTRACT_OUTPUT(run, 0, &touches));
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || !touches;
     run->answer = touches;
     return result;
@@ -163,7 +148,7 @@ static tl_result find_overlaps(contract_run *run)
     const scene_fixture *f = fixture();
     tl_scene_filter filter;
     const tl_convex shape = tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(1, 2, 1), 0);
-    const tl_scene_overlap_query query = { INPUT(run, 3, &shape), pose_of(run, tl_vec3_make(4, 2, 10)),
+    const tl_scene_overlap_query query = { CONTRACT_INPUT(run, 3, &shape), contract_pose(run, tl_vec3_make(4, 2, 10)),
                                            filter_of(run, &filter) };
     tl_scene_overlap found[FOUND] = { { 0 } };
     uint32_t count = 99;
@@ -171,9 +156,9 @@ static tl_result find_overlaps(contract_run *run)
     const uint32_t capacity = run->what == CONTRACT_NO_BUFFER      ? 0
                               : run->what == CONTRACT_SHORT_BUFFER ? FOUND - 1
                                                                    : FOUND;
-    const tl_result result =
-        tl_scene_find_overlaps(INPUT(run, 0, f->scene), INPUT(run, 1, f->instances), INPUT(run, 2, &query),
-                               no_buffer ? NULL : found, capacity, OUTPUT(run, 0, &count));
+    const tl_result result = tl_scene_find_overlaps(
+        CONTRACT_INPUT(run, 0, f->scene), CONTRACT_INPUT(run, 1, f->instances), CONTRACT_INPUT(run, 2, &query),
+        no_buffer ? NULL : found, capacity, CONTRACT_OUTPUT(run, 0, &count));
     run->is_clear = count == 0 || (run->what == CONTRACT_NULL_OUTPUT && run->variant == 0);
     run->count = count;
     run->answer = contract_hash(found, sizeof found, 0);
@@ -186,9 +171,9 @@ static tl_result nearest(contract_run *run)
     tl_scene_filter filter;
     tl_scene_point point;
     memset(&point, 0xff, sizeof point);
-    const tl_result result = tl_scene_nearest(INPUT(run, 0, f->scene), INPUT(run, 1, f->instances),
+    const tl_result result = tl_scene_nearest(CONTRACT_INPUT(run, 0, f->scene), CONTRACT_INPUT(run, 1, f->instances),
                                               tl_vec3_make(4, 8, 10), run->what == CONTRACT_NOT_FOUND ? 0.5f : INFINITY,
-                                              filter_of(run, &filter), OUTPUT(run, 0, &point));
+                                              filter_of(run, &filter), CONTRACT_OUTPUT(run, 0, &point));
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&point, sizeof point);
     run->answer = contract_hash(&point.point.point, sizeof point.point.point, point.instance);
     return result;

@@ -7,11 +7,6 @@
 #include <string.h>
 #include <talus/scene_versions.h>
 
-#define INPUT(run, number, pointer)                                                                                    \
-    ((run)->what == CONTRACT_NULL_INPUT && (run)->variant == (number) ? NULL : (pointer))
-#define OUTPUT(run, number, pointer)                                                                                   \
-    ((run)->what == CONTRACT_NULL_OUTPUT && (run)->variant == (number) ? NULL : (pointer))
-
 enum { VERSION_ITEMS = 2 };
 
 // The level, and the level again above it.
@@ -49,9 +44,9 @@ static tl_result create(contract_run *run)
     tl_scene_instance instances[VERSION_ITEMS];
     place_levels(run, instances);
     tl_scene_versions *versions = NULL;
-    const tl_result result = tl_scene_versions_create(INPUT(run, 0, instances), VERSION_ITEMS,
+    const tl_result result = tl_scene_versions_create(CONTRACT_INPUT(run, 0, instances), VERSION_ITEMS,
                                                       run->what == CONTRACT_NULL_DEF ? NULL : run->host->allocator,
-                                                      OUTPUT(run, 0, &versions), run->report);
+                                                      CONTRACT_OUTPUT(run, 0, &versions), run->report);
     run->is_clear = versions == NULL;
     run->answer = versions != NULL ? newest_hit(versions) : 0;
     tl_scene_versions_destroy(versions);
@@ -91,8 +86,8 @@ static tl_result publish(contract_run *run)
     instances[0].pose.position.y = 40.0f;
     tl_result result = begin_versions(run, &versions);
     if (result == TL_OK) {
-        result =
-            tl_scene_versions_publish(INPUT(run, 0, versions), INPUT(run, 1, instances), VERSION_ITEMS, run->report);
+        result = tl_scene_versions_publish(CONTRACT_INPUT(run, 0, versions), CONTRACT_INPUT(run, 1, instances),
+                                           VERSION_ITEMS, run->report);
         run->answer = newest_hit(versions);
     }
     run->is_clear = true;
@@ -107,7 +102,8 @@ static tl_result reclaim(contract_run *run)
     memset(&state, 0xff, sizeof state);
     tl_result result = begin_versions(run, &versions);
     if (result == TL_OK) {
-        result = tl_scene_versions_reclaim(INPUT(run, 0, versions), run->what == CONTRACT_NULL_REPORT ? NULL : &state);
+        result = tl_scene_versions_reclaim(CONTRACT_INPUT(run, 0, versions),
+                                           run->what == CONTRACT_NULL_REPORT ? NULL : &state);
     }
     run->is_clear = contract_is_zero(&state, sizeof state);
     run->answer = 1; // the state is no part of the answer: test_scene_versions.c

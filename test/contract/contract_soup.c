@@ -7,43 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-// An input, or NULL where the case asks for it.
-#define INPUT(run, number, pointer)                                                                                    \
-    ((run)->what == CONTRACT_NULL_INPUT && (run)->variant == (number) ? NULL : (pointer))
-#define OUTPUT(run, number, pointer)                                                                                   \
-    ((run)->what == CONTRACT_NULL_OUTPUT && (run)->variant == (number) ? NULL : (pointer))
-
-static bool accept_all(uint32_t triangle, uint16_t material, void *user)
-{
-    (void)triangle;
-    (void)material;
-    (void)user;
-    return true;
-}
-
-// Three ways to say that nothing is ignored.
-static const tl_ray_filter *filter_of(const contract_run *run, tl_ray_filter *filter)
-{
-    memset(filter, 0, sizeof *filter);
-    filter->accept = run->what == CONTRACT_ZEROED_FILTER ? NULL : accept_all;
-    return run->what == CONTRACT_NULL_DEF ? NULL : filter;
-}
-
 // Downwards through the box and the floor.
 static tl_ray ray_down(void)
 {
     tl_ray ray = { { 9.3f, 10, 10.4f }, { 0, -1, 0 }, INFINITY };
     return ray;
-}
-
-static tl_transform pose_of(const contract_run *run, tl_vec3 position)
-{
-    tl_transform pose = tl_transform_identity();
-    pose.position = position;
-    if (run->what == CONTRACT_ZERO_ROTATION) {
-        pose.rotation.w = 0;
-    }
-    return pose;
 }
 
 static uint32_t capacity_of(const contract_run *run, uint32_t all)
@@ -71,8 +39,8 @@ static tl_result bake(contract_run *run)
     tl_soup *soup = NULL;
     tl_soup_report report = { 0 };
     const tl_result result =
-        tl_soup_bake(INPUT(run, 0, &contract_level_get()->view), run->what == CONTRACT_NULL_DEF ? NULL : &def,
-                     OUTPUT(run, 0, &soup), run->wants_report ? &report : NULL);
+        tl_soup_bake(CONTRACT_INPUT(run, 0, &contract_level_get()->view), run->what == CONTRACT_NULL_DEF ? NULL : &def,
+                     CONTRACT_OUTPUT(run, 0, &soup), run->wants_report ? &report : NULL);
     run->own_report = report.base;
     run->is_clear = soup == NULL;
     soup_answer(run, soup);
@@ -85,7 +53,8 @@ static tl_result refit(contract_run *run)
     const contract_level *level = contract_level_get();
     tl_soup *soup;
     TEST_RESULT(tl_soup_bake(&level->view, NULL, &soup, NULL), TL_OK);
-    const tl_result result = tl_soup_refit(INPUT(run, 0, soup), INPUT(run, 1, &level->view), run->report);
+    const tl_result result =
+        tl_soup_refit(CONTRACT_INPUT(run, 0, soup), CONTRACT_INPUT(run, 1, &level->view), run->report);
     run->is_clear = true;
     soup_answer(run, soup);
     tl_blob_free(soup);
@@ -100,7 +69,7 @@ static tl_result check(contract_run *run)
     TEST_CHECK(copy != NULL);
     memcpy(copy, soup, size);
     copy->magic ^= run->what == CONTRACT_BAD_BYTES;
-    const tl_result result = tl_soup_check(INPUT(run, 0, copy), size, run->report);
+    const tl_result result = tl_soup_check(CONTRACT_INPUT(run, 0, copy), size, run->report);
     run->is_clear = true;
     test_blob_free(copy);
     return result;
@@ -111,7 +80,7 @@ static tl_result cast_ray(contract_run *run)
     tl_ray_filter filter;
     const tl_ray ray = ray_down();
     tl_ray_hit hit;
-    TEST_CHECK(tl_soup_cast_ray(contract_level_get()->soup, &ray, filter_of(run, &filter), &hit));
+    TEST_CHECK(tl_soup_cast_ray(contract_level_get()->soup, &ray, contract_ray_filter(run, &filter), &hit));
     run->answer = hit.triangle;
     return TL_OK;
 }
@@ -120,7 +89,7 @@ static tl_result occluded(contract_run *run)
 {
     tl_ray_filter filter;
     const tl_ray ray = ray_down();
-    run->answer = tl_soup_occluded(contract_level_get()->soup, &ray, filter_of(run, &filter));
+    run->answer = tl_soup_occluded(contract_level_get()->soup, &ray, contract_ray_filter(run, &filter));
     return TL_OK;
 }
 
@@ -130,7 +99,7 @@ static tl_result cast_segment(contract_run *run)
     tl_ray_filter filter;
     tl_ray_hit hit;
     TEST_CHECK(tl_soup_cast_segment(level->soup, tl_vec3_make(4, 1, 10), tl_vec3_make(16, 1, 10.5f),
-                                    filter_of(run, &filter), &hit));
+                                    contract_ray_filter(run, &filter), &hit));
     run->answer = hit.triangle;
     return TL_OK;
 }
@@ -139,7 +108,7 @@ static tl_result line_of_sight(contract_run *run)
 {
     tl_ray_filter filter;
     run->answer = tl_soup_line_of_sight(contract_level_get()->soup, tl_vec3_make(4, 1, 10), tl_vec3_make(16, 1, 10.5f),
-                                        filter_of(run, &filter));
+                                        contract_ray_filter(run, &filter));
     return TL_OK;
 }
 
@@ -148,7 +117,7 @@ static tl_result cast_rays(contract_run *run)
     tl_ray_filter filter;
     const tl_ray ray = ray_down();
     tl_ray_hit hit;
-    tl_soup_cast_rays(contract_level_get()->soup, &ray, 1, filter_of(run, &filter),
+    tl_soup_cast_rays(contract_level_get()->soup, &ray, 1, contract_ray_filter(run, &filter),
                       run->what == CONTRACT_NULL_DEF ? NULL : run->host, &hit);
     run->answer = hit.triangle;
     return TL_OK;
@@ -165,7 +134,7 @@ static tl_result cast_segments(contract_run *run)
     tl_ray_filter filter;
     const tl_segment segment = segment_across();
     tl_ray_hit hit;
-    tl_soup_cast_segments(contract_level_get()->soup, &segment, 1, filter_of(run, &filter),
+    tl_soup_cast_segments(contract_level_get()->soup, &segment, 1, contract_ray_filter(run, &filter),
                           run->what == CONTRACT_NULL_DEF ? NULL : run->host, &hit);
     run->answer = hit.triangle;
     return TL_OK;
@@ -176,7 +145,7 @@ static tl_result occluded_rays(contract_run *run)
     tl_ray_filter filter;
     const tl_ray ray = ray_down();
     bool occluded = false;
-    tl_soup_occluded_rays(contract_level_get()->soup, &ray, 1, filter_of(run, &filter),
+    tl_soup_occluded_rays(contract_level_get()->soup, &ray, 1, contract_ray_filter(run, &filter),
                           run->what == CONTRACT_NULL_DEF ? NULL : run->host, &occluded);
     run->answer = occluded;
     return TL_OK;
@@ -187,7 +156,7 @@ static tl_result lines_of_sight(contract_run *run)
     tl_ray_filter filter;
     const tl_segment segment = segment_across();
     bool clear = false;
-    tl_soup_lines_of_sight(contract_level_get()->soup, &segment, 1, filter_of(run, &filter),
+    tl_soup_lines_of_sight(contract_level_get()->soup, &segment, 1, contract_ray_filter(run, &filter),
                            run->what == CONTRACT_NULL_DEF ? NULL : run->host, &clear);
     run->answer = clear;
     return TL_OK;
@@ -201,9 +170,10 @@ static tl_result cast_ray_all(contract_run *run)
     tl_ray_hit hits[HITS] = { 0 };
     uint32_t count = 99;
     const bool no_buffer = run->what == CONTRACT_NO_BUFFER || (run->what == CONTRACT_NULL_OUTPUT && run->variant == 1);
-    const tl_result result = tl_soup_cast_ray_all(INPUT(run, 0, contract_level_get()->soup), INPUT(run, 1, &ray),
-                                                  TL_HITS_TOUCHED, filter_of(run, &filter), no_buffer ? NULL : hits,
-                                                  capacity_of(run, HITS), OUTPUT(run, 0, &count));
+    const tl_result result =
+        tl_soup_cast_ray_all(CONTRACT_INPUT(run, 0, contract_level_get()->soup), CONTRACT_INPUT(run, 1, &ray),
+                             TL_HITS_TOUCHED, contract_ray_filter(run, &filter), no_buffer ? NULL : hits,
+                             capacity_of(run, HITS), CONTRACT_OUTPUT(run, 0, &count));
     run->is_clear = count == 0 || (run->what == CONTRACT_NULL_OUTPUT && run->variant == 0);
     run->count = count;
     run->answer = hits[0].triangle + 100 * hits[1].triangle;
@@ -216,9 +186,9 @@ static tl_result nearest(contract_run *run)
     tl_ray_filter filter;
     tl_soup_point point;
     memset(&point, 0xff, sizeof point);
-    const tl_result result = tl_soup_nearest(INPUT(run, 0, level->soup), tl_vec3_make(4, 1, 10),
-                                             run->what == CONTRACT_NOT_FOUND ? 0.5f : INFINITY, filter_of(run, &filter),
-                                             OUTPUT(run, 0, &point));
+    const tl_result result = tl_soup_nearest(CONTRACT_INPUT(run, 0, level->soup), tl_vec3_make(4, 1, 10),
+                                             run->what == CONTRACT_NOT_FOUND ? 0.5f : INFINITY,
+                                             contract_ray_filter(run, &filter), CONTRACT_OUTPUT(run, 0, &point));
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&point, sizeof point);
     run->answer = contract_hash(&point.point, sizeof point.point, point.triangle);
     return result;
@@ -230,8 +200,9 @@ static tl_result overlaps(contract_run *run)
     const tl_convex shape = tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(1, 1, 1), 0);
     bool touches = true;
     const tl_result result =
-        tl_soup_overlaps(INPUT(run, 0, contract_level_get()->soup), INPUT(run, 1, &shape),
-                         pose_of(run, tl_vec3_make(8, 1, 10)), filter_of(run, &filter), OUTPUT(run, 0, &touches));
+        tl_soup_overlaps(CONTRACT_INPUT(run, 0, contract_level_get()->soup), CONTRACT_INPUT(run, 1, &shape),
+                         contract_pose(run, tl_vec3_make(8, 1, 10)), contract_ray_filter(run, &filter),
+                         CONTRACT_OUTPUT(run, 0, &touches));
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || !touches;
     run->answer = touches;
     return result;
@@ -241,15 +212,15 @@ static tl_result find_overlaps(contract_run *run)
 {
     const tl_soup *soup = contract_level_get()->soup;
     const tl_convex shape = tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(1, 1, 1), 0);
-    const tl_transform pose = pose_of(run, tl_vec3_make(8, 1, 10));
+    const tl_transform pose = contract_pose(run, tl_vec3_make(8, 1, 10));
     tl_ray_filter filter;
     uint32_t found[32] = { 0 }, all, count = 99;
     TEST_RESULT(tl_soup_find_overlaps(soup, &shape, pose, NULL, NULL, 0, &all), TL_INCOMPLETE);
     TEST_CHECK(all > 1 && all <= 32);
     const bool no_buffer = run->what == CONTRACT_NO_BUFFER || (run->what == CONTRACT_NULL_OUTPUT && run->variant == 1);
-    const tl_result result =
-        tl_soup_find_overlaps(INPUT(run, 0, soup), INPUT(run, 1, &shape), pose, filter_of(run, &filter),
-                              no_buffer ? NULL : found, capacity_of(run, all), OUTPUT(run, 0, &count));
+    const tl_result result = tl_soup_find_overlaps(CONTRACT_INPUT(run, 0, soup), CONTRACT_INPUT(run, 1, &shape), pose,
+                                                   contract_ray_filter(run, &filter), no_buffer ? NULL : found,
+                                                   capacity_of(run, all), CONTRACT_OUTPUT(run, 0, &count));
     run->is_clear = count == 0 || (run->what == CONTRACT_NULL_OUTPUT && run->variant == 0);
     run->count = count;
     run->answer = contract_hash(found, sizeof found, 0);
@@ -262,7 +233,7 @@ static tl_result find_contacts(contract_run *run)
     const tl_convex shape = tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(1, 1.001f, 1), 0);
     tl_ray_filter filter;
     const tl_soup_contact_query query = {
-        &shape, pose_of(run, tl_vec3_make(8, 1, 10)), { 0.01f, 0.01f, 0 }, filter_of(run, &filter)
+        &shape, contract_pose(run, tl_vec3_make(8, 1, 10)), { 0.01f, 0.01f, 0 }, contract_ray_filter(run, &filter)
     };
     static tl_soup_contact found[32]; // 16 KB
     memset(found, 0, sizeof found);
@@ -270,8 +241,9 @@ static tl_result find_contacts(contract_run *run)
     TEST_RESULT(tl_soup_find_contacts(soup, &query, NULL, 0, &all), TL_INCOMPLETE);
     TEST_CHECK(all > 0 && all <= 32);
     const bool no_buffer = run->what == CONTRACT_NO_BUFFER || (run->what == CONTRACT_NULL_OUTPUT && run->variant == 1);
-    const tl_result result = tl_soup_find_contacts(INPUT(run, 0, soup), INPUT(run, 1, &query), no_buffer ? NULL : found,
-                                                   capacity_of(run, all), OUTPUT(run, 0, &count));
+    const tl_result result =
+        tl_soup_find_contacts(CONTRACT_INPUT(run, 0, soup), CONTRACT_INPUT(run, 1, &query), no_buffer ? NULL : found,
+                              capacity_of(run, all), CONTRACT_OUTPUT(run, 0, &count));
     run->is_clear = count == 0 || (run->what == CONTRACT_NULL_OUTPUT && run->variant == 0);
     run->count = count;
     run->answer = found[0].triangle + 100 * found[0].manifold.count;
@@ -284,10 +256,10 @@ static tl_result cast_shape(contract_run *run)
     const tl_convex shape = tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(0.5f, 0.5f, 0.5f), 0);
     tl_shape_hit hit;
     memset(&hit, 0xff, sizeof hit);
-    const tl_result result = tl_soup_cast_shape(INPUT(run, 0, contract_level_get()->soup), INPUT(run, 1, &shape),
-                                                pose_of(run, tl_vec3_make(4, 1, 10)),
-                                                tl_vec3_make(run->what == CONTRACT_NOT_FOUND ? -2.0f : 8.0f, 0, 0),
-                                                filter_of(run, &filter), OUTPUT(run, 0, &hit));
+    const tl_result result = tl_soup_cast_shape(
+        CONTRACT_INPUT(run, 0, contract_level_get()->soup), CONTRACT_INPUT(run, 1, &shape),
+        contract_pose(run, tl_vec3_make(4, 1, 10)), tl_vec3_make(run->what == CONTRACT_NOT_FOUND ? -2.0f : 8.0f, 0, 0),
+        contract_ray_filter(run, &filter), CONTRACT_OUTPUT(run, 0, &hit));
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&hit, sizeof hit);
     run->answer = contract_hash(&hit.t, sizeof hit.t, hit.triangle);
     return result;
@@ -297,8 +269,8 @@ static tl_result locate(contract_run *run)
 {
     tl_soup_location location;
     memset(&location, 0xff, sizeof location);
-    const tl_result result = tl_soup_locate(INPUT(run, 0, contract_level_get()->soup), contract_level_get()->nowhere,
-                                            OUTPUT(run, 0, &location));
+    const tl_result result = tl_soup_locate(CONTRACT_INPUT(run, 0, contract_level_get()->soup),
+                                            contract_level_get()->nowhere, CONTRACT_OUTPUT(run, 0, &location));
     run->is_clear = run->what == CONTRACT_NULL_OUTPUT || contract_is_zero(&location, sizeof location);
     return result;
 }
@@ -310,7 +282,7 @@ static tl_result check_closed(contract_run *run)
     const tl_mesh_view view = { corners, 4, indices, 4, NULL };
     tl_soup *soup;
     TEST_RESULT(tl_soup_bake(&view, NULL, &soup, NULL), TL_OK);
-    const tl_result result = tl_soup_check_closed(INPUT(run, 0, soup), run->host, run->report);
+    const tl_result result = tl_soup_check_closed(CONTRACT_INPUT(run, 0, soup), run->host, run->report);
     run->is_clear = true;
     tl_blob_free(soup);
     return result;

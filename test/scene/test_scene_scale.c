@@ -34,22 +34,6 @@ static tl_scene_instance place(const tl_soup *soup, tl_vec3 scale, test_random *
     return instance;
 }
 
-// The corners scaled, each coordinate rounded once; mirrored triangles the other way round.
-static model scaled_model(const model *m, tl_vec3 scale)
-{
-    model out = { 0 };
-    for (uint32_t i = 0; i < m->vertex_count; i++) {
-        tl_vec3 v = tl_mul(m->vertices[i], scale);
-        model_vertex(&out, v.x, v.y, v.z);
-    }
-    bool mirrored = tl_scale_is_mirrored(scale);
-    for (uint32_t i = 0; i < m->triangle_count; i++) {
-        const uint32_t *k = m->indices + 3 * (size_t)i;
-        model_triangle(&out, k[0], mirrored ? k[2] : k[1], mirrored ? k[1] : k[2]);
-    }
-    return out;
-}
-
 static tl_vec3d corner_out(const tl_scene_instance *instance, tl_vec3 corner)
 {
     tl_frame frame = tl_frame_from(instance->pose);
@@ -144,7 +128,7 @@ static void test_powers_of_two(void **state)
     tl_soup *soup = model_soup(&m, NULL);
     uint32_t hits = 0;
     for (uint32_t k = 0; k < 3; k++) {
-        model larger = scaled_model(&m, powers[k]);
+        model larger = model_scaled(&m, powers[k]);
         tl_soup *baked = model_soup(&larger, NULL);
         tl_scene_instance instance = { .soup = soup, .mask = 1, .scale = powers[k] };
         tl_scene *scene = scene_build(&instance, 1);
@@ -215,7 +199,7 @@ static void test_shapes_at_scaled_corners(void **state)
     tl_soup *soup = model_soup(&m, NULL);
     uint32_t touched = 0, hits = 0;
     for (uint32_t k = 0; k < 3 * SCALES; k++) {
-        model larger = scaled_model(&m, scales[k % SCALES]);
+        model larger = model_scaled(&m, scales[k % SCALES]);
         tl_soup *baked = model_soup(&larger, NULL);
         twins t;
         t.instances[0] = t.instances[1] = place(soup, scales[k % SCALES], &random, k);

@@ -16,22 +16,6 @@ static tl_vec3 vec(float x, float y, float z)
     return tl_vec3_make(x, y, z);
 }
 
-// The corners scaled, and mirrored triangles the other way round.
-static model scaled_model(const model *m, tl_vec3 scale)
-{
-    model out = { 0 };
-    for (uint32_t i = 0; i < m->vertex_count; i++) {
-        tl_vec3 v = tl_mul(m->vertices[i], scale);
-        model_vertex(&out, v.x, v.y, v.z);
-    }
-    bool mirrored = tl_scale_is_mirrored(scale);
-    for (uint32_t i = 0; i < m->triangle_count; i++) {
-        const uint32_t *k = m->indices + 3 * (size_t)i;
-        model_triangle(&out, k[0], mirrored ? k[2] : k[1], mirrored ? k[1] : k[2]);
-    }
-    return out;
-}
-
 static tl_triangle_feature feature_in_view(tl_triangle_feature feature, bool mirrored)
 {
     static const tl_triangle_feature other[7] = { TL_TRIANGLE_FACE,    TL_TRIANGLE_EDGE_2,   TL_TRIANGLE_EDGE_1,
@@ -98,7 +82,7 @@ static void check_cast(const pair *p, const tl_convex *shape, tl_transform pose,
 static void check_scale(const model *m, model_storage storage, tl_vec3 scale, uint64_t seed, regimes *r)
 {
     tl_soup_def def = model_soup_def(storage), plain = model_soup_def(MODEL_BOXES);
-    model larger = scaled_model(m, scale);
+    model larger = model_scaled(m, scale);
     tl_soup *soup = model_soup(m, &def), *expected = model_soup(&larger, &plain);
     const pair p = { { soup, scale }, expected, tl_scale_is_mirrored(scale) };
     tl_aabb box = tl_soup_bounds(expected);

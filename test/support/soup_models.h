@@ -198,6 +198,22 @@ static inline model model_terrain(uint32_t n, float height, tl_vec3 offset, uint
     return m;
 }
 
+/// The corners scaled, each coordinate rounded once; mirrored triangles the other way round.
+static inline model model_scaled(const model *m, tl_vec3 scale)
+{
+    model out = { 0 };
+    for (uint32_t i = 0; i < m->vertex_count; i++) {
+        const tl_vec3 v = tl_mul(m->vertices[i], scale);
+        model_vertex(&out, v.x, v.y, v.z);
+    }
+    const bool mirrored = (scale.x < 0.0f) ^ (scale.y < 0.0f) ^ (scale.z < 0.0f);
+    for (uint32_t i = 0; i < m->triangle_count; i++) {
+        const uint32_t *k = m->indices + 3 * (size_t)i;
+        model_triangle(&out, k[0], mirrored ? k[2] : k[1], mirrored ? k[1] : k[2]);
+    }
+    return out;
+}
+
 /// Reads "v x y z" and "f a b c" lines of TALUS_DATA_DIR/name; an empty model when the file is not there.
 static inline model model_load(const char *name)
 {
