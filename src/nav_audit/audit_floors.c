@@ -21,12 +21,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { STRIDE_COLUMNS = 2, MAX_SIDE_SAMPLES = 4096, FIRST_HITS = 64, SAMPLES_PER_SHARE = 64 };
-
-typedef struct column_hits {
-    tl_ray_hit *hits;
-    uint32_t capacity;
-} column_hits;
+enum { STRIDE_COLUMNS = 2, MAX_SIDE_SAMPLES = 4096, SAMPLES_PER_SHARE = 64 };
 
 // How much farther than the agent's radius an erosion may have to reach, in steps of its distance, per column: a
 // distance of one column is at most 1.5 / sqrt 2 steps in a diagonal, and sqrt 5 / 2 in between.
@@ -35,6 +30,12 @@ typedef struct column_hits {
 // Columns of certain floor from a missing place to navmesh beside it, beyond what the outline may cut.
 enum { COLUMNS_TO_NAVMESH = 3, MAX_MARGINS = 3 };
 
+// What a worker keeps.
+typedef struct floor_worker {
+    tl_audit_columns columns;
+    tl_audit_hits sample;
+} floor_worker;
+
 typedef struct floor_job {
     uint32_t stride; ///< columns between two samples
     uint32_t width, height;
@@ -42,7 +43,7 @@ typedef struct floor_job {
     float cut;   ///< metres in the plane by which the outline may lie inside of the traced one
     /// For places without navmesh right there, within half of `cut`, and within all of it: of the last, the agent's.
     tl_audit_window windows[MAX_MARGINS];
-    column_hits *buffers; ///< one a worker
+    floor_worker *workers;
 } floor_job;
 
 // Whether polygons lie within a distance of a point along x and z: of the navmesh, or of what was pruned from it.
@@ -100,131 +101,133 @@ static bool is_within_bounds(const tl_audit_job *job, float reach, tl_vec3 point
            point.z + reach <= box.max.z && point.y >= box.min.y && point.y <= box.max.y;
 }
 
-static bool is_missing(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
+static tl_result is_missing(const floor_job *floors, tl_audit_columns *columns, const int32_t column[2], float y,
+                            bool *is_missing_out)
 {
+    const tl_audit_job *job = columns->job;
+    const tl_vec3 point = tl_audit_column_point(job, column, y);
     int margin = 0;
     while (margin < MAX_MARGINS &&
            !has_navmesh(job, floors, point, floors->cut * (float)margin / (float)(MAX_MARGINS - 1))) {
         margin++;
     }
     const tl_audit_window *window = &floors->windows[margin - (margin > 0)];
-    return margin > 0 && is_within_bounds(job, window->reach, point) && !is_near_volume(job, floors, point) &&
-           tl_audit_is_certain(job, window, point);
+    *is_missing_out = false;
+    return margin > 0 && is_within_bounds(job, window->reach, point) && !is_near_volume(job, floors, point)
+               ? tl_audit_is_certain(columns, window, column, y, is_missing_out)
+               : TL_OK;
 }
 
 // Whether so many columns of floor can lead to navmesh at all: in the middle of what is missing, none is so near.
-static bool is_near_navmesh(const tl_audit_job *job, tl_vec3 point, uint32_t columns, float slack)
+static bool is_near_navmesh(const tl_audit_job *job, tl_vec3 point, uint32_t count, float slack)
 {
     const tl_nav_config *config = &job->scene.config;
-    const float steps = (float)(columns + 1), side = config->cell_size * steps;
+    const float steps = (float)(count + 1), side = config->cell_size * steps;
     const float height = slack + config->cell_height * (float)config->walkable_climb * steps;
     tl_nav_location location;
     return job->scene.navmesh != NULL && tl_navmesh_find_nearest(job->scene.navmesh, NULL, point,
                                                                  tl_vec3_make(side, height, side), &location) == TL_OK;
 }
 
-// The polygon to which columns of certain floor lead straight from a missing place, or TL_NAV_NO_REF.
-static tl_nav_ref find_polygon_beside(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
+// The polygon to which so many columns of certain floor lead straight from a missing place, or TL_NAV_NO_REF.
+static tl_result follow_columns(const floor_job *floors, tl_audit_columns *columns, const int32_t from[2], float y,
+                                const int32_t step[2], uint32_t count, tl_nav_ref *polygon_out)
 {
-    static const float directions[4][2] = { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 } };
-    const tl_nav_config *config = &job->scene.config;
+    const tl_audit_job *job = columns->job;
     const tl_audit_window *agent = &floors->windows[MAX_MARGINS - 1];
-    const uint32_t columns = (uint32_t)ceilf(floors->cut / config->cell_size) + COLUMNS_TO_NAVMESH;
     // Not of another storey.
-    const tl_vec3 right_there = { 0.0f, tl_minf(floors->slack, 0.5f * config->agent_height), 0.0f };
-    if (!is_near_navmesh(job, point, columns, right_there.y)) {
-        return TL_NAV_NO_REF;
-    }
-    for (int d = 0; d < 4; d++) {
-        tl_vec3 at = point;
-        bool goes_on = true;
-        for (uint32_t i = 0; i < columns && goes_on; i++) {
-            tl_nav_location location;
-            at.x += directions[d][0] * config->cell_size;
-            at.z += directions[d][1] * config->cell_size;
-            goes_on = tl_audit_follow_floor(job, &at) && is_within_bounds(job, agent->reach, at) &&
-                      tl_audit_is_certain(job, agent, at);
-            if (goes_on && tl_navmesh_find_nearest(job->scene.navmesh, NULL, at, right_there, &location) == TL_OK) {
-                return location.polygon;
-            }
+    const float slack = tl_minf(floors->slack, 0.5f * job->scene.config.agent_height);
+    *polygon_out = TL_NAV_NO_REF;
+    bool goes_on = true;
+    for (int32_t i = 1; i <= (int32_t)count && *polygon_out == TL_NAV_NO_REF; i++) {
+        const int32_t column[2] = { from[0] + i * step[0], from[1] + i * step[1] };
+        TL_TRY(tl_audit_follow_floor(columns, column, &y, &goes_on));
+        const tl_vec3 at = tl_audit_column_point(job, column, y);
+        if (!goes_on || !is_within_bounds(job, agent->reach, at)) {
+            return TL_OK;
         }
-    }
-    return TL_NAV_NO_REF;
-}
-
-static tl_result add_missing(const tl_audit_job *job, const floor_job *floors, tl_audit_share *share, tl_vec3 point,
-                             uint32_t triangle, const int32_t column[2])
-{
-    tl_audit_record record;
-    memset(&record, 0, sizeof record);
-    record.kind = TL_NAV_FINDING_MISSING;
-    record.polygon = find_polygon_beside(job, floors, point);
-    record.triangle = triangle;
-    record.point = record.contact = point;
-    record.cube[0] = column[0];
-    record.cube[1] =
-        (int32_t)floor(((double)point.y - (double)job->scene.config.bounds.min.y) / (double)job->audit->sample_spacing);
-    record.cube[2] = column[1];
-    return tl_audit_records_add(&share->records, &record);
-}
-
-// A missing sample, and the columns up to the next samples that are missing too: so areas are counted by columns.
-static tl_result add_missing_block(const tl_audit_job *job, const floor_job *floors, tl_audit_share *share,
-                                   tl_vec3 point, uint32_t triangle, const int32_t sample[2])
-{
-    const int32_t stride = (int32_t)floors->stride;
-    const float cell = job->scene.config.cell_size;
-    for (int32_t i = 0; i < stride * stride; i++) {
-        const int32_t column[2] = { sample[0] * stride + i % stride, sample[1] * stride + i / stride };
-        tl_vec3 at = { point.x + cell * (float)(i % stride), point.y, point.z + cell * (float)(i / stride) };
-        if (i == 0 || (tl_audit_follow_floor(job, &at) && is_missing(job, floors, at))) {
-            TL_TRY(add_missing(job, floors, share, at, triangle, column));
+        TL_TRY(tl_audit_is_certain(columns, agent, column, y, &goes_on));
+        if (!goes_on) {
+            return TL_OK;
+        }
+        tl_nav_location location;
+        if (tl_navmesh_find_nearest(job->scene.navmesh, NULL, at, tl_vec3_make(0, slack, 0), &location) == TL_OK) {
+            *polygon_out = location.polygon;
         }
     }
     return TL_OK;
 }
 
-// All that a ray meets, in a buffer that grows.
-static tl_result cast_all(const tl_audit_job *job, const tl_ray *ray, column_hits *buffer, uint32_t *count_out)
+static tl_result find_polygon_beside(const floor_job *floors, tl_audit_columns *columns, const int32_t column[2],
+                                     float y, tl_nav_ref *polygon_out)
 {
-    const tl_allocator *allocator = job->host->allocator;
-    if (buffer->hits != NULL && tl_soup_cast_ray_all(job->scene.soup, ray, TL_HITS_TOUCHED, NULL, buffer->hits,
-                                                     buffer->capacity, count_out) != TL_INCOMPLETE) {
-        return TL_OK;
+    static const int32_t directions[4][2] = { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 } };
+    const tl_audit_job *job = columns->job;
+    const uint32_t count = (uint32_t)ceilf(floors->cut / job->scene.config.cell_size) + COLUMNS_TO_NAVMESH;
+    *polygon_out = TL_NAV_NO_REF;
+    if (is_near_navmesh(job, tl_audit_column_point(job, column, y), count, floors->slack)) {
+        for (int d = 0; d < 4 && *polygon_out == TL_NAV_NO_REF; d++) {
+            TL_TRY(follow_columns(floors, columns, column, y, directions[d], count, polygon_out));
+        }
     }
-    const uint32_t capacity = buffer->hits == NULL ? FIRST_HITS : *count_out;
-    tl_release_array(allocator, buffer->hits, buffer->capacity, sizeof *buffer->hits);
-    buffer->hits = tl_allocate_array(allocator, capacity, sizeof *buffer->hits);
-    buffer->capacity = capacity;
-    return buffer->hits != NULL ? cast_all(job, ray, buffer, count_out) : TL_ERR_MEMORY;
+    return TL_OK;
 }
 
-static tl_result sample_column(tl_audit_job *job, const floor_job *floors, int32_t x, int32_t z, uint32_t worker,
+static tl_result add_missing(const floor_job *floors, tl_audit_columns *columns, tl_audit_share *share,
+                             const int32_t column[2], float y, uint32_t triangle)
+{
+    const tl_audit_job *job = columns->job;
+    tl_audit_record record;
+    memset(&record, 0, sizeof record);
+    record.kind = TL_NAV_FINDING_MISSING;
+    record.triangle = triangle;
+    record.point = record.contact = tl_audit_column_point(job, column, y);
+    record.cube[0] = column[0];
+    record.cube[1] =
+        (int32_t)floor(((double)y - (double)job->scene.config.bounds.min.y) / (double)job->audit->sample_spacing);
+    record.cube[2] = column[1];
+    TL_TRY(find_polygon_beside(floors, columns, column, y, &record.polygon));
+    return tl_audit_records_add(&share->records, &record);
+}
+
+// A missing sample, and the columns up to the next samples that are missing too: so areas are counted by columns.
+static tl_result add_missing_block(const floor_job *floors, tl_audit_columns *columns, tl_audit_share *share,
+                                   const int32_t first[2], float y, uint32_t triangle)
+{
+    const int32_t stride = (int32_t)floors->stride;
+    TL_TRY(add_missing(floors, columns, share, first, y, triangle));
+    for (int32_t i = 1; i < stride * stride; i++) {
+        const int32_t column[2] = { first[0] + i % stride, first[1] + i / stride };
+        float there = y;
+        bool found, missing = false;
+        TL_TRY(tl_audit_follow_floor(columns, column, &there, &found));
+        if (found) {
+            TL_TRY(is_missing(floors, columns, column, there, &missing));
+        }
+        if (missing) {
+            TL_TRY(add_missing(floors, columns, share, column, there, triangle));
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result sample_column(const floor_job *floors, floor_worker *worker, const int32_t column[2],
                                tl_audit_share *share)
 {
-    const tl_nav_config *config = &job->scene.config;
-    const tl_vec3 origin = config->lattice.origin;
-    const float half = 0.5f * config->cell_size;
-    const float top = config->bounds.max.y, reach = top - config->bounds.min.y;
-    const tl_ray ray = { { tl_nav_lattice_to_world(origin.x, (int64_t)x * floors->stride, config->cell_size) + half,
-                           top,
-                           tl_nav_lattice_to_world(origin.z, (int64_t)z * floors->stride, config->cell_size) + half },
-                         { 0.0f, -1.0f, 0.0f },
-                         reach };
-    uint32_t count = 0;
-    column_hits *buffer = &floors->buffers[worker];
-    TL_TRY(cast_all(job, &ray, buffer, &count));
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_ray_hit *hit = &buffer->hits[i];
-        if (hit->back || tl_audit_is_null_area(job, hit->triangle) || !(hit->normal.y > config->walkable_slope_cos) ||
-            (i > 0 && hit->t == hit[-1].t)) {
+    tl_audit_columns *columns = &worker->columns;
+    const tl_audit_job *job = columns->job;
+    const float top = job->scene.config.bounds.max.y;
+    TL_TRY(tl_audit_hit_column(job, column, &worker->sample));
+    for (uint32_t i = 0; i < worker->sample.count; i++) {
+        const tl_ray_hit *hit = &worker->sample.hits[i];
+        if (!tl_audit_is_floor(job, hit) || (i > 0 && hit->t == hit[-1].t)) {
             continue;
         }
         share->samples++;
-        const tl_vec3 point = { ray.origin.x, top - hit->t, ray.origin.z };
-        if (is_missing(job, floors, point)) {
-            const int32_t place[2] = { x, z };
-            TL_TRY(add_missing_block(job, floors, share, point, hit->triangle, place));
+        bool missing;
+        TL_TRY(is_missing(floors, columns, column, top - hit->t, &missing));
+        if (missing) {
+            TL_TRY(add_missing_block(floors, columns, share, column, top - hit->t, hit->triangle));
         }
     }
     return TL_OK;
@@ -239,12 +242,14 @@ static uint32_t shares_per_row(const floor_job *floors)
 static void sample_columns(tl_audit_job *job, uint32_t index, uint32_t worker, tl_audit_share *share, void *user)
 {
     const floor_job *floors = user;
+    (void)job;
     const uint32_t parts = shares_per_row(floors), row = index / parts;
     const uint32_t begin = index % parts * SAMPLES_PER_SHARE;
     const uint32_t end = tl_min_u32(begin + SAMPLES_PER_SHARE, floors->width);
     for (uint32_t x = begin; x < end && share->result == TL_OK; x++) {
+        const int32_t column[2] = { (int32_t)(x * floors->stride), (int32_t)(row * floors->stride) };
         share->steps++;
-        share->result = sample_column(job, floors, (int32_t)x, (int32_t)row, worker, share);
+        share->result = sample_column(floors, &floors->workers[worker], column, share);
     }
 }
 
@@ -260,17 +265,30 @@ static tl_result create_windows(tl_audit_job *job, floor_job *floors)
     return TL_OK;
 }
 
+static tl_result create_workers(const tl_audit_job *job, floor_job *floors, uint32_t workers)
+{
+    floors->workers = tl_allocate_array(job->host->allocator, workers, sizeof *floors->workers);
+    if (floors->workers == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(floors->workers, 0, workers * sizeof *floors->workers);
+    for (uint32_t i = 0; i < workers; i++) {
+        TL_TRY(tl_audit_columns_create(job, &floors->workers[i].columns));
+    }
+    return TL_OK;
+}
+
 static void free_floor_job(const tl_audit_job *job, floor_job *floors, uint32_t workers)
 {
     const tl_allocator *allocator = job->host->allocator;
     for (int i = 0; i < MAX_MARGINS; i++) {
         tl_audit_window_free(&floors->windows[i], allocator);
     }
-    for (uint32_t i = 0; floors->buffers != NULL && i < workers; i++) {
-        tl_release_array(allocator, floors->buffers[i].hits, floors->buffers[i].capacity,
-                         sizeof *floors->buffers[i].hits);
+    for (uint32_t i = 0; floors->workers != NULL && i < workers; i++) {
+        tl_audit_columns_free(&floors->workers[i].columns);
+        tl_audit_hits_free(job, &floors->workers[i].sample);
     }
-    tl_release_array(allocator, floors->buffers, workers, sizeof *floors->buffers);
+    tl_release_array(allocator, floors->workers, workers, sizeof *floors->workers);
 }
 
 tl_result tl_audit_floors(tl_audit_job *job)
@@ -286,10 +304,8 @@ tl_result tl_audit_floors(tl_audit_job *job)
     floors.cut = config->cell_size * config->max_simplification_error;
     floors.slack = job->scene.probe.step + job->scene.probe.surface;
     job->audit->sample_spacing = config->cell_size * (float)floors.stride;
-    floors.buffers = tl_allocate_array(job->host->allocator, workers, sizeof *floors.buffers);
-    tl_result result = floors.buffers != NULL ? TL_OK : TL_ERR_MEMORY;
+    tl_result result = create_workers(job, &floors, workers);
     if (result == TL_OK) {
-        memset(floors.buffers, 0, workers * sizeof *floors.buffers);
         result = create_windows(job, &floors);
     }
     if (result == TL_OK) {

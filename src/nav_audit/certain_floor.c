@@ -136,43 +136,35 @@ void tl_audit_window_free(tl_audit_window *window, const tl_allocator *allocator
 
 // ---- The floor ---------------------------------------------------------------------------------------------
 
-bool tl_audit_is_null_area(const tl_audit_job *job, uint32_t triangle)
+// Walkable floor of a column within a climb of a height; NULL: the highest surface there is none.
+static tl_result find_level_floor(tl_audit_columns *columns, const int32_t column[2], float y, float climb,
+                                  tl_audit_surface **floor_out)
 {
-    return job->def->areas != NULL && job->def->areas[triangle] == TL_NAV_NULL_AREA;
-}
-
-typedef struct level_floor {
-    float y;
-    float rise; ///< metres a metre
-} level_floor;
-
-// Walkable floor within a climb of a height.
-static bool find_level_floor(const tl_audit_job *job, float climb, tl_vec3 at, level_floor *floor_out)
-{
-    const tl_ray down = { { at.x, at.y + climb, at.z }, { 0.0f, -1.0f, 0.0f }, 2.0f * climb };
-    tl_ray_hit hit;
-    if (!tl_soup_cast_ray(job->scene.soup, &down, NULL, &hit) || hit.back ||
-        !(hit.normal.y > job->scene.config.walkable_slope_cos) || tl_audit_is_null_area(job, hit.triangle)) {
-        return false;
+    TL_TRY(tl_audit_find_surface(columns, column, y, climb, floor_out));
+    if (*floor_out != NULL && !(*floor_out)->is_walkable) {
+        *floor_out = NULL;
     }
-    floor_out->y = at.y + climb - hit.t;
-    floor_out->rise = sqrtf(tl_maxf(1.0f - hit.normal.y * hit.normal.y, 0.0f)) / hit.normal.y;
-    return true;
+    return TL_OK;
 }
 
 // Nothing may stand out of the floor's plane: even a low kerb's side may be the top of a column, which is not walkable
-// then.
-static bool is_free_above(const tl_audit_job *job, float half, tl_vec3 at, float rise)
+// then. The answer is kept with the surface.
+static bool is_free_above(const tl_audit_job *job, uint32_t block_columns, tl_vec3 at, tl_audit_surface *floor)
 {
-    const tl_nav_config *config = &job->scene.config;
-    const float voxel = config->cell_height;
-    const float low = SQRT_2 * half * rise + FLAT_SHARE * voxel;
-    const float high = voxel * (float)(config->walkable_height + 2);
-    const tl_convex box = tl_convex_box(tl_vec3_make(at.x, at.y + 0.5f * (low + high), at.z),
-                                        tl_vec3_make(half, 0.5f * (high - low), half), 0.0f);
-    bool blocked = true;
-    (void)tl_soup_overlaps(job->scene.soup, &box, tl_transform_identity(), NULL, &blocked);
-    return !blocked;
+    if (floor->free_edge != block_columns) {
+        const tl_nav_config *config = &job->scene.config;
+        const float voxel = config->cell_height;
+        const float half = config->cell_size * (0.5f * (float)block_columns + TOUCH_SHARE);
+        const float low = SQRT_2 * half * floor->rise + FLAT_SHARE * voxel;
+        const float high = voxel * (float)(config->walkable_height + 2);
+        const tl_convex box = tl_convex_box(tl_vec3_make(at.x, at.y + 0.5f * (low + high), at.z),
+                                            tl_vec3_make(half, 0.5f * (high - low), half), 0.0f);
+        bool blocked = true;
+        (void)tl_soup_overlaps(job->scene.soup, &box, tl_transform_identity(), NULL, &blocked);
+        floor->is_free = !blocked;
+        floor->free_edge = block_columns;
+    }
+    return floor->is_free;
 }
 
 // Metres by which floors of neighbouring columns may differ.
@@ -181,39 +173,53 @@ static float level_climb(const tl_nav_config *config)
     return config->cell_height * tl_maxf(0.5f * ((float)config->walkable_climb - 1.0f), FLAT_SHARE);
 }
 
-bool tl_audit_follow_floor(const tl_audit_job *job, tl_vec3 *point)
+tl_result tl_audit_follow_floor(tl_audit_columns *columns, const int32_t column[2], float *y, bool *found_out)
 {
-    level_floor floor = { point->y, 0.0f };
-    const bool found = find_level_floor(job, level_climb(&job->scene.config), *point, &floor);
-    point->y = floor.y;
-    return found;
+    tl_audit_surface *floor;
+    TL_TRY(find_level_floor(columns, column, *y, level_climb(&columns->job->scene.config), &floor));
+    *found_out = floor != NULL;
+    *y = floor != NULL ? floor->y : *y;
+    return TL_OK;
 }
 
-bool tl_audit_is_certain(const tl_audit_job *job, const tl_audit_window *window, tl_vec3 point)
+// The floor of a block, as far as its neighbours need it.
+typedef struct block_floor {
+    float y, rise;
+} block_floor;
+
+tl_result tl_audit_is_certain(tl_audit_columns *columns, const tl_audit_window *window, const int32_t column[2],
+                              float y, bool *is_certain_out)
 {
+    const tl_audit_job *job = columns->job;
     const tl_nav_config *config = &job->scene.config;
     const float edge = config->cell_size * (float)window->block_columns, climb = level_climb(config);
-    level_floor floors[KEPT_FLOORS];
+    block_floor floors[KEPT_FLOORS];
+    *is_certain_out = false;
     if (config->walkable_climb == 0) {
-        return false; // two floors of one height may round to two voxels, which no climb of 0 crosses
+        return TL_OK; // two floors of one height may round to two voxels, which no climb of 0 crosses
     }
     for (uint32_t i = 0; i < window->count; i++) {
         const tl_audit_block *block = &window->blocks[i];
-        level_floor *floor = &floors[i % KEPT_FLOORS];
-        const level_floor *parent = &floors[block->parent % KEPT_FLOORS];
+        const block_floor *parent = &floors[block->parent % KEPT_FLOORS];
         TL_ASSERT(i - block->parent < KEPT_FLOORS);
-        const float before = i > 0 ? parent->y : point.y;
-        tl_vec3 at = { point.x + edge * (float)block->x, before, point.z + edge * (float)block->z };
-        if (!find_level_floor(job, climb, at, floor)) {
-            return false;
+        const float before = i > 0 ? parent->y : y;
+        const int32_t at[2] = { column[0] + block->x * (int32_t)window->block_columns,
+                                column[1] + block->z * (int32_t)window->block_columns };
+        tl_audit_surface *floor;
+        TL_TRY(find_level_floor(columns, at, before, climb, &floor));
+        if (floor == NULL) {
+            return TL_OK;
         }
         // A column's voxel is as high as its highest corner.
-        const float bend = SQRT_2 * 0.5f * edge * fabsf(floor->rise - parent->rise);
-        at.y = floor->y;
-        if (fabsf(at.y - before) + bend > climb ||
-            (block->is_walked && !is_free_above(job, 0.5f * edge + TOUCH_SHARE * config->cell_size, at, floor->rise))) {
-            return false;
+        const float bend = i > 0 ? SQRT_2 * 0.5f * edge * fabsf(floor->rise - parent->rise) : 0.0f;
+        if (fabsf(floor->y - before) + bend > climb ||
+            (block->is_walked &&
+             !is_free_above(job, window->block_columns, tl_audit_column_point(job, at, floor->y), floor))) {
+            return TL_OK;
         }
+        floors[i % KEPT_FLOORS].y = floor->y;
+        floors[i % KEPT_FLOORS].rise = floor->rise;
     }
-    return true;
+    *is_certain_out = true;
+    return TL_OK;
 }

@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_NAV_AUDIT_CERTAIN_FLOOR_H
 #define TALUS_SRC_NAV_AUDIT_CERTAIN_FLOOR_H
 
-#include "nav_audit/audit.h"
+#include "nav_audit/column_surfaces.h"
 
 /// A block of columns around the one in question.
 typedef struct tl_audit_block {
@@ -27,13 +27,13 @@ tl_result tl_audit_window_create(uint32_t radius, float cell_size, const tl_allo
                                  tl_audit_window *window_out);
 void tl_audit_window_free(tl_audit_window *window, const tl_allocator *allocator);
 
-/// Whether the column whose middle is at a point of the floor outlives the filters, and erosion by the window's radius.
-bool tl_audit_is_certain(const tl_audit_job *job, const tl_audit_window *window, tl_vec3 point);
+/// Whether a column outlives the filters, and erosion by the window's radius, with its floor at a height.
+/// TL_ERR_MEMORY.
+tl_result tl_audit_is_certain(tl_audit_columns *columns, const tl_audit_window *window, const int32_t column[2],
+                              float y, bool *is_certain_out);
 
-/// Moves a point, which was moved by a column, to the walkable floor there. False: there is none within half a climb.
-bool tl_audit_follow_floor(const tl_audit_job *job, tl_vec3 *point);
-
-/// Whether the floor of a triangle was given area 0.
-bool tl_audit_is_null_area(const tl_audit_job *job, uint32_t triangle);
+/// Moves a height from the floor of a neighbouring column to the walkable floor of this one. `*found_out` is false:
+/// there is none within half a climb. TL_ERR_MEMORY.
+tl_result tl_audit_follow_floor(tl_audit_columns *columns, const int32_t column[2], float *y, bool *found_out);
 
 #endif
