@@ -449,7 +449,7 @@ static void run_edits(uint64_t with)
         TEST_CHECK(tl_nav_crowd_count(w.crowds[c]) == agent_count);
         TEST_CHECK(tl_nav_crowd_hash(w.crowds[c]) == tl_nav_crowd_hash(w.crowds[0]));
     }
-    for (uint32_t c = 0; c < w.crowd_count; c++) {
+    for (uint32_t c = 0; c < CROWDS; c++) {
         tl_nav_crowd_destroy(w.crowds[c]);
         free(w.agents[c]);
     }
