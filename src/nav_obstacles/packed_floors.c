@@ -354,8 +354,8 @@ void tl_floors_link(const tl_floors_scratch *scratch, tl_nav_compact *compact)
 static void fill_floors(const tl_packed_floors *packed, const tl_nav_compact *compact, uint16_t *counts, uint8_t *links)
 {
     const uint64_t columns = (uint64_t)compact->width * compact->height, spans = compact->span_count;
-    const uint8_t *from = tl_packed_runs_read(packed->bytes, sizeof *counts, columns, (uint8_t *)counts);
-    from = tl_packed_runs_read(from, sizeof *compact->floor, spans, (uint8_t *)compact->floor);
+    const uint8_t *from = tl_packed_runs_read(packed->bytes, sizeof *counts, columns, counts);
+    from = tl_packed_runs_read(from, sizeof *compact->floor, spans, compact->floor);
     from = tl_packed_runs_read(from, 1, spans, compact->area);
     from = tl_packed_runs_read(from, 1, spans, links);
     TL_ASSERT(from == packed->bytes + packed->size);

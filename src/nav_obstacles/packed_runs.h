@@ -21,7 +21,7 @@ uint64_t tl_packed_runs_most_bytes(const tl_value_array *values);
 /// Writes the values, for which there is room; returns the end of what was written.
 uint8_t *tl_packed_runs_write(const tl_value_array *values, uint8_t *to);
 /// Reads `count` values; returns the end of what was read.
-const uint8_t *tl_packed_runs_read(const uint8_t *from, size_t size, uint64_t count, uint8_t *to);
+const uint8_t *tl_packed_runs_read(const uint8_t *from, size_t size, uint64_t count, void *to);
 
 /// A place among packed values. It is not moved beyond the last of them.
 typedef struct tl_run_reader {
