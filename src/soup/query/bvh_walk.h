@@ -12,8 +12,7 @@
 //
 // Boxes are plain floats in arrays over the lanes, read where they lie in the node, so that a compiler vectorizes a
 // query's loop over sixteen lanes without an instruction set of its own: unlike rays, these queries spend their time in
-// leaves. Where a loop is vectorized, let it write a byte a lane, of which tl_walk_mask makes bits. Where it is not,
-// shift the bits together: eight bytes that were stored one by one are slow to read at once.
+// leaves.
 //
 // A walk may see the soup at a scale: then boxes and corners are multiplied as they are read. Products are rounded, and
 // rounding keeps the order of numbers, so a box still holds all corners that it held. It is widened by the rounding of
@@ -22,7 +21,6 @@
 #ifndef TALUS_SRC_SOUP_BVH_WALK_H
 #define TALUS_SRC_SOUP_BVH_WALK_H
 
-#include "base/byte_order.h"
 #include "base/lowest_bit.h"
 #include "math/tolerance.h"
 #include "soup/layout/compact_layout.h"
@@ -54,21 +52,6 @@ static inline const float *tl_walk_min(const tl_walk_boxes *boxes, uint32_t axis
 static inline const float *tl_walk_max(const tl_walk_boxes *boxes, uint32_t axis)
 {
     return boxes->planes + (2 * (size_t)axis + 1) * TL_WALK_WIDTH;
-}
-
-/// Bit i is lanes[i], which is 0 or 1, of eight: each product with a power of two moves one byte's bit to its place in
-/// the highest byte, and no two of them meet.
-static inline uint32_t tl_walk_mask8(const uint8_t lanes[8])
-{
-    const uint64_t gather = TL_BIG_ENDIAN ? 0x8040201008040201u : 0x0102040810204080u;
-    uint64_t bytes;
-    memcpy(&bytes, lanes, sizeof bytes);
-    return (uint32_t)(bytes * gather >> 56);
-}
-
-static inline uint32_t tl_walk_mask(const uint8_t lanes[TL_WALK_WIDTH])
-{
-    return tl_walk_mask8(lanes) | tl_walk_mask8(lanes + 8) << 8;
 }
 
 /// A scale, with what follows from it. NULL where one is taken: the soup as it is.
@@ -242,32 +225,6 @@ static inline bool tl_walk_read_triangle(const tl_walk_leaf *leaf, uint32_t lane
     triangle->leaf = leaf;
     triangle->lane = lane;
     return true;
-}
-
-/// Bit i: the own box of the triangle of lane i, which no walk scales, shares a point with `box`; of lanes without a
-/// triangle unspecified.
-static inline uint32_t tl_walk_lanes_in_box(const tl_walk_leaf *leaf, tl_aabb box)
-{
-    const uint32_t n = leaf->view.pair_count;
-    const float low[3] = { box.min.x, box.min.y, box.min.z }, high[3] = { box.max.x, box.max.y, box.max.z };
-    float gap[2 * TL_SOUP_LEAF_PAIRS] = { 0.0f }; // above 0: they are apart along an axis, and the difference is not 0
-    for (uint32_t axis = 0; axis < 3; axis++) {
-        // Behind a short leaf's arrays there is something to read, which `in` leaves out.
-        const float *a = leaf->view.floats + 4 * (size_t)axis * n, *c = a + n, *b = c + n, *d = b + n;
-        for (uint32_t i = 0; i < TL_SOUP_LEAF_PAIRS; i++) {
-            const float min = tl_minf(a[i], c[i]), max = tl_maxf(a[i], c[i]);
-            const float first = tl_maxf(tl_minf(min, b[i]) - high[axis], low[axis] - tl_maxf(max, b[i]));
-            const float second = tl_maxf(tl_minf(min, d[i]) - high[axis], low[axis] - tl_maxf(max, d[i]));
-            gap[i] = tl_maxf(gap[i], first);
-            gap[TL_SOUP_LEAF_PAIRS + i] = tl_maxf(gap[TL_SOUP_LEAF_PAIRS + i], second);
-        }
-    }
-    uint8_t in[2 * TL_SOUP_LEAF_PAIRS];
-    for (uint32_t i = 0; i < 2 * TL_SOUP_LEAF_PAIRS; i++) {
-        in[i] = (uint8_t)((gap[i] <= 0.0f) & (i % TL_SOUP_LEAF_PAIRS < n));
-    }
-    const uint32_t mask = tl_walk_mask8(in);
-    return (mask & ((1u << TL_SOUP_LEAF_PAIRS) - 1u)) | mask >> TL_SOUP_LEAF_PAIRS << n;
 }
 
 static inline tl_aabb tl_walk_triangle_box(const tl_walk_triangle *triangle)

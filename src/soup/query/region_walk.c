@@ -12,6 +12,7 @@
 
 #include "soup/query/region_walk.h"
 
+#include "base/byte_order.h"
 #include "base/compiler.h"
 #include "base/hash.h"
 
@@ -25,6 +26,22 @@ typedef struct seen_triangles {
     uint32_t slots[SEEN_SLOTS]; // index + 1; 0: free
 } seen_triangles;
 
+// Bit i is lanes[i], which is 0 or 1, of eight: each product with a power of two moves one byte's bit to its place in
+// the highest byte, and no two of them meet. For bytes that a vectorized loop has stored: eight that were stored one by
+// one are slow to read at once.
+static inline uint32_t mask_of_eight(const uint8_t lanes[8])
+{
+    const uint64_t gather = TL_BIG_ENDIAN ? 0x8040201008040201u : 0x0102040810204080u;
+    uint64_t bytes;
+    memcpy(&bytes, lanes, sizeof bytes);
+    return (uint32_t)(bytes * gather >> 56);
+}
+
+static inline uint32_t mask_of_lanes(const uint8_t lanes[TL_WALK_WIDTH])
+{
+    return mask_of_eight(lanes) | mask_of_eight(lanes + 8) << 8;
+}
+
 // Lanes whose boxes share a point with `box`.
 static uint32_t lanes_meeting_box(const tl_walk_boxes *boxes, tl_aabb box)
 {
@@ -35,7 +52,7 @@ static uint32_t lanes_meeting_box(const tl_walk_boxes *boxes, tl_aabb box)
         overlaps[i] = (uint8_t)((min_x[i] <= box.max.x) & (max_x[i] >= box.min.x) & (min_y[i] <= box.max.y) &
                                 (max_y[i] >= box.min.y) & (min_z[i] <= box.max.z) & (max_z[i] >= box.min.z));
     }
-    return tl_walk_mask(overlaps);
+    return mask_of_lanes(overlaps);
 }
 
 static uint32_t enter_region(const tl_walk_boxes *boxes, const tl_region *region)
@@ -95,11 +112,37 @@ static bool is_new(const tl_soup *soup, const tl_region *region, const tl_walk_t
     return true;
 }
 
+// Bit i: the own box of the triangle of lane i, which no walk scales, shares a point with `box`; of lanes without a
+// triangle unspecified.
+static uint32_t lanes_in_box(const tl_walk_leaf *leaf, tl_aabb box)
+{
+    const uint32_t n = leaf->view.pair_count;
+    const float low[3] = { box.min.x, box.min.y, box.min.z }, high[3] = { box.max.x, box.max.y, box.max.z };
+    float gap[2 * TL_SOUP_LEAF_PAIRS] = { 0.0f }; // above 0: they are apart along an axis, and the difference is not 0
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        // Behind a short leaf's arrays there is something to read, which `in` leaves out.
+        const float *a = leaf->view.floats + 4 * (size_t)axis * n, *c = a + n, *b = c + n, *d = b + n;
+        for (uint32_t i = 0; i < TL_SOUP_LEAF_PAIRS; i++) {
+            const float min = tl_minf(a[i], c[i]), max = tl_maxf(a[i], c[i]);
+            const float first = tl_maxf(tl_minf(min, b[i]) - high[axis], low[axis] - tl_maxf(max, b[i]));
+            const float second = tl_maxf(tl_minf(min, d[i]) - high[axis], low[axis] - tl_maxf(max, d[i]));
+            gap[i] = tl_maxf(gap[i], first);
+            gap[TL_SOUP_LEAF_PAIRS + i] = tl_maxf(gap[TL_SOUP_LEAF_PAIRS + i], second);
+        }
+    }
+    uint8_t in[2 * TL_SOUP_LEAF_PAIRS];
+    for (uint32_t i = 0; i < 2 * TL_SOUP_LEAF_PAIRS; i++) {
+        in[i] = (uint8_t)((gap[i] <= 0.0f) & (i % TL_SOUP_LEAF_PAIRS < n));
+    }
+    const uint32_t mask = mask_of_eight(in);
+    return (mask & ((1u << TL_SOUP_LEAF_PAIRS) - 1u)) | mask >> TL_SOUP_LEAF_PAIRS << n;
+}
+
 // The lanes of a leaf whose triangles may belong. At a scale each triangle's box is looked at when it is read.
 static uint32_t lanes_to_read(const tl_walk_leaf *leaf, const tl_region *region)
 {
     const uint32_t all = (1u << leaf->lane_count) - 1u;
-    return region->box != NULL && leaf->scale == NULL ? tl_walk_lanes_in_box(leaf, *region->box) : all;
+    return region->box != NULL && leaf->scale == NULL ? lanes_in_box(leaf, *region->box) : all;
 }
 
 static bool belongs(const tl_region *region, const tl_walk_triangle *triangle)
