@@ -145,22 +145,18 @@ static bool code_vertices(const tl_nav_surface *surface, float x, float z, uint8
 }
 
 // Compiled for each width of a triangle's corners.
-static TL_ALWAYS_INLINE bool find_height_in(const tl_nav_surface *surface, bool is_wide, float x, float z,
-                                            float *height_out)
+static TL_ALWAYS_INLINE bool find_height_in(tl_nav_surface surface, bool is_wide, float x, float z, float *height_out)
 {
     uint8_t codes[MAX_CODES];
-    const bool has_codes = code_vertices(surface, x, z, codes);
-    for (uint32_t i = 0; i < surface->triangle_count; i++) {
-        uint32_t at[3];
-        for (size_t k = 0; k < 3; k++) {
-            const size_t number = 4 * (size_t)i + k;
-            at[k] = is_wide ? ((const uint16_t *)surface->triangles)[number]
-                            : ((const uint8_t *)surface->triangles)[number];
-        }
+    surface.is_wide = is_wide;
+    const bool has_codes = code_vertices(&surface, x, z, codes);
+    for (uint32_t i = 0; i < surface.triangle_count; i++) {
+        const tl_nav_detail_triangle triangle = tl_nav_surface_triangle(&surface, i);
+        const uint16_t *at = triangle.corner;
         if (has_codes && (codes[at[0]] & codes[at[1]] & codes[at[2]]) != 0) {
             continue;
         }
-        const tl_vec3 *corners[3] = { &surface->vertices[at[0]], &surface->vertices[at[1]], &surface->vertices[at[2]] };
+        const tl_vec3 *corners[3] = { &surface.vertices[at[0]], &surface.vertices[at[1]], &surface.vertices[at[2]] };
         double parts[3];
         triangle_weights weights;
         divide_triangle(*corners[0], *corners[1], *corners[2], (double)x, (double)z, parts);
@@ -172,11 +168,10 @@ static TL_ALWAYS_INLINE bool find_height_in(const tl_nav_surface *surface, bool 
     return false;
 }
 
-static bool find_height(const tl_nav_surface *of, float x, float z, float *height_out)
+static bool find_height(const tl_nav_surface *surface, float x, float z, float *height_out)
 {
-    const tl_nav_surface surface = *of;
-    return surface.is_wide ? find_height_in(&surface, true, x, z, height_out)
-                           : find_height_in(&surface, false, x, z, height_out);
+    return surface->is_wide ? find_height_in(*surface, true, x, z, height_out)
+                            : find_height_in(*surface, false, x, z, height_out);
 }
 
 bool tl_nav_find_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, float z, float *height_out)
