@@ -54,8 +54,7 @@ static bool accepts_triangle(const collection *c, const tl_soup_triangle *triang
 
 static tl_vec3d corner_in_world(const collection *c, tl_vec3d corner)
 {
-    return tl_frame_point(&c->frame,
-                          tl_vec3d_make(corner.x * c->scale.x, corner.y * c->scale.y, corner.z * c->scale.z));
+    return tl_frame_point(&c->frame, tl_vec3d_mul(corner, c->scale));
 }
 
 static bool collect_triangle(const tl_soup_triangle *triangle, void *user)
@@ -103,7 +102,7 @@ static bool collect_instance(uint32_t instance, void *user)
     const tl_scene_instance *at = &c->m->level->instances[instance];
     c->at = at;
     c->instance = instance;
-    const tl_vec3 scale = tl_scale_is_one(at->scale) ? tl_vec3_make(1.0f, 1.0f, 1.0f) : at->scale;
+    const tl_vec3 scale = tl_scale_factors(at->scale);
     if (at->soup != NULL) {
         c->scale = tl_vec3d_from(scale);
         c->mirrored = tl_scale_is_mirrored(scale);

@@ -15,6 +15,12 @@ static inline bool tl_scale_is_one(tl_vec3 scale)
            ((scale.x == 1.0f) & (scale.y == 1.0f) & (scale.z == 1.0f));
 }
 
+/// Its factors: all zero being 1.
+static inline tl_vec3 tl_scale_factors(tl_vec3 scale)
+{
+    return tl_scale_is_one(scale) ? tl_vec3_make(1.0f, 1.0f, 1.0f) : scale;
+}
+
 /// Whether fronts of triangles become backs.
 static inline bool tl_scale_is_mirrored(tl_vec3 scale)
 {

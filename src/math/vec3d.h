@@ -49,6 +49,12 @@ static inline tl_vec3d tl_vec3d_scale(tl_vec3d a, double s)
     return tl_vec3d_make(a.x * s, a.y * s, a.z * s);
 }
 
+/// Axis by axis.
+static inline tl_vec3d tl_vec3d_mul(tl_vec3d a, tl_vec3d b)
+{
+    return tl_vec3d_make(a.x * b.x, a.y * b.y, a.z * b.z);
+}
+
 static inline tl_vec3d tl_vec3d_mul_add(tl_vec3d a, tl_vec3d b, double s)
 {
     return tl_vec3d_make(a.x + b.x * s, a.y + b.y * s, a.z + b.z * s);

@@ -105,17 +105,12 @@ typedef struct scaled_box {
     double size; // of the position, the middle and the extents, summed over all axes
 } scaled_box;
 
-static tl_vec3d scale_corner(tl_vec3 corner, tl_vec3d by)
-{
-    return tl_vec3d_make((double)corner.x * by.x, (double)corner.y * by.y, (double)corner.z * by.z);
-}
-
 // Where nothing is, a point.
 static scaled_box scale_box(tl_aabb local, tl_vec3d by, tl_vec3d at)
 {
     scaled_box box = { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 }, tl_vec3d_size(at) };
     if (!tl_aabb_is_empty(local)) {
-        tl_vec3d low = scale_corner(local.min, by), high = scale_corner(local.max, by);
+        tl_vec3d low = tl_vec3d_mul(tl_vec3d_from(local.min), by), high = tl_vec3d_mul(tl_vec3d_from(local.max), by);
         tl_vec3d size = tl_vec3d_sub(high, low); // negative along mirrored axes
         box.middle = tl_vec3d_scale(tl_vec3d_add(low, high), 0.5);
         box.half = tl_vec3d_scale(tl_vec3d_make(fabs(size.x), fabs(size.y), fabs(size.z)), 0.5);
@@ -161,7 +156,7 @@ tl_aabb tl_scene_place_instance(tl_scene_record *record, tl_scene_place *place, 
                                 tl_aabb local)
 {
     tl_frame frame = tl_frame_from(instance->pose);
-    place->scale = tl_scene_scale_of(instance);
+    place->scale = tl_scale_factors(instance->scale);
     tl_vec3d by = tl_vec3d_from(place->scale);
     scaled_box box = scale_box(local, by, frame.origin);
     record->own = own_box(&frame, &box);

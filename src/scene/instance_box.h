@@ -23,10 +23,4 @@ tl_result tl_scene_read_instance(const tl_scene_instance *instance, tl_aabb *loc
 tl_aabb tl_scene_place_instance(tl_scene_record *record, tl_scene_place *place, const tl_scene_instance *instance,
                                 tl_aabb local);
 
-/// The scale of an instance, all zero being 1.
-static inline tl_vec3 tl_scene_scale_of(const tl_scene_instance *instance)
-{
-    return tl_scale_is_one(instance->scale) ? tl_vec3_make(1.0f, 1.0f, 1.0f) : instance->scale;
-}
-
 #endif

@@ -116,7 +116,7 @@ tl_result tl_scene_refuse_instance(tl_report *report, tl_result result, uint32_t
 static bool has_not_moved(const tl_scene_record *record, const tl_scene_place *place, const tl_scene_instance *instance,
                           const tl_aabb *local, uint32_t mask)
 {
-    tl_vec3 scale = tl_scene_scale_of(instance);
+    tl_vec3 scale = tl_scale_factors(instance->scale);
     return memcmp(&record->pose, &instance->pose, sizeof instance->pose) == 0 &&
            memcmp(&place->scale, &scale, sizeof scale) == 0 && memcmp(&record->local, local, sizeof *local) == 0 &&
            (mask != 0) == (instance->mask != 0);

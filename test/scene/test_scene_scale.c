@@ -38,7 +38,7 @@ static tl_vec3d corner_out(const tl_scene_instance *instance, tl_vec3 corner)
 {
     tl_frame frame = tl_frame_from(instance->pose);
     tl_vec3d s = tl_vec3d_from(instance->scale), c = tl_vec3d_from(corner);
-    return tl_frame_point(&frame, tl_vec3d_make(s.x * c.x, s.y * c.y, s.z * c.z));
+    return tl_frame_point(&frame, tl_vec3d_mul(s, c));
 }
 
 typedef struct ray_regimes {

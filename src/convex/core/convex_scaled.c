@@ -87,9 +87,7 @@ tl_result tl_scaled_convex_make(const tl_convex *shape, tl_vec3 scale, tl_scaled
     if (result != TL_OK) {
         return tl_report_field(report_out, result, "scale", "make each factor finite, within TL_MAX_SCALE, and not 0");
     }
-    if (tl_scale_is_one(scale)) {
-        scale = tl_vec3_make(1.0f, 1.0f, 1.0f);
-    }
+    scale = tl_scale_factors(scale);
     tl_convex scaled;
     if (!scale_fields(shape, scale, &scaled)) {
         return tl_report_field(report_out, TL_ERR_ARGUMENT, "scale", "scale a rounded shape alike along all axes");
