@@ -50,7 +50,7 @@ static void plan_anew(const char *job)
     char line[128];
     snprintf(line, sizeof line, "rm -rf %s", job);
     assert_int_equal(system(line), 0);
-    snprintf(line, sizeof line, "world plan land -o %s", job);
+    snprintf(line, sizeof line, "world plan city.obj --tile-size 24 -o %s", job);
     cli_do(0, line);
 }
 
@@ -67,12 +67,12 @@ static double status_of(const char *job, const char *key)
     return number;
 }
 
-static int make_land(void **state)
+static int make_city(void **state)
 {
     const int code = cli_enter_folder(state);
     if (has_mpirun()) {
-        cli_do(0, "sample world -n 50000 -o land");
-        cli_do(0, "world plan land -o alone");
+        cli_do(0, "sample city -n 100000 -o city.obj");
+        plan_anew("alone");
         cli_do(0, "world bake alone");
         cli_do(0, "world merge alone -o alone.talus");
     }
@@ -184,5 +184,5 @@ int main(void)
         cmocka_unit_test(test_failing_tile),
         cmocka_unit_test(test_killed_rank),
     };
-    return cmocka_run_group_tests(tests, make_land, cli_leave_folder);
+    return cmocka_run_group_tests(tests, make_city, cli_leave_folder);
 }

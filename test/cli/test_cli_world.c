@@ -63,12 +63,12 @@ static void test_shards_and_threads(void **state)
 {
     (void)state;
     static const int counts[] = { 1, 3, 7 };
-    cli_do(0, "sample world -n 20000 -o land");
+    cli_do(0, "sample city -n 40000 -o land.obj");
     for (int c = 0; c < 3; c++) {
         char line[256];
         double tiles = 0, planned;
         shell("rm -rf job");
-        json_t *plan = cli_json(0, "world plan land -o job --memory 16 --json");
+        json_t *plan = cli_json(0, "world plan land.obj -o job --tile-size 24 --memory 16 --json");
         planned = cli_number(plan, "tiles");
         json_decref(plan);
         for (int i = 1; i <= counts[c]; i++) {
@@ -164,22 +164,25 @@ static uint32_t next_random(uint64_t *state)
     return (uint32_t)(*state >> 33);
 }
 
+// Seconds of work for one thread under a sanitizer, and hundreds of tiles.
+#define WILD "wild.obj --tile-size 24"
+
 static void test_kills(void **state)
 {
     (void)state;
-    cli_do(0, "sample world -n 50000 --seed 5 -o wild");
-    cli_do(0, "world plan wild -o once");
+    cli_do(0, "sample city -n 100000 --seed 5 -o wild.obj");
+    cli_do(0, "world plan " WILD " -o once");
     cli_do(0, "world bake once");
     cli_do(0, "world merge once -o once.talus");
     uint64_t random = 12345;
     for (int i = 0; i < 6; i++) {
-        const pid_t child = cli_start("world plan wild -o often", "/dev/null", "out.txt", "err.txt");
+        const pid_t child = cli_start("world plan " WILD " -o often", "/dev/null", "out.txt", "err.txt");
         sleep_ms((long)(next_random(&random) % 25));
         kill(child, SIGKILL);
         const int code = cli_wait(child);
         assert_true(code == 256 + SIGKILL || code == 0);
     }
-    cli_do(0, "world plan wild -o often");
+    cli_do(0, "world plan " WILD " -o often");
     // However fast the machine is: a bake lives until it has made some tiles more.
     for (int i = 0; i < 14; i++) {
         const uint32_t enough = count_tiles("often") + next_random(&random) % 20;
@@ -204,7 +207,7 @@ static void test_kills(void **state)
 static void test_race(void **state)
 {
     (void)state;
-    cli_do(0, "world plan wild -o raced");
+    cli_do(0, "world plan " WILD " -o raced");
     const pid_t a = cli_start("world bake raced", "/dev/null", "a.txt", "a.err");
     const pid_t b = cli_start("world bake raced", "/dev/null", "b.txt", "b.err");
     assert_int_equal(cli_wait(a), 0);

@@ -10,7 +10,7 @@
 
 #include <float.h>
 
-static uint32_t query_count = 8000;
+static uint32_t query_count = 4000;
 
 static tl_vec3 vec(float x, float y, float z)
 {
