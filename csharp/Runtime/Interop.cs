@@ -2716,6 +2716,46 @@ namespace Talus.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_scene_placement
+    {
+        public uint group;
+        public tl_transform pose;
+        public float scale;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_scene_group
+    {
+        public tl_scene_instance* instances;
+        public uint instance_count;
+        public tl_scene_placement* placements;
+        public uint placement_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_scene_copy
+    {
+        public tl_transform pose;
+        public float scale;
+        public uint group;
+        public uint parent;
+        public uint placement;
+        public uint first_instance;
+        public uint instance_count;
+        public uint copy_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_scene_expansion
+    {
+        public tl_scene_instance* instances;
+        public uint instance_count;
+        public tl_scene_copy* copies;
+        public uint copy_count;
+        public tl_allocator allocator;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_scene_versions
     {
     }
@@ -3571,6 +3611,14 @@ namespace Talus.Interop
         public static extern tl_result tl_nav_query_find_wide_place(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_around_request* request, float agent_radius, tl_nav_location* place_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_nav_query_path_clearance(tl_nav_query* query, tl_navmesh* navmesh, tl_nav_filter* filter, tl_nav_corner* corners, uint count, float max_distance, float* clearance_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scene_groups_expand(tl_scene_group* groups, uint group_count, uint root, tl_host* host, tl_scene_expansion* expansion_out, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_scene_groups_place(tl_scene_group* groups, uint group_count, tl_scene_expansion* expansion, uint copy, tl_scene_placement* at, tl_report* report_out);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern uint tl_scene_copy_of(tl_scene_expansion* expansion, uint instance);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_scene_expansion_free(tl_scene_expansion* expansion);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_scene_versions_create(tl_scene_instance* instances, uint count, tl_allocator* allocator, tl_scene_versions** versions_out, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -34,6 +34,7 @@
 #include <talus/pack.h>
 #include <talus/polygon.h>
 #include <talus/scene.h>
+#include <talus/scene_groups.h>
 #include <talus/scene_versions.h>
 #include <talus/soup.h>
 #include <talus/soup_scaled.h>

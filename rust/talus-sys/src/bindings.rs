@@ -2372,6 +2372,42 @@ pub struct tl_nav_wide_report {
     pub made_tile_count: u32,
 }
 #[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_placement {
+    pub group: u32,
+    pub pose: tl_transform,
+    pub scale: f32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_group {
+    pub instances: *const tl_scene_instance,
+    pub instance_count: u32,
+    pub placements: *const tl_scene_placement,
+    pub placement_count: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_copy {
+    pub pose: tl_transform,
+    pub scale: f32,
+    pub group: u32,
+    pub parent: u32,
+    pub placement: u32,
+    pub first_instance: u32,
+    pub instance_count: u32,
+    pub copy_count: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct tl_scene_expansion {
+    pub instances: *mut tl_scene_instance,
+    pub instance_count: u32,
+    pub copies: *mut tl_scene_copy,
+    pub copy_count: u32,
+    pub allocator: tl_allocator,
+}
+#[repr(C)]
 pub struct tl_scene_versions {
     _private: [u8; 0],
 }
@@ -4164,6 +4200,24 @@ extern "C" {
         max_distance: f32,
         clearance_out: *mut f32,
     ) -> tl_result;
+    pub fn tl_scene_groups_expand(
+        groups: *const tl_scene_group,
+        group_count: u32,
+        root: u32,
+        host: *const tl_host,
+        expansion_out: *mut tl_scene_expansion,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_scene_groups_place(
+        groups: *const tl_scene_group,
+        group_count: u32,
+        expansion: *mut tl_scene_expansion,
+        copy: u32,
+        at: *const tl_scene_placement,
+        report_out: *mut tl_report,
+    ) -> tl_result;
+    pub fn tl_scene_copy_of(expansion: *const tl_scene_expansion, instance: u32) -> u32;
+    pub fn tl_scene_expansion_free(expansion: *mut tl_scene_expansion);
     pub fn tl_scene_versions_create(
         instances: *const tl_scene_instance,
         count: u32,
@@ -5910,6 +5964,30 @@ mod layout {
             core::mem::offset_of!(tl_nav_wide_report, made_tile_count),
             68
         );
+        assert_eq!(core::mem::size_of::<tl_scene_placement>(), 36);
+        assert_eq!(core::mem::offset_of!(tl_scene_placement, group), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_placement, pose), 4);
+        assert_eq!(core::mem::offset_of!(tl_scene_placement, scale), 32);
+        assert_eq!(core::mem::size_of::<tl_scene_group>(), 32);
+        assert_eq!(core::mem::offset_of!(tl_scene_group, instances), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_group, instance_count), 8);
+        assert_eq!(core::mem::offset_of!(tl_scene_group, placements), 16);
+        assert_eq!(core::mem::offset_of!(tl_scene_group, placement_count), 24);
+        assert_eq!(core::mem::size_of::<tl_scene_copy>(), 56);
+        assert_eq!(core::mem::offset_of!(tl_scene_copy, pose), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_copy, scale), 28);
+        assert_eq!(core::mem::offset_of!(tl_scene_copy, group), 32);
+        assert_eq!(core::mem::offset_of!(tl_scene_copy, parent), 36);
+        assert_eq!(core::mem::offset_of!(tl_scene_copy, placement), 40);
+        assert_eq!(core::mem::offset_of!(tl_scene_copy, first_instance), 44);
+        assert_eq!(core::mem::offset_of!(tl_scene_copy, instance_count), 48);
+        assert_eq!(core::mem::offset_of!(tl_scene_copy, copy_count), 52);
+        assert_eq!(core::mem::size_of::<tl_scene_expansion>(), 56);
+        assert_eq!(core::mem::offset_of!(tl_scene_expansion, instances), 0);
+        assert_eq!(core::mem::offset_of!(tl_scene_expansion, instance_count), 8);
+        assert_eq!(core::mem::offset_of!(tl_scene_expansion, copies), 16);
+        assert_eq!(core::mem::offset_of!(tl_scene_expansion, copy_count), 24);
+        assert_eq!(core::mem::offset_of!(tl_scene_expansion, allocator), 32);
         assert_eq!(core::mem::size_of::<tl_scene_version>(), 32);
         assert_eq!(core::mem::offset_of!(tl_scene_version, scene), 0);
         assert_eq!(core::mem::offset_of!(tl_scene_version, instances), 8);
