@@ -371,8 +371,8 @@ static inline void tl_crowd_plan_slot(const tl_nav_crowd *crowd, const crowd_gro
 static inline void tl_crowd_travel(uint32_t flags, float out[2])
 {
     const int32_t x = (int32_t)(flags >> CROWD_TRAVEL_SHIFT & 255u), z = (int32_t)(flags >> 24);
-    out[0] = (float)(x < 128 ? x : x - 256);
-    out[1] = (float)(z < 128 ? z : z - 256);
+    out[0] = (float)((x ^ 128) - 128);
+    out[1] = (float)((z ^ 128) - 128);
 }
 
 /// Whether an agent stands, and wants to.

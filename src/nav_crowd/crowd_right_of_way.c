@@ -15,6 +15,7 @@
 // behind follow those in front. Directions that took turns by the clock alone were slower by half: each turn cut off a
 // flow that moved.
 
+#include "base/lowest_bit.h"
 #include "base/min_max.h"
 #include "nav_crowd/crowd_neighbors.h"
 
@@ -73,27 +74,37 @@ void tl_crowd_preferred_direction(uint64_t milliseconds, float out[2])
 
 typedef struct crowd_traffic {
     bool meets;   // others that come the other way
-    bool loses;   // the right of way to one of them: one that gets on, or goes the preferred direction
-    bool follows; // one that yields
+    bool loses;   // if held: the right of way to one of them: one that gets on, or goes the preferred direction
+    bool follows; // if held: one that yields
 } crowd_traffic;
 
-// Where one of the others goes, and whether it is the other way. Fixed ones go where they move; who wants to stand, as
-// a leader that waits for its group, needs no way, whatever lies before it.
-// `now`: by what it wants at present, not by where it travels.
-static bool comes_against(const crowd_snapshot *seen, uint32_t other, const float travel[2], bool now, float its[2])
+// Where one of the others goes, as a vector of any length. Fixed ones go where they move. `now`: by what it wants at
+// present, not by where it travels.
+static void way_of(const crowd_snapshot *seen, uint32_t other, bool now, float its[2])
 {
-    const float wanted[2] = { seen->wanted_x[other], seen->wanted_z[other] };
-    tl_crowd_travel(seen->kind[other], its);
-    its[0] = now ? wanted[0] : its[0];
-    its[1] = now ? wanted[1] : its[1];
-    if ((seen->kind[other] & CROWD_SEEN_FIXED) != 0) {
-        its[0] = seen->vx[other];
-        its[1] = seen->vz[other];
-    } else if (wanted[0] * wanted[0] + wanted[1] * wanted[1] < STANDING_SPEED * STANDING_SPEED) {
+    const uint32_t kind = seen->kind[other];
+    tl_crowd_travel(kind, its);
+    its[0] = now ? seen->wanted_x[other] : its[0];
+    its[1] = now ? seen->wanted_z[other] : its[1];
+    its[0] = (kind & CROWD_SEEN_FIXED) != 0 ? seen->vx[other] : its[0];
+    its[1] = (kind & CROWD_SEEN_FIXED) != 0 ? seen->vz[other] : its[1];
+}
+
+// Whether one of the others may come the other way, by all that takes no root: most go elsewhere. Who wants to stand,
+// as a leader that waits for its group, needs no way, whatever lies before it. Without a branch: they are of all kinds.
+static bool may_come_against(const crowd_snapshot *seen, uint32_t other, const float travel[2], const float its[2])
+{
+    const float x = seen->wanted_x[other], z = seen->wanted_z[other];
+    const bool moves =
+        (x * x + z * z >= STANDING_SPEED * STANDING_SPEED) | ((seen->kind[other] & CROWD_SEEN_FIXED) != 0);
+    return moves & (its[0] * travel[0] + its[1] * travel[1] < 0.0f);
+}
+
+// Whether it does; makes its way a unit vector.
+static bool comes_against(const crowd_snapshot *seen, uint32_t other, const float travel[2], float its[2])
+{
+    if (!may_come_against(seen, other, travel, its)) {
         return false;
-    }
-    if (!(its[0] * travel[0] + its[1] * travel[1] < 0.0f)) {
-        return false; // most go elsewhere: without a root
     }
     const float length = sqrtf(its[0] * its[0] + its[1] * its[1]);
     its[0] /= length;
@@ -132,31 +143,60 @@ static bool loses_to(const crowd_step *step, uint32_t k, uint32_t other, const f
     return loses && goes_past(step->crowd, k, apart_sq) && goes_past(step->crowd, other, apart_sq);
 }
 
-// `ahead`: where the agent heads now, `travel`: past its corner; both unit. `now`: as in comes_against.
-static crowd_traffic look_at_traffic(const crowd_step *step, uint32_t k, const float ahead[2], const float travel[2],
-                                     bool now, const crowd_neighbor *neighbors, uint32_t count)
+// What an agent looks at traffic with.
+typedef struct crowd_outlook {
+    float ahead[2];  // unit: where it heads now
+    float travel[2]; // unit: where it goes past its corner
+    bool held;       // for so long that it may go back: else it only keeps to the right
+    bool late;       // others are taken by what they want at present, not by where they travel
+} crowd_outlook;
+
+// The neighbours before an agent, a bit each, that may come the other way; and those that yield, where it is held.
+static uint32_t find_traffic(const crowd_snapshot *seen, uint32_t k, const crowd_outlook *look,
+                             const crowd_neighbor *neighbors, uint32_t count)
+{
+    const float x = seen->x[k], z = seen->z[k];
+    uint32_t found = 0;
+    for (uint32_t n = 0; n < count; n++) {
+        const uint32_t other = neighbors[n].snapshot, kind = seen->kind[other];
+        float its[2];
+        way_of(seen, other, look->late, its);
+        const bool is_before = (seen->x[other] - x) * look->ahead[0] + (seen->z[other] - z) * look->ahead[1] > 0.0f;
+        const bool yields = (kind & CROWD_SEEN_YIELDS) != 0, stands = (kind & CROWD_SEEN_STILL) != 0;
+        const bool counts = yields ? look->held : may_come_against(seen, other, look->travel, its);
+        found |= (uint32_t)(is_before & !stands & counts) << n;
+    }
+    return found;
+}
+
+static crowd_traffic look_at_traffic(const crowd_step *step, uint32_t k, const crowd_outlook *look,
+                                     const crowd_neighbor *neighbors, uint32_t count)
 {
     const tl_nav_crowd *crowd = step->crowd;
     const crowd_snapshot *seen = &crowd->seen;
     crowd_traffic traffic = { false, false, false };
     const crowd_group *led = led_by(crowd, seen->agent[k]);
-    for (uint32_t n = 0; n < count; n++) {
-        const uint32_t other = neighbors[n].snapshot;
-        float dx = seen->x[other] - seen->x[k], dz = seen->z[other] - seen->z[k];
-        if (dx * ahead[0] + dz * ahead[1] <= 0.0f || (seen->kind[other] & CROWD_SEEN_STILL) != 0 ||
-            (led != NULL && tl_crowd_group_of(crowd, seen->agent[other]) == led)) {
+    for (uint32_t left = find_traffic(seen, k, look, neighbors, count); left != 0; left &= left - 1) {
+        const uint32_t other = neighbors[tl_lowest_bit(left)].snapshot;
+        if (led != NULL && tl_crowd_group_of(crowd, seen->agent[other]) == led) {
             continue;
         }
         float its[2];
-        const bool is_against = comes_against(seen, other, travel, now, its);
+        way_of(seen, other, look->late, its);
+        const bool is_against = comes_against(seen, other, look->travel, its);
         if ((seen->kind[other] & CROWD_SEEN_YIELDS) != 0) {
             // It goes back the way that this one comes.
+            const float *ahead = look->ahead;
+            float dx = seen->x[other] - seen->x[k], dz = seen->z[other] - seen->z[k];
             bool is_before = dx * ahead[0] + dz * ahead[1] > BEFORE_COSINE * sqrtf(dx * dx + dz * dz);
             float back = seen->wanted_x[other] * ahead[0] + seen->wanted_z[other] * ahead[1];
             traffic.follows = traffic.follows || (is_before && !is_against && back < 0.0f);
         } else if (is_against) {
             traffic.meets = true;
-            traffic.loses = traffic.loses || loses_to(step, k, other, travel, its);
+            if (!look->held) {
+                break;
+            }
+            traffic.loses = traffic.loses || loses_to(step, k, other, look->travel, its);
         }
     }
     return traffic;
@@ -241,8 +281,8 @@ void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor 
     const tl_nav_crowd *crowd = step->crowd;
     const crowd_fields *a = &crowd->a;
     const uint32_t i = crowd->seen.agent[k];
-    float ahead[2] = { a->wanted_x[i], a->wanted_z[i] };
-    float length = sqrtf(ahead[0] * ahead[0] + ahead[1] * ahead[1]);
+    const float ahead[2] = { a->wanted_x[i], a->wanted_z[i] };
+    const float length = sqrtf(ahead[0] * ahead[0] + ahead[1] * ahead[1]);
     a->flags[i] &= ~CROWD_YIELDS;
     // In its slot, beside a leader that is held up, or waiting for its group: it wants to stand.
     const float slow = tl_crowd_follows(crowd, i) ? STANDING_SPEED : 0.0f;
@@ -258,28 +298,29 @@ void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor 
         a->stalled[i] = tl_crowd_distance_to_goal(crowd, i);
         return;
     }
-    ahead[0] /= length;
-    ahead[1] /= length;
+    const float x = ahead[0] / length, z = ahead[1] / length;
     // Two in a corner may hold each other up for ever though they travel the same way.
-    const bool is_late = a->stalled[i] > YIELD_AFTER + YIELD_FOR;
+    const bool is_held = a->stalled[i] > YIELD_AFTER, is_late = a->stalled[i] > YIELD_AFTER + YIELD_FOR;
     float travel[2];
     tl_crowd_travel(a->flags[i], travel);
     const float far = sqrtf(travel[0] * travel[0] + travel[1] * travel[1]);
-    travel[0] = far > 0.0f && !is_late ? travel[0] / far : ahead[0];
-    travel[1] = far > 0.0f && !is_late ? travel[1] / far : ahead[1];
-    const crowd_traffic traffic = look_at_traffic(step, k, ahead, travel, is_late, neighbors, count);
+    const bool is_known = far > 0.0f && !is_late;
+    const crowd_outlook look = {
+        { x, z }, { is_known ? travel[0] / far : x, is_known ? travel[1] / far : z }, is_held, is_late
+    };
+    const crowd_traffic traffic = look_at_traffic(step, k, &look, neighbors, count);
     // In the open they pass one another: only where walls leave little room somebody must go back.
     const bool is_narrow = a->wall_count[i] > 0;
     const bool loses = traffic.loses && is_narrow;
     if (!loses && traffic.follows && is_late) {
         a->stalled[i] = 0.0f; // some that follow one another in a ring would do so for ever
     }
-    if (a->stalled[i] > YIELD_AFTER && (loses || traffic.follows)) {
+    if (is_held && (loses || traffic.follows)) {
         a->flags[i] |= CROWD_YIELDS;
-        a->wanted_x[i] = -YIELD_SPEED * a->max_speed[i] * ahead[0];
-        a->wanted_z[i] = -YIELD_SPEED * a->max_speed[i] * ahead[1];
+        a->wanted_x[i] = -YIELD_SPEED * a->max_speed[i] * x;
+        a->wanted_z[i] = -YIELD_SPEED * a->max_speed[i] * z;
     } else if (traffic.meets) {
-        a->wanted_x[i] = length * (RIGHT_COSINE * ahead[0] - RIGHT_SINE * ahead[1]);
-        a->wanted_z[i] = length * (RIGHT_SINE * ahead[0] + RIGHT_COSINE * ahead[1]);
+        a->wanted_x[i] = length * (RIGHT_COSINE * x - RIGHT_SINE * z);
+        a->wanted_z[i] = length * (RIGHT_SINE * x + RIGHT_COSINE * z);
     }
 }

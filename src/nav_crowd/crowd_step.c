@@ -31,32 +31,52 @@ static void search_one(uint32_t index, uint32_t worker, void *user)
     tl_crowd_search_path(step, step->crowd->work[index], step->crowd->queries[worker]);
 }
 
+// The agents of a block that walk on the mesh by themselves, or stand on it.
+typedef struct block_agents {
+    uint32_t count;
+    uint32_t place[CROWD_BLOCK];
+    float velocity[CROWD_BLOCK][2]; // that they take
+} block_agents;
+
+static void list_block_agents(const crowd_step *step, uint32_t block, block_agents *agents)
+{
+    const crowd_fields *a = &step->crowd->a;
+    const uint32_t end = tl_block_end(block, CROWD_BLOCK, step->crowd->head->used);
+    agents->count = 0;
+    for (uint32_t i = block * CROWD_BLOCK; i < end; i++) {
+        const uint32_t status = a->status[i];
+        if (status == TL_NAV_AGENT_ON_LINK) {
+            tl_crowd_follow_link(step, i);
+        } else if (status != CROWD_FREE && status != TL_NAV_AGENT_FIXED && status != TL_NAV_AGENT_OFF_MESH) {
+            agents->place[agents->count++] = i;
+        }
+    }
+}
+
 // In the order of places, not of the snapshot: the fields of an agent, which are written too, fill thirty cache lines
-// that it shares with its neighbours in that order, and what it reads of others fills a few.
+// that it shares with its neighbours in that order, and what it reads of others fills a few. All agents of a block do
+// one thing before the next: its code and tables stay in the nearest cache.
 static void step_block(uint32_t block, uint32_t worker, void *user)
 {
     const crowd_step *step = (const crowd_step *)user;
     tl_nav_crowd *crowd = step->crowd;
     tl_nav_query *query = crowd->queries[worker];
-    const uint32_t end = tl_block_end(block, CROWD_BLOCK, crowd->head->used);
-    for (uint32_t i = block * CROWD_BLOCK; i < end; i++) {
-        const uint32_t status = crowd->a.status[i];
-        if (status == CROWD_FREE || status == TL_NAV_AGENT_FIXED || status == TL_NAV_AGENT_OFF_MESH) {
-            continue;
-        }
-        if (status == TL_NAV_AGENT_ON_LINK) {
-            tl_crowd_follow_link(step, i);
-            continue;
-        }
-        float velocity[2];
+    block_agents agents;
+    list_block_agents(step, block, &agents);
+    for (uint32_t n = 0; n < agents.count; n++) {
+        const uint32_t i = agents.place[n];
         tl_crowd_look_for_walls(step, i, query);
         if (tl_crowd_follows(crowd, i)) {
             tl_crowd_follow(step, i, query);
         } else {
             tl_crowd_steer(step, i);
         }
-        tl_crowd_avoid(step, crowd->grid.cell[i], velocity);
-        tl_crowd_move(step, i, velocity, query);
+    }
+    for (uint32_t n = 0; n < agents.count; n++) {
+        tl_crowd_avoid(step, crowd->grid.cell[agents.place[n]], agents.velocity[n]);
+    }
+    for (uint32_t n = 0; n < agents.count; n++) {
+        tl_crowd_move(step, agents.place[n], agents.velocity[n], query);
     }
 }
 
