@@ -2,8 +2,8 @@
 //
 // The inside of a crowd: its state, one block of bytes with an array for each field, and the scratch of a step.
 //
-// Arrays of fields instead of an array of agents: a step reads the twenty bytes of each neighbour that it needs, and
-// most passes read two or three fields of all agents. The state holds no pointer, so that saving it is a copy.
+// Arrays of fields instead of an array of agents: most passes read two or three fields of all agents. What agents show
+// one another is copied once a step, side by side. The state holds no pointer, so that saving it is a copy.
 
 #ifndef TALUS_SRC_NAV_CROWD_CROWD_H
 #define TALUS_SRC_NAV_CROWD_CROWD_H
@@ -176,12 +176,20 @@ typedef struct crowd_link_run {
     float elapsed, duration; ///< seconds
 } crowd_link_run;
 
-/// What agents see of one another in a step, in the order of the grid's cells.
+/// What agents see of one: the first eight numbers are read as two vectors.
+typedef struct crowd_seen_agent {
+    float x, z, radius, bottom; ///< y of its feet
+    float vx, vz, wanted_x, wanted_z;
+    float top; ///< y of its head
+    float priority;
+    uint32_t kind;  ///< CROWD_SEEN_..., and where it travels
+    uint32_t agent; ///< its place
+} crowd_seen_agent;
+
+/// What agents see of one another in a step, in the order of the grid's cells: an array of agents, since those around
+/// one lie anywhere in it. With an array of each number they were three times as many lines of memory.
 typedef struct crowd_snapshot {
-    float *x, *y, *z, *vx, *vz, *radius, *height, *priority;
-    float *wanted_x, *wanted_z;
-    uint32_t *agent; ///< its place
-    uint32_t *kind;  ///< CROWD_SEEN_...
+    crowd_seen_agent *agents;
     uint32_t count;
     float max_radius;
 } crowd_snapshot;

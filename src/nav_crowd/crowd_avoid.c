@@ -12,6 +12,7 @@
 // Source: van den Berg, Guy, Lin, Manocha, Reciprocal n-Body Collision Avoidance, 2011.
 
 #include "base/hash.h"
+#include "base/lowest_bit.h"
 #include "base/min_max.h"
 #include "nav_crowd/crowd_kernels.h"
 #include "nav_crowd/crowd_neighbors.h"
@@ -109,18 +110,39 @@ static uint32_t find_facing_walls(const tl_nav_crowd *crowd, uint32_t i, facing_
     return count;
 }
 
-// Whether a wall stands between an agent and a neighbour, `x` and `z` from it.
-static bool is_behind_wall(const facing_wall *walls, uint32_t count, float x, float z)
+// Notes which neighbours a wall stands before, seen from the agent: all lanes alike, without a branch.
+static void mark_hidden(const facing_wall *w, const crowd_discs *discs, uint32_t hidden[CROWD_MAX_NEIGHBORS])
 {
-    bool is_hidden = false;
-    for (uint32_t k = 0; k < count; k++) {
-        const facing_wall *w = &walls[k];
-        const float side = w->side + x * (w->end_z - w->start_z) - z * (w->end_x - w->start_x);
+    const float x_wall = w->end_x - w->start_x, z_wall = w->end_z - w->start_z;
+    for (uint32_t n = 0; n < tl_crowd_lanes_end(discs->count); n++) {
+        const float x = discs->x[n], z = discs->z[n];
+        const float side = w->side + x * z_wall - z * x_wall;
         const float start = w->start_x * z - w->start_z * x;
         const float end = w->end_x * z - w->end_z * x;
-        is_hidden |= (side < 0.0f) & ((start > 0.0f) != (end > 0.0f));
+        hidden[n] |= (uint32_t)(side < 0.0f) & ((uint32_t)(start > 0.0f) ^ (uint32_t)(end > 0.0f));
     }
-    return is_hidden;
+}
+
+// Takes those away that the agent does not see. Rim to rim about a corner two see one another, though no line leads
+// from center to center. Returns how many are left.
+static uint32_t drop_hidden(const tl_nav_crowd *crowd, uint32_t i, const crowd_discs *discs, crowd_neighbor *neighbors)
+{
+    facing_wall walls[CROWD_MAX_WALLS];
+    const uint32_t wall_count = find_facing_walls(crowd, i, walls);
+    uint32_t hidden[CROWD_MAX_NEIGHBORS] = { 0 };
+    uint32_t seen_count = 0;
+    if (wall_count == 0) {
+        return discs->count;
+    }
+    for (uint32_t k = 0; k < wall_count; k++) {
+        mark_hidden(&walls[k], discs, hidden);
+    }
+    for (uint32_t n = 0; n < discs->count; n++) {
+        const crowd_neighbor neighbor = neighbors[n];
+        neighbors[seen_count] = neighbor;
+        seen_count += (neighbor.gap < crowd->a.radius[i]) | (hidden[n] == 0);
+    }
+    return seen_count;
 }
 
 // A direction for two agents in the same place with the same velocity, each the other's opposite.
@@ -151,60 +173,62 @@ static float share_of_leader(const tl_nav_crowd *crowd, const crowd_group *group
                                                 : share;
 }
 
-// What an agent evades of a neighbour; equal ones half. `group` is its own, or NULL.
-static float share_of_evading(const tl_nav_crowd *crowd, uint32_t k, uint32_t n, const crowd_group *group)
+// What an agent evades of a neighbour, `share` but for those that it knows: its group's, or who has arrived at the goal
+// that both have.
+static float share_of_known(const tl_nav_crowd *crowd, uint32_t k, uint32_t n, const crowd_group *group, float share)
 {
-    const crowd_snapshot *seen = &crowd->seen;
-    float share = 0.5f + 0.5f * (seen->priority[n] - seen->priority[k]);
-    const uint32_t still = (seen->kind[k] ^ seen->kind[n]) & CROWD_SEEN_STILL;
-    if (still != 0 && tl_crowd_has_goal_of(crowd, seen->agent[k], seen->agent[n])) {
-        share = (seen->kind[k] & CROWD_SEEN_STILL) != 0 ? 1.0f - BEFORE_STILL_SHARE : BEFORE_STILL_SHARE;
+    const crowd_seen_agent *own = &crowd->seen.agents[k], *other = &crowd->seen.agents[n];
+    const uint32_t still = (own->kind ^ other->kind) & CROWD_SEEN_STILL;
+    if (still != 0 && tl_crowd_has_goal_of(crowd, own->agent, other->agent)) {
+        share = (own->kind & CROWD_SEEN_STILL) != 0 ? 1.0f - BEFORE_STILL_SHARE : BEFORE_STILL_SHARE;
     }
-    return group != NULL ? share_of_leader(crowd, group, seen->agent[k], seen->agent[n], share) : share;
+    return group != NULL ? share_of_leader(crowd, group, own->agent, other->agent, share) : share;
 }
 
-// Fixed ones do nothing of the evading, and leave all of the room.
-static void list_discs(const tl_nav_crowd *crowd, uint32_t k, const crowd_neighbor *neighbors, crowd_discs *discs)
+// Which shares the agent takes of evading, and of the room: by priorities, of equal ones half. Fixed ones do nothing of
+// the evading, and leave all of the room.
+static void share_evading(const tl_nav_crowd *crowd, uint32_t k, const crowd_neighbor *neighbors, crowd_view *view)
 {
-    const crowd_snapshot *seen = &crowd->seen;
-    const crowd_group *group = tl_crowd_group_of(crowd, seen->agent[k]);
-    const float x = seen->x[k], z = seen->z[k], vx = seen->vx[k], vz = seen->vz[k], radius = seen->radius[k];
-    for (uint32_t i = 0; i < discs->count; i++) {
-        const uint32_t n = neighbors[i].snapshot;
-        discs->x[i] = seen->x[n] - x;
-        discs->z[i] = seen->z[n] - z;
-        discs->vx[i] = vx - seen->vx[n];
-        discs->vz[i] = vz - seen->vz[n];
-        discs->radius[i] = (1.0f + SKIN_SHARE) * (radius + seen->radius[n]);
-        const bool is_fixed = (seen->kind[n] & CROWD_SEEN_FIXED) != 0;
-        const float share = share_of_evading(crowd, k, n, group);
-        discs->evade[i] = is_fixed ? 1.0f : share;
-        discs->room[i] = is_fixed ? 1.0f : 1.0f - share;
-        if (discs->x[i] == 0.0f && discs->z[i] == 0.0f && discs->vx[i] == 0.0f && discs->vz[i] == 0.0f) {
-            part_pair(seen->agent[k], seen->agent[n], &discs->vx[i], &discs->vz[i]);
-        }
+    const crowd_seen_agent *own = &crowd->seen.agents[k];
+    const crowd_group *group = tl_crowd_group_of(crowd, own->agent);
+    crowd_discs *discs = &view->discs;
+    const uint32_t all = (uint32_t)(((uint64_t)1 << discs->count) - 1);
+    const uint32_t still = (own->kind & CROWD_SEEN_STILL) != 0 ? ~view->still & all : view->still & all;
+    for (uint32_t n = 0; n < tl_crowd_lanes_end(discs->count); n++) {
+        discs->evade[n] = 0.5f + 0.5f * (view->priority[n] - own->priority);
     }
-    // Kernels take whole vectors.
-    for (uint32_t i = discs->count; i % CROWD_LANES != 0; i++) {
-        discs->x[i] = discs->z[i] = discs->vx[i] = discs->vz[i] = discs->radius[i] = 1.0f;
-        discs->evade[i] = discs->room[i] = 1.0f;
+    for (uint32_t n = 0; n < discs->count && (still != 0 || group != NULL); n++) {
+        discs->evade[n] = share_of_known(crowd, k, neighbors[n].snapshot, group, discs->evade[n]);
+    }
+    for (uint32_t n = 0; n < tl_crowd_lanes_end(discs->count); n++) {
+        discs->room[n] = 1.0f - discs->evade[n];
+    }
+    for (uint32_t left = view->fixed & all; left != 0; left &= left - 1) {
+        discs->evade[tl_lowest_bit(left)] = discs->room[tl_lowest_bit(left)] = 1.0f;
+    }
+}
+
+static void part_pairs(const tl_nav_crowd *crowd, uint32_t k, const crowd_neighbor *neighbors, crowd_discs *discs)
+{
+    for (uint32_t n = 0; n < discs->count; n++) {
+        if (discs->x[n] == 0.0f && discs->z[n] == 0.0f && discs->vx[n] == 0.0f && discs->vz[n] == 0.0f) {
+            part_pair(crowd->seen.agents[k].agent, neighbors[n].agent, &discs->vx[n], &discs->vz[n]);
+        }
     }
 }
 
 // The neighbours' half-planes, behind those of the walls.
-static void avoid_neighbors(const crowd_step *step, uint32_t k, const crowd_neighbor *neighbors, uint32_t count,
+static void avoid_neighbors(const crowd_step *step, uint32_t k, const crowd_neighbor *neighbors, crowd_view *view,
                             tl_half_plane_program *program)
 {
     const tl_nav_crowd *crowd = step->crowd;
-    crowd_discs discs;
-    discs.count = count;
-    discs.own_vx = crowd->seen.vx[k];
-    discs.own_vz = crowd->seen.vz[k];
-    discs.rate = 1.0f / crowd->def.agent_horizon;
-    discs.overlap_rate = 1.0f / step->dt;
-    list_discs(crowd, k, neighbors, &discs);
-    tl_crowd_best_kernels()->avoid(&discs, &program->planes[program->count]);
-    program->count += count;
+    crowd_discs *discs = &view->discs;
+    discs->rate = 1.0f / crowd->def.agent_horizon;
+    discs->overlap_rate = 1.0f / step->dt;
+    share_evading(crowd, k, neighbors, view);
+    part_pairs(crowd, k, neighbors, discs);
+    tl_crowd_best_kernels()->avoid(discs, &program->planes[program->count]);
+    program->count += discs->count;
 }
 
 // What the agent can come to in this step of what it wants.
@@ -230,21 +254,17 @@ void tl_crowd_avoid(const crowd_step *step, uint32_t k, float velocity_out[2])
 {
     const tl_nav_crowd *crowd = step->crowd;
     const crowd_fields *a = &crowd->a;
-    const uint32_t i = crowd->seen.agent[k];
+    const uint32_t i = crowd->seen.agents[k].agent;
     crowd_neighbor neighbors[CROWD_MAX_NEIGHBORS];
     uint32_t count = tl_crowd_find_neighbors(crowd, k, neighbors);
-    facing_wall walls[CROWD_MAX_WALLS];
-    const uint32_t wall_count = find_facing_walls(crowd, i, walls);
-    uint32_t seen_count = 0;
-    for (uint32_t n = 0; n < count; n++) {
-        const uint32_t other = neighbors[n].snapshot;
-        // Rim to rim about a corner they see one another, though no line leads from center to center.
-        if (neighbors[n].gap < a->radius[i] ||
-            !is_behind_wall(walls, wall_count, crowd->seen.x[other] - a->x[i], crowd->seen.z[other] - a->z[i])) {
-            neighbors[seen_count++] = neighbors[n];
-        }
+    crowd_view view;
+    const crowd_kernels *kernels = tl_crowd_best_kernels();
+    kernels->view(&crowd->seen, k, neighbors, count, 1.0f + SKIN_SHARE, &view);
+    const uint32_t seen_count = drop_hidden(crowd, i, &view.discs, neighbors);
+    if (seen_count < count) {
+        kernels->view(&crowd->seen, k, neighbors, seen_count, 1.0f + SKIN_SHARE, &view);
     }
-    tl_crowd_give_way(step, k, neighbors, seen_count);
+    tl_crowd_give_way(step, k, neighbors, &view);
     tl_half_plane_program program;
     program.count = 0;
     accelerate(step, i, &program);
@@ -253,6 +273,6 @@ void tl_crowd_avoid(const crowd_step *step, uint32_t k, float velocity_out[2])
         program.count += avoid_wall(crowd, i, wall, &program.planes[program.count]);
     }
     program.hard_count = program.count;
-    avoid_neighbors(step, k, neighbors, seen_count, &program);
+    avoid_neighbors(step, k, neighbors, &view, &program);
     tl_half_plane_solve(&program, velocity_out);
 }

@@ -86,41 +86,25 @@ static bool allocate_step(tl_nav_crowd *crowd)
     crowd->grid.mask_z = (1u << bits / 2) - 1;
     crowd->grid.shift_z = (bits + 1) / 2;
     crowd->grid.cell_count = 1u << bits;
-    crowd_snapshot *seen = &crowd->seen;
-    float **const floats[] = { &seen->x,      &seen->y,      &seen->z,        &seen->vx,       &seen->vz,
-                               &seen->radius, &seen->height, &seen->priority, &seen->wanted_x, &seen->wanted_z };
-    bool all = true;
-    for (uint32_t i = 0; i < TL_COUNT_OF(floats); i++) {
-        // Kernels read whole vectors, and ignore what lies behind the last agent.
-        *floats[i] = (float *)tl_allocate_array(allocator, count + CROWD_LANES, sizeof(float));
-        if (*floats[i] != NULL) {
-            memset(*floats[i], 0, (size_t)(count + CROWD_LANES) * sizeof(float));
-        }
-        all = all && *floats[i] != NULL;
+    // Kernels read whole vectors, and ignore what lies behind the last agent.
+    crowd->seen.agents =
+        (crowd_seen_agent *)tl_allocate_array(allocator, count + CROWD_LANES, sizeof *crowd->seen.agents);
+    if (crowd->seen.agents != NULL) {
+        memset(crowd->seen.agents, 0, (size_t)(count + CROWD_LANES) * sizeof *crowd->seen.agents);
     }
     crowd->work_capacity = tl_min_u32(crowd->def.paths_per_step, crowd->def.max_agents);
-    seen->agent = (uint32_t *)tl_allocate_array(allocator, count, sizeof(uint32_t));
-    seen->kind = (uint32_t *)tl_allocate_array(allocator, count, sizeof(uint32_t));
     crowd->grid.first =
         (uint32_t *)tl_allocate_array(allocator, (uint64_t)crowd->grid.cell_count + 1, sizeof(uint32_t));
     crowd->grid.cell = (uint32_t *)tl_allocate_array(allocator, count, sizeof(uint32_t));
     crowd->work = (uint32_t *)tl_allocate_array(allocator, crowd->work_capacity, sizeof(uint32_t));
-    return all && seen->agent != NULL && seen->kind != NULL && crowd->grid.first != NULL && crowd->grid.cell != NULL &&
-           crowd->work != NULL;
+    return crowd->seen.agents != NULL && crowd->grid.first != NULL && crowd->grid.cell != NULL && crowd->work != NULL;
 }
 
 static void release_step(tl_nav_crowd *crowd)
 {
     const uint64_t count = crowd->def.max_agents;
     const tl_allocator *allocator = &crowd->allocator;
-    crowd_snapshot *seen = &crowd->seen;
-    float *const floats[] = { seen->x,      seen->y,      seen->z,        seen->vx,       seen->vz,
-                              seen->radius, seen->height, seen->priority, seen->wanted_x, seen->wanted_z };
-    for (uint32_t i = 0; i < TL_COUNT_OF(floats); i++) {
-        tl_release_array(allocator, floats[i], count + CROWD_LANES, sizeof(float));
-    }
-    tl_release_array(allocator, seen->agent, count, sizeof(uint32_t));
-    tl_release_array(allocator, seen->kind, count, sizeof(uint32_t));
+    tl_release_array(allocator, crowd->seen.agents, count + CROWD_LANES, sizeof *crowd->seen.agents);
     tl_release_array(allocator, crowd->grid.first, (uint64_t)crowd->grid.cell_count + 1, sizeof(uint32_t));
     tl_release_array(allocator, crowd->grid.cell, count, sizeof(uint32_t));
     tl_release_array(allocator, crowd->work, crowd->work_capacity, sizeof(uint32_t));

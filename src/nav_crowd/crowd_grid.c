@@ -67,18 +67,19 @@ static void copy_seen_agents(uint32_t block, uint32_t worker, void *user)
     const crowd_snapshot *seen = &step->crowd->seen;
     const uint32_t end = tl_block_end(block, GRID_BLOCK, seen->count);
     for (uint32_t k = block * GRID_BLOCK; k < end; k++) {
-        const uint32_t i = seen->agent[k];
-        seen->x[k] = a->x[i];
-        seen->y[k] = a->y[i];
-        seen->z[k] = a->z[i];
-        seen->vx[k] = a->vx[i];
-        seen->vz[k] = a->vz[i];
-        seen->radius[k] = a->radius[i];
-        seen->height[k] = a->height[i];
-        seen->priority[k] = a->priority[i];
-        seen->wanted_x[k] = a->wanted_x[i];
-        seen->wanted_z[k] = a->wanted_z[i];
-        seen->kind[k] = kind_of(a, i) | (a->flags[i] & CROWD_TRAVEL_MASK);
+        crowd_seen_agent *one = &seen->agents[k];
+        const uint32_t i = one->agent;
+        one->x = a->x[i];
+        one->z = a->z[i];
+        one->radius = a->radius[i];
+        one->bottom = a->y[i];
+        one->top = a->y[i] + a->height[i];
+        one->vx = a->vx[i];
+        one->vz = a->vz[i];
+        one->wanted_x = a->wanted_x[i];
+        one->wanted_z = a->wanted_z[i];
+        one->priority = a->priority[i];
+        one->kind = kind_of(a, i) | (a->flags[i] & CROWD_TRAVEL_MASK);
     }
 }
 
@@ -103,7 +104,7 @@ static void sort_agents(tl_nav_crowd *crowd)
     for (uint32_t i = 0; i < used; i++) {
         if (a->status[i] != CROWD_FREE) {
             const uint32_t k = grid->first[grid->cell[i]]++;
-            crowd->seen.agent[k] = i;
+            crowd->seen.agents[k].agent = i;
             grid->cell[i] = k;
         }
     }

@@ -8,7 +8,7 @@
 #define TALUS_SRC_NAV_CROWD_CROWD_KERNELS_H
 
 #include "base/cpu.h"
-#include "nav_crowd/crowd.h"
+#include "nav_crowd/crowd_neighbors.h"
 #include "nav_crowd/half_plane_program.h"
 
 enum {
@@ -48,12 +48,51 @@ typedef struct crowd_discs {
     float rate, overlap_rate; ///< 1 / seconds: within which they are avoided, and left where they overlap
 } crowd_discs;
 
+/// What else an agent sees of its neighbours, an array for each number. All arrays are filled up to the next multiple
+/// of CROWD_LANES, with the agent itself.
+typedef struct crowd_view {
+    // Metres a second that they want; and where they travel, of any length. Fixed ones as they move.
+    float wanted_x[CROWD_MAX_NEIGHBORS], wanted_z[CROWD_MAX_NEIGHBORS];
+    float way_x[CROWD_MAX_NEIGHBORS], way_z[CROWD_MAX_NEIGHBORS];
+    float priority[CROWD_MAX_NEIGHBORS];
+    uint32_t fixed, still, yields; ///< CROWD_SEEN_..., a bit for each
+    crowd_discs discs;             ///< but for their shares and rates
+} crowd_view;
+
+/// What an agent looks at traffic with.
+typedef struct crowd_outlook {
+    float ahead[2];  ///< unit: where it heads now
+    float travel[2]; ///< unit: where it goes past its corner
+    bool held;       ///< for so long that it may go back: else it only keeps to the right
+    bool late;       ///< others are taken by what they want at present, not by where they travel
+} crowd_outlook;
+
+/// Neighbours, a bit each.
+typedef struct crowd_traffic_bits {
+    uint32_t ahead;
+    uint32_t against; ///< their ways and the agent's make an obtuse angle
+    uint32_t quick;   ///< want to walk no slower than CROWD_STANDING_SPEED
+} crowd_traffic_bits;
+
+#define CROWD_STANDING_SPEED 0.2f ///< metres a second: who wants less does not claim a door
+
+/// The end of the lanes that `count` neighbours fill.
+static inline uint32_t tl_crowd_lanes_end(uint32_t count)
+{
+    return (count + CROWD_LANES - 1) / CROWD_LANES * CROWD_LANES;
+}
+
 typedef struct crowd_kernels {
     /// Scans the spans from the next one on; at the end there are none. False: it is full, and there may be more.
     bool (*scan)(crowd_scan *scan);
     /// How many of `count` <= CROWD_MAX_FOUND gaps are smaller than each. May write behind them, in both arrays, up to
     /// the next multiple of CROWD_LANES. False: two are equal.
     bool (*rank)(float *gaps, uint32_t count, uint32_t *ranks_out);
+    /// Fills a view of neighbours, seen from the agent at `self` of the snapshot. `radius_share`: of both radii.
+    void (*view)(const crowd_snapshot *seen, uint32_t self, const crowd_neighbor *neighbors, uint32_t count,
+                 float radius_share, crowd_view *view_out);
+    /// Looks at the neighbours of a view.
+    crowd_traffic_bits (*traffic)(const crowd_view *view, const crowd_outlook *look);
     /// The half-plane of each disc. Writes up to the next multiple of CROWD_LANES.
     void (*avoid)(const crowd_discs *discs, tl_half_plane *planes_out);
 } crowd_kernels;
@@ -74,5 +113,10 @@ static inline const crowd_kernels *tl_crowd_best_kernels(void)
     return &tl_crowd_kernels_scalar;
 #endif
 }
+
+/// Keeps to the right of those who come the other way, lets them pass where neither gets on, and settles an agent that
+/// stands before others with its goal (crowd_right_of_way.c): changes what it wants. The neighbours are those that it
+/// sees.
+void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor *neighbors, const crowd_view *view);
 
 #endif

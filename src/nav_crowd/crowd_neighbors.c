@@ -43,7 +43,7 @@ static uint64_t order_of(const crowd_scan *scan, uint32_t i)
     uint32_t bits;
     memcpy(&bits, &scan->gap[i], sizeof bits);
     bits = (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
-    return (uint64_t)bits << 32 | scan->seen->agent[scan->at[i]];
+    return (uint64_t)bits << 32 | scan->seen->agents[scan->at[i]].agent;
 }
 
 // Where some gaps are equal.
@@ -73,7 +73,7 @@ static uint32_t keep_nearest(neighbor_search *search)
     const uint32_t kept = tl_min_u32(scan->count, search->capacity);
     for (uint32_t i = 0; i < scan->count; i++) {
         if (ranks[i] < kept) {
-            const crowd_neighbor neighbor = { scan->gap[i], scan->seen->agent[scan->at[i]], scan->at[i] };
+            const crowd_neighbor neighbor = { scan->gap[i], scan->seen->agents[scan->at[i]].agent, scan->at[i] };
             search->nearest[ranks[i]] = neighbor;
         }
     }
@@ -151,7 +151,7 @@ static void scan_circle(neighbor_search *search, const grid_place *at)
 {
     const crowd_grid *grid = &search->crowd->grid;
     const crowd_snapshot *seen = &search->crowd->seen;
-    const float far = search->scan.reach + seen->radius[search->scan.self] + seen->max_radius + at->slack;
+    const float far = search->scan.reach + seen->agents[search->scan.self].radius + seen->max_radius + at->slack;
     if (2.0f * (far + at->slack) / grid->cell_size + 4.0f < (float)tl_min_u32(grid->mask_x, grid->mask_z)) {
         bool is_up = true, is_down = true;
         add_cut_cell_row(search, at, far, 0);
@@ -181,8 +181,9 @@ static bool scan_throng(neighbor_search *search, const grid_place *at)
     // Beyond the cells around it every center is more than a cell away.
     const uint32_t found = keep_nearest(search);
     const float cell = search->crowd->grid.cell_size;
-    const bool is_done = found == search->capacity &&
-                         search->nearest[found - 1].gap < cell - seen->radius[search->scan.self] - seen->max_radius;
+    const bool is_done =
+        found == search->capacity &&
+        search->nearest[found - 1].gap < cell - seen->agents[search->scan.self].radius - seen->max_radius;
     search->scan.count = is_done ? found : 0;
     return is_done;
 }
@@ -194,7 +195,7 @@ uint32_t tl_crowd_find_neighbors(const tl_nav_crowd *crowd, uint32_t k, crowd_ne
     neighbor_search search;
     search.crowd = crowd;
     search.kernels = tl_crowd_best_kernels();
-    search.rounding = DISTANCE_ROUNDING * (crowd->def.neighbor_distance + seen->radius[k] + seen->max_radius);
+    search.rounding = DISTANCE_ROUNDING * (crowd->def.neighbor_distance + seen->agents[k].radius + seen->max_radius);
     search.capacity = crowd->def.max_neighbors;
     search.nearest = neighbors_out;
     search.scan.seen = seen;
@@ -203,9 +204,10 @@ uint32_t tl_crowd_find_neighbors(const tl_nav_crowd *crowd, uint32_t k, crowd_ne
     search.scan.next_span = search.scan.span_count = 0;
     search.scan.full = search.capacity + CROWD_MORE_FOUND;
     search.scan.count = 0;
-    const double largest = fmax(fabs((double)seen->x[k]), fabs((double)seen->z[k]));
-    const grid_place at = { tl_crowd_place_in_grid(seen->x[k], cell), tl_crowd_place_in_grid(seen->z[k], cell),
-                            1.0f / cell, search.rounding + (float)(PLACE_ROUNDING * largest) };
+    const double largest = fmax(fabs((double)seen->agents[k].x), fabs((double)seen->agents[k].z));
+    const grid_place at = { tl_crowd_place_in_grid(seen->agents[k].x, cell),
+                            tl_crowd_place_in_grid(seen->agents[k].z, cell), 1.0f / cell,
+                            search.rounding + (float)(PLACE_ROUNDING * largest) };
     if (scan_throng(&search, &at)) {
         return search.scan.count;
     }

@@ -46,9 +46,4 @@ uint32_t tl_crowd_find_neighbors(const tl_nav_crowd *crowd, uint32_t k, crowd_ne
 /// Whether two agents have one goal: so near that they cannot both stand at theirs.
 bool tl_crowd_has_goal_of(const tl_nav_crowd *crowd, uint32_t i, uint32_t other);
 
-/// Keeps to the right of those who come the other way, lets them pass where neither gets on, and settles an agent that
-/// stands before others with its goal (crowd_right_of_way.c): changes what it wants. The neighbours are those that it
-/// sees.
-void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor *neighbors, uint32_t count);
-
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The crowd's kernels against plain loops, and bit for bit against their twin in plain C: who is found, in which order,
-// and half-planes that lead to the border of what is forbidden.
+// what is seen of them, and half-planes that lead to the border of what is forbidden.
 
 #include "nav_crowd/crowd_kernels.h"
 
@@ -24,24 +24,20 @@ static uint32_t kernel_count(void)
     return TL_CPU_LEVELS >= 1 && tl_cpu_has_level(1) ? 2 : 1;
 }
 
-static float numbers[8][AGENTS + CROWD_LANES];
+static crowd_seen_agent agents[AGENTS + CROWD_LANES];
 
 static crowd_snapshot random_snapshot(test_random *random)
 {
     crowd_snapshot seen;
     memset(&seen, 0, sizeof seen);
-    seen.x = numbers[0];
-    seen.y = numbers[1];
-    seen.z = numbers[2];
-    seen.radius = numbers[3];
-    seen.height = numbers[4];
+    seen.agents = agents;
     seen.count = AGENTS;
     for (uint32_t i = 0; i < AGENTS; i++) {
-        seen.x[i] = test_random_range(random, -5.0f, 5.0f);
-        seen.y[i] = test_random_below(random, 8) == 0 ? 2.5f : 0.0f;
-        seen.z[i] = test_random_range(random, -5.0f, 5.0f);
-        seen.radius[i] = test_random_range(random, 0.1f, 0.6f);
-        seen.height[i] = test_random_range(random, 1.0f, 3.0f);
+        agents[i].x = test_random_range(random, -5.0f, 5.0f);
+        agents[i].bottom = test_random_below(random, 8) == 0 ? 2.5f : 0.0f;
+        agents[i].z = test_random_range(random, -5.0f, 5.0f);
+        agents[i].radius = test_random_range(random, 0.1f, 0.6f);
+        agents[i].top = agents[i].bottom + test_random_range(random, 1.0f, 3.0f);
     }
     return seen;
 }
@@ -65,13 +61,11 @@ static crowd_scan random_scan(test_random *random, const crowd_snapshot *seen)
 
 static bool is_near(const crowd_scan *scan, uint32_t k, float *gap)
 {
-    const crowd_snapshot *seen = scan->seen;
-    const uint32_t self = scan->self;
-    const float dx = seen->x[k] - seen->x[self], dz = seen->z[k] - seen->z[self];
-    const float rims = seen->radius[k] + seen->radius[self], far = scan->reach + rims;
+    const crowd_seen_agent *own = &scan->seen->agents[scan->self], *other = &scan->seen->agents[k];
+    const float dx = other->x - own->x, dz = other->z - own->z;
+    const float rims = other->radius + own->radius, far = scan->reach + rims;
     *gap = sqrtf(dx * dx + dz * dz) - rims;
-    return k != self && dx * dx + dz * dz < far * far && seen->y[k] < seen->y[self] + seen->height[self] &&
-           seen->y[self] < seen->y[k] + seen->height[k];
+    return other != own && dx * dx + dz * dz < far * far && other->bottom < own->top && own->bottom < other->top;
 }
 
 // Each time a scan is full it is emptied, and goes on where it stopped.
@@ -209,11 +203,92 @@ static void test_avoid(void **state)
     TEST_CHECK(counts[0] > 1000 && counts[1] > 1000 && counts[2] > 1000);
 }
 
+static uint32_t random_neighbors(test_random *random, crowd_neighbor *neighbors)
+{
+    static const uint32_t kinds[] = { 0, 0, 0, CROWD_SEEN_FIXED, CROWD_SEEN_STILL, CROWD_SEEN_YIELDS };
+    for (uint32_t i = 0; i < AGENTS; i++) {
+        agents[i].vx = test_random_range(random, -2.0f, 2.0f);
+        agents[i].vz = test_random_range(random, -2.0f, 2.0f);
+        const float speed = test_random_below(random, 3) == 0 ? 0.2f : 2.0f;
+        agents[i].wanted_x = test_random_range(random, -speed, speed);
+        agents[i].wanted_z = test_random_range(random, -speed, speed);
+        agents[i].priority = test_random_unit(random);
+        agents[i].kind = kinds[test_random_below(random, 6)] | test_random_below(random, 65536) << CROWD_TRAVEL_SHIFT;
+    }
+    const uint32_t count = test_random_below(random, CROWD_MAX_NEIGHBORS + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        neighbors[i].snapshot = test_random_below(random, AGENTS);
+    }
+    return count;
+}
+
+// What a neighbour wants, and where it goes; of one that is fixed, how it moves.
+static void check_way(const crowd_view *view, uint32_t n, const crowd_seen_agent *one)
+{
+    const bool is_fixed = (one->kind & CROWD_SEEN_FIXED) != 0;
+    const int32_t x = (int32_t)(one->kind >> 16 & 255), z = (int32_t)(one->kind >> 24);
+    TEST_CHECK(view->wanted_x[n] == (is_fixed ? one->vx : one->wanted_x));
+    TEST_CHECK(view->wanted_z[n] == (is_fixed ? one->vz : one->wanted_z));
+    TEST_CHECK(view->way_x[n] == (is_fixed ? one->vx : (float)(x < 128 ? x : x - 256)));
+    TEST_CHECK(view->way_z[n] == (is_fixed ? one->vz : (float)(z < 128 ? z : z - 256)));
+    TEST_CHECK((view->fixed >> n & 1) == (uint32_t)is_fixed);
+    TEST_CHECK((view->still >> n & 1) == (uint32_t)((one->kind & CROWD_SEEN_STILL) != 0));
+    TEST_CHECK((view->yields >> n & 1) == (uint32_t)((one->kind & CROWD_SEEN_YIELDS) != 0));
+}
+
+static void check_view(const crowd_view *view, const crowd_seen_agent *own, const crowd_neighbor *neighbors)
+{
+    const crowd_discs *discs = &view->discs;
+    TEST_CHECK(discs->own_vx == own->vx && discs->own_vz == own->vz);
+    for (uint32_t n = 0; n < discs->count; n++) {
+        const crowd_seen_agent *one = &agents[neighbors[n].snapshot];
+        TEST_CHECK(discs->x[n] == one->x - own->x && discs->z[n] == one->z - own->z);
+        TEST_CHECK(discs->vx[n] == own->vx - one->vx && discs->vz[n] == own->vz - one->vz);
+        TEST_CHECK(discs->radius[n] == 1.5f * (own->radius + one->radius) && view->priority[n] == one->priority);
+        check_way(view, n, one);
+    }
+}
+
+static void check_traffic(const crowd_view *view, const crowd_outlook *look, const crowd_traffic_bits *bits)
+{
+    for (uint32_t n = 0; n < view->discs.count; n++) {
+        const float x = look->late ? view->wanted_x[n] : view->way_x[n];
+        const float z = look->late ? view->wanted_z[n] : view->way_z[n];
+        const float ahead = view->discs.x[n] * look->ahead[0] + view->discs.z[n] * look->ahead[1];
+        const float speed_sq = view->wanted_x[n] * view->wanted_x[n] + view->wanted_z[n] * view->wanted_z[n];
+        TEST_CHECK((bits->ahead >> n & 1) == (uint32_t)(ahead > 0.0f));
+        TEST_CHECK((bits->against >> n & 1) == (uint32_t)(x * look->travel[0] + z * look->travel[1] < 0.0f));
+        TEST_CHECK((bits->quick >> n & 1) == (uint32_t)(speed_sq >= CROWD_STANDING_SPEED * CROWD_STANDING_SPEED));
+    }
+}
+
+static void test_view(void **state)
+{
+    (void)state;
+    test_random random = { 8 };
+    for (uint32_t round = 0; round < 2000; round++) {
+        const crowd_snapshot seen = random_snapshot(&random);
+        crowd_neighbor neighbors[CROWD_MAX_NEIGHBORS];
+        const uint32_t count = random_neighbors(&random, neighbors), self = test_random_below(&random, AGENTS);
+        const float ahead = test_random_range(&random, -1.0f, 1.0f), travel = test_random_range(&random, -1.0f, 1.0f);
+        const crowd_outlook look = { { ahead, 1.0f - ahead }, { travel, 1.0f - travel }, false, round % 2 != 0 };
+        for (uint32_t i = 0; i < kernel_count(); i++) {
+            crowd_view view;
+            kernels[i]->view(&seen, self, neighbors, count, 1.5f, &view);
+            const crowd_traffic_bits bits = kernels[i]->traffic(&view, &look);
+            TEST_CHECK(view.discs.count == count);
+            check_view(&view, &agents[self], neighbors);
+            check_traffic(&view, &look, &bits);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_scan),
         cmocka_unit_test(test_rank),
+        cmocka_unit_test(test_view),
         cmocka_unit_test(test_avoid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

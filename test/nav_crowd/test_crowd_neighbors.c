@@ -21,13 +21,14 @@ static uint32_t scan_all(const tl_nav_crowd *crowd, uint32_t k, crowd_neighbor *
     const crowd_snapshot *seen = &crowd->seen;
     uint32_t count = 0;
     for (uint32_t n = 0; n < seen->count; n++) {
-        float dx = seen->x[n] - seen->x[k], dz = seen->z[n] - seen->z[k], rims = seen->radius[n] + seen->radius[k];
+        float dx = seen->agents[n].x - seen->agents[k].x, dz = seen->agents[n].z - seen->agents[k].z,
+              rims = seen->agents[n].radius + seen->agents[k].radius;
         float far = crowd->def.neighbor_distance + rims;
-        bool floor = seen->y[n] < seen->y[k] + seen->height[k] && seen->y[k] < seen->y[n] + seen->height[n];
+        bool floor = seen->agents[n].bottom < seen->agents[k].top && seen->agents[k].bottom < seen->agents[n].top;
         if (n == k || !floor || !(dx * dx + dz * dz < far * far)) {
             continue;
         }
-        crowd_neighbor neighbor = { sqrtf(dx * dx + dz * dz) - rims, seen->agent[n], n };
+        crowd_neighbor neighbor = { sqrtf(dx * dx + dz * dz) - rims, seen->agents[n].agent, n };
         uint32_t at = count < crowd->def.max_neighbors ? count++ : count;
         while (at > 0 && (neighbor.gap < out[at - 1].gap ||
                           (neighbor.gap == out[at - 1].gap && neighbor.agent < out[at - 1].agent))) {
