@@ -96,9 +96,11 @@ static bool find_exit(surface_ray *ray, const tl_vec3 *corners, uint32_t count, 
 }
 
 // Whether the ray goes through this stretch of a seam.
-static bool is_through(surface_ray *ray, const tl_nav_seam_link *seam)
+static bool is_through(surface_ray *ray, const tl_nav_tile *tile, uint32_t portal, const tl_nav_seam_link *seam)
 {
-    return !is_left_of_ray(ray, seam->right) && is_left_of_ray(ray, seam->left);
+    tl_vec3 left, right;
+    tl_nav_seam_ends(tile, portal, seam, &left, &right);
+    return !is_left_of_ray(ray, right) && is_left_of_ray(ray, left);
 }
 
 // Steps over an edge; false at a wall, at a gap in a tile's seam, and where the filter refuses the polygon behind.
@@ -115,15 +117,16 @@ static bool step_over(surface_ray *ray, uint32_t edge, uint32_t *slot, uint32_t 
         const tl_nav_seam_link *seam = NULL;
         const tl_nav_seam_link *end = NULL;
         uint64_t key = 0;
-        tl_nav_seam_range(from, link & ~TL_NAV_LINK_PORTAL, &seam, &end, &key);
-        while (seam != end && !is_through(ray, seam)) {
+        const uint32_t portal = link & ~TL_NAV_LINK_PORTAL;
+        tl_nav_seam_range(from, portal, &seam, &end, &key);
+        while (seam != end && !is_through(ray, from->tile, portal, seam)) {
             seam++;
         }
         if (seam == end) {
             return false;
         }
-        to_slot = seam->slot;
-        to_polygon = seam->polygon;
+        to_slot = tl_nav_seam_slot(seam);
+        to_polygon = tl_nav_seam_polygon(seam);
     }
     if (!tl_nav_passes(ray->filter, ray->navmesh->slots[to_slot].tile, to_polygon)) {
         return false;

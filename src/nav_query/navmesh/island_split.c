@@ -82,7 +82,8 @@ static void reach_over_seams(island_splitter *s, uint32_t piece, const tl_nav_is
         for (uint32_t i = 0; links->first != NULL && i < links->portal_count; i++) {
             if (tl_nav_component_of(&slot->rings, portals[i].polygon) == component) {
                 for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
-                    reach_node(s, piece, links->links[k].slot, links->links[k].polygon);
+                    const tl_nav_seam_link *link = &tl_nav_seam_links_of(links)[k];
+                    reach_node(s, piece, tl_nav_seam_slot(link), tl_nav_seam_polygon(link));
                 }
             }
         }

@@ -210,10 +210,11 @@ void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot)
     for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         const tl_nav_side_links *links = &own->sides[side];
         const tl_nav_portal *portals = tl_nav_tile_portals(own->tile) + tl_nav_tile_side_first(own->tile, side);
-        for (uint32_t i = 0; links->first != NULL && i < links->portal_count; i++) {
+        const tl_nav_seam_link *seams = links->first != NULL ? tl_nav_seam_links_of(links) : NULL;
+        for (uint32_t i = 0; seams != NULL && i < links->portal_count; i++) {
             for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
                 uint32_t node = node_of(navmesh, slot, portals[i].polygon);
-                uint32_t neighbour = node_of(navmesh, links->links[k].slot, links->links[k].polygon);
+                uint32_t neighbour = node_of(navmesh, tl_nav_seam_slot(&seams[k]), tl_nav_seam_polygon(&seams[k]));
                 join_labels(&navmesh->islands, TL_NAV_SEAM_ISLANDS, node, neighbour);
                 join_labels(&navmesh->islands, TL_NAV_ISLANDS, node, neighbour);
             }
@@ -244,7 +245,8 @@ void tl_nav_leave_islands(tl_navmesh *navmesh, uint32_t slot)
     const tl_nav_slot *own = &navmesh->slots[slot];
     for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         for (uint32_t k = 0; k < own->sides[side].link_count; k++) {
-            tl_nav_seed_island(navmesh, own->sides[side].links[k].slot, own->sides[side].links[k].polygon);
+            const tl_nav_seam_link *link = &tl_nav_seam_links_of(&own->sides[side])[k];
+            tl_nav_seed_island(navmesh, tl_nav_seam_slot(link), tl_nav_seam_polygon(link));
         }
     }
     islands->seam_seed_count = islands->seed_count;

@@ -10,21 +10,41 @@
 #include "nav_query/navmesh/offmesh.h"
 #include "nav_query/navmesh/rings.h"
 
-/// A way into another tile, across the border or a cut.
+enum { TL_NAV_REF_POLYGON_BITS = 28, TL_NAV_REF_SLOT_BITS = 20, TL_NAV_SEAM_LAYER_BITS = 16 };
+
+/// A way into another tile, across the border or a cut. Where it lies is where both portals do: tl_nav_seam_ends.
 typedef struct tl_nav_seam_link {
-    uint32_t slot, polygon; ///< where it leads
-    int32_t low;            ///< of the portal across
-    uint32_t layer;         ///< of the tile across; a portal's links stand by low, then layer
-    tl_vec3 left, right;    ///< seen looking out
+    uint64_t place;    ///< across: slot, then polygon, then the tile's layer in the lowest bits
+    int32_t low, high; ///< of the portal across; a portal's links stand by low, then layer
 } tl_nav_seam_link;
 
-/// The links of one side of a tile; portal i of the side has [first[i], first[i + 1]). NULL without links.
+static inline uint32_t tl_nav_seam_slot(const tl_nav_seam_link *link)
+{
+    return (uint32_t)(link->place >> (TL_NAV_REF_POLYGON_BITS + TL_NAV_SEAM_LAYER_BITS));
+}
+
+static inline uint32_t tl_nav_seam_polygon(const tl_nav_seam_link *link)
+{
+    return (uint32_t)(link->place >> TL_NAV_SEAM_LAYER_BITS) & ((1u << TL_NAV_REF_POLYGON_BITS) - 1);
+}
+
+/// The links of one side of a tile; portal i of the side has [first[i], first[i + 1]). Without links it is zero.
 struct tl_nav_side_links {
-    uint32_t *first;
-    tl_nav_seam_link *links;
+    uint32_t *first; ///< of a block that holds them, how many links it has room for, and the links
     uint32_t portal_count;
-    uint32_t link_count, link_capacity;
+    uint32_t link_count;
 };
+
+/// `side` has some.
+static inline tl_nav_seam_link *tl_nav_seam_links_of(const tl_nav_side_links *side)
+{
+    // Behind portal_count + 2 numbers, rounded up to an even count.
+    return (tl_nav_seam_link *)(void *)(side->first + (((size_t)side->portal_count + 3) & ~(size_t)1));
+}
+
+/// The ends of a way over one of the tile's portals, seen looking out (tile_links.c).
+void tl_nav_seam_ends(const tl_nav_tile *tile, uint32_t portal, const tl_nav_seam_link *link, tl_vec3 *left_out,
+                      tl_vec3 *right_out);
 
 /// A change of the navmesh: which one it was, counted from 1, and of which tile.
 typedef struct tl_nav_edit {
@@ -151,8 +171,6 @@ static inline void tl_nav_touch_slot(const tl_navmesh *navmesh, uint32_t slot)
 {
     tl_nav_touch(navmesh->history, TL_NAV_PAGED_SLOTS, slot);
 }
-
-enum { TL_NAV_REF_POLYGON_BITS = 28, TL_NAV_REF_SLOT_BITS = 20 };
 
 static inline tl_nav_ref tl_nav_make_ref(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
 {

@@ -50,19 +50,23 @@ static void add_gap(ring_writer *writer, tl_vec3 at, tl_vec3 point, tl_vec3 ahea
 }
 
 // The pieces of a border edge from `start` to `end`. The links ascend along the side, the edge does on sides 0 and 1.
-static void add_seam_edge(ring_writer *writer, tl_vec3 start, tl_vec3 end, const tl_nav_side_links *side,
-                          uint32_t portal, bool rising)
+static void add_seam_edge(ring_writer *writer, const tl_nav_tile *tile, uint32_t portal, tl_vec3 start, tl_vec3 end,
+                          const tl_nav_side_links *links)
 {
-    uint32_t begin = side->first[portal];
-    uint32_t count = side->first[portal + 1] - begin;
+    const uint32_t side = tl_nav_tile_side_of(tile, portal);
+    const uint32_t *first = links->first + (portal - tl_nav_tile_side_first(tile, side));
+    const tl_nav_seam_link *seams = tl_nav_seam_links_of(links) + first[0];
+    const uint32_t count = first[1] - first[0];
     tl_vec3 ahead = tl_sub(end, start);
     tl_vec3 at = start;
     for (uint32_t i = 0; i < count; i++) {
-        const tl_nav_seam_link *link = &side->links[begin + (rising ? i : count - 1 - i)];
-        const tl_nav_ring_seam seam = { link->slot, link->polygon };
-        add_gap(writer, at, link->right, ahead);
-        add_ring_edge(writer, link->right, add_ring_seam(writer, seam), TL_NAV_RING_ON_PORTAL);
-        at = link->left;
+        const tl_nav_seam_link *link = &seams[side < 2 ? i : count - 1 - i];
+        const tl_nav_ring_seam seam = { tl_nav_seam_slot(link), tl_nav_seam_polygon(link) };
+        tl_vec3 left, right;
+        tl_nav_seam_ends(tile, portal, link, &left, &right);
+        add_gap(writer, at, right, ahead);
+        add_ring_edge(writer, right, add_ring_seam(writer, seam), TL_NAV_RING_ON_PORTAL);
+        at = left;
     }
     add_gap(writer, at, end, ahead);
 }
@@ -84,7 +88,7 @@ static void add_ring(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_
         if (sides[side]->first == NULL || sides[side]->first[at] == sides[side]->first[at + 1]) {
             add_ring_edge(writer, corners[k], TL_NAV_RING_WALL, TL_NAV_RING_ON_PORTAL);
         } else {
-            add_seam_edge(writer, corners[k], corners[k + 1 < count ? k + 1 : 0], sides[side], at, side < 2);
+            add_seam_edge(writer, tile, portal, corners[k], corners[k + 1 < count ? k + 1 : 0], sides[side]);
         }
     }
 }

@@ -124,7 +124,7 @@ static seam make_seam(const tl_nav_tile_side *a, const tl_nav_tile_side *b)
 }
 
 // Portals of a side are sorted by low. Calls back for every pair that is to be linked, by a's order, then b's.
-typedef void pair_fn(const seam *s, uint32_t i, uint32_t j, int32_t low, int32_t high, void *user);
+typedef void pair_fn(const seam *s, uint32_t i, uint32_t j, void *user);
 
 static void for_each_overlap(const seam *s, pair_fn *pair, void *user)
 {
@@ -141,7 +141,7 @@ static void for_each_overlap(const seam *s, pair_fn *pair, void *user)
             if (low < high &&
                 profiles_meet(cursor_of(s->tiles[0], s->first[0] + i, s->sides[0]),
                               cursor_of(s->tiles[1], s->first[1] + j, s->sides[1]), low, high, s->tolerance)) {
-                pair(s, i, j, low, high, user);
+                pair(s, i, j, user);
             }
         }
     }
@@ -173,7 +173,7 @@ static void for_each_cut(const seam *s, pair_fn *pair, void *user)
         const tl_nav_portal *b = &s->portals[1][at[1]];
         const int order = tl_nav_cut_compare(s->tiles[0], a, s->tiles[1], b);
         if (order == 0 && runs_up(s->tiles[0], a) != runs_up(s->tiles[1], b)) {
-            pair(s, at[0], at[1], 0, 0, user);
+            pair(s, at[0], at[1], user);
         }
         at[0] += order <= 0;
         at[1] += order >= 0;
@@ -189,12 +189,10 @@ static void for_each_pair(const seam *s, pair_fn *pair, void *user)
     }
 }
 
-static void count_pair(const seam *s, uint32_t i, uint32_t j, int32_t low, int32_t high, void *user)
+static void count_pair(const seam *s, uint32_t i, uint32_t j, void *user)
 {
     tl_nav_side_links *out = user;
     (void)s;
-    (void)low;
-    (void)high;
     out[0].first[i + 1]++;
     out[1].first[j + 1]++;
 }
@@ -226,57 +224,81 @@ static tl_vec3 edge_point(const tl_nav_tile *tile, const tl_nav_portal *portal, 
     return point;
 }
 
-static void add_link(const seam *s, int from, uint32_t portal, uint32_t other, int32_t low, int32_t high,
-                     tl_nav_side_links *out)
+void tl_nav_seam_ends(const tl_nav_tile *tile, uint32_t portal, const tl_nav_seam_link *link, tl_vec3 *left_out,
+                      tl_vec3 *right_out)
 {
-    const tl_nav_portal *own = &s->portals[from][portal];
-    const tl_nav_portal *across = &s->portals[1 - from][other];
-    uint32_t side = s->sides[from];
+    const tl_nav_portal *own = tl_nav_tile_portals(tile) + portal;
+    const uint32_t side = tl_nav_tile_side_of(tile, portal);
     if (side == TL_NAV_SIDE_CUT) {
         uint32_t count = 0;
-        const tl_nav_tile *tile = s->tiles[from];
         const tl_vec3 *corners = tl_nav_tile_corners(tile, own->polygon, &count);
-        uint32_t edge = own->corner - ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[own->polygon];
-        tl_nav_seam_link link = { s->slots[1 - from],          across->polygon, across->low, s->tiles[1 - from]->layer,
-                                  corners[(edge + 1) % count], corners[edge] };
-        out->links[out->first[portal]++] = link;
+        const uint32_t edge = own->corner - ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[own->polygon];
+        *left_out = corners[edge + 1 < count ? edge + 1 : 0];
+        *right_out = corners[edge];
         return;
     }
-    tl_vec3 at_low = edge_point(s->tiles[from], own, side, low);
-    tl_vec3 at_high = edge_point(s->tiles[from], own, side, high);
-    bool rising = side < 2;
+    const tl_vec3 low = edge_point(tile, own, side, own->low > link->low ? own->low : link->low);
+    const tl_vec3 high = edge_point(tile, own, side, own->high < link->high ? own->high : link->high);
     // An edge runs from its right end to its left end, seen looking out.
-    tl_nav_seam_link link = { s->slots[1 - from],        across->polygon,           across->low,
-                              s->tiles[1 - from]->layer, rising ? at_high : at_low, rising ? at_low : at_high };
-    out->links[out->first[portal]++] = link;
+    *left_out = side < 2 ? high : low;
+    *right_out = side < 2 ? low : high;
 }
 
-static void fill_pair(const seam *s, uint32_t i, uint32_t j, int32_t low, int32_t high, void *user)
+static void add_link(const seam *s, int from, uint32_t portal, uint32_t other, tl_nav_side_links *out)
+{
+    const tl_nav_portal *across = &s->portals[1 - from][other];
+    const uint64_t polygon = (uint64_t)s->slots[1 - from] << TL_NAV_REF_POLYGON_BITS | across->polygon;
+    const tl_nav_seam_link link = { polygon << TL_NAV_SEAM_LAYER_BITS | s->tiles[1 - from]->layer, across->low,
+                                    across->high };
+    tl_nav_seam_links_of(out)[out->first[portal]++] = link;
+}
+
+static void fill_pair(const seam *s, uint32_t i, uint32_t j, void *user)
 {
     tl_nav_side_links *out = user;
-    add_link(s, 0, i, j, low, high, &out[0]);
-    add_link(s, 1, j, i, low, high, &out[1]);
+    add_link(s, 0, i, j, &out[0]);
+    add_link(s, 1, j, i, &out[1]);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// The links of a side.
+
+static uint64_t side_block_size(uint32_t portal_count, uint32_t link_capacity)
+{
+    const uint64_t numbers = ((uint64_t)portal_count + 3) & ~(uint64_t)1;
+    return numbers * sizeof(uint32_t) + link_capacity * (uint64_t)sizeof(tl_nav_seam_link);
+}
+
+// Room for links of so many portals, none of which has any yet. NULL `first`: there is no memory.
+static tl_nav_side_links allocate_side(const tl_allocator *allocator, uint32_t portal_count, uint32_t link_capacity)
+{
+    tl_nav_side_links side = { NULL, portal_count, 0 };
+    side.first = tl_allocate_array(allocator, side_block_size(portal_count, link_capacity), 1);
+    if (side.first != NULL) {
+        memset(side.first, 0, (size_t)side_block_size(portal_count, 0));
+        side.first[portal_count + 1] = link_capacity;
+    }
+    return side;
 }
 
 void tl_nav_free_side(const tl_allocator *allocator, tl_nav_side_links *side)
 {
-    tl_release_array(allocator, side->first, (uint64_t)side->portal_count + 1, sizeof *side->first);
-    tl_release_array(allocator, side->links, side->link_capacity, sizeof *side->links);
+    if (side->first != NULL) {
+        const uint32_t link_capacity = side->first[side->portal_count + 1];
+        tl_release_array(allocator, side->first, side_block_size(side->portal_count, link_capacity), 1);
+    }
     memset(side, 0, sizeof *side);
 }
 
 tl_result tl_nav_copy_side(const tl_allocator *allocator, tl_nav_side_links *side)
 {
-    tl_nav_side_links copy = *side;
-    const uint64_t firsts = (uint64_t)side->portal_count + 1;
-    copy.first = tl_allocate_array(allocator, firsts, sizeof *copy.first);
-    copy.links = tl_allocate_array(allocator, copy.link_capacity, sizeof *copy.links);
-    if (copy.first == NULL || copy.links == NULL) {
-        tl_nav_free_side(allocator, &copy);
+    tl_nav_side_links copy = allocate_side(allocator, side->portal_count, side->link_count);
+    if (copy.first == NULL) {
         return TL_ERR_MEMORY;
     }
-    memcpy(copy.first, side->first, (size_t)firsts * sizeof *copy.first);
-    memcpy(copy.links, side->links, side->link_count * sizeof *copy.links);
+    copy.link_count = side->link_count;
+    memcpy(copy.first, side->first, ((size_t)side->portal_count + 1) * sizeof *copy.first);
+    memcpy(tl_nav_seam_links_of(&copy), tl_nav_seam_links_of(side), side->link_count * sizeof(tl_nav_seam_link));
     tl_nav_free_side(allocator, side);
     *side = copy;
     return TL_OK;
@@ -297,95 +319,104 @@ static void restore_first(tl_nav_side_links *side)
     side->first[0] = 0;
 }
 
+// Makes both sides' links, whose numbers by portal `counted` holds.
+static bool fill_sides(const tl_allocator *allocator, const seam *s, const tl_nav_side_links *counted,
+                       tl_nav_side_links *out)
+{
+    for (int i = 0; i < 2; i++) {
+        const uint32_t link_count = counted[i].first[s->counts[i]];
+        out[i] = allocate_side(allocator, s->counts[i], link_count);
+        if (out[i].first == NULL) {
+            return false;
+        }
+        out[i].link_count = link_count;
+        memcpy(out[i].first, counted[i].first, ((size_t)s->counts[i] + 1) * sizeof *out[i].first);
+    }
+    for_each_pair(s, fill_pair, out);
+    restore_first(&out[0]);
+    restore_first(&out[1]);
+    return true;
+}
+
 tl_result tl_nav_link_sides(const tl_allocator *allocator, const tl_nav_tile_side *a, const tl_nav_tile_side *b,
                             tl_nav_side_links *a_out, tl_nav_side_links *b_out)
 {
-    seam s = make_seam(a, b);
-    tl_nav_side_links out[2];
+    const seam s = make_seam(a, b);
+    tl_nav_side_links counted[2], out[2];
     memset(out, 0, sizeof out);
-    bool fits = true;
-    for (int i = 0; i < 2; i++) {
-        out[i].portal_count = s.counts[i];
-        out[i].first = tl_allocate_array(allocator, (uint64_t)s.counts[i] + 1, sizeof *out[i].first);
-        fits = fits && out[i].first != NULL;
-        if (out[i].first != NULL) {
-            memset(out[i].first, 0, ((size_t)s.counts[i] + 1) * sizeof *out[i].first);
-        }
-    }
+    counted[0] = allocate_side(allocator, s.counts[0], 0);
+    counted[1] = allocate_side(allocator, s.counts[1], 0);
+    bool fits = counted[0].first != NULL && counted[1].first != NULL;
     if (fits) {
-        for_each_pair(&s, count_pair, out);
-        for (int i = 0; i < 2; i++) {
-            sum_counts(&out[i]);
-            out[i].link_count = out[i].link_capacity = out[i].first[out[i].portal_count];
-            out[i].links = tl_allocate_array(allocator, out[i].link_count, sizeof *out[i].links);
-            fits = fits && out[i].links != NULL;
-        }
+        for_each_pair(&s, count_pair, counted);
+        sum_counts(&counted[0]);
+        sum_counts(&counted[1]);
+        fits = counted[0].first[s.counts[0]] == 0 || fill_sides(allocator, &s, counted, out);
     }
+    tl_nav_free_side(allocator, &counted[0]);
+    tl_nav_free_side(allocator, &counted[1]);
     if (!fits) {
         tl_nav_free_side(allocator, &out[0]);
         tl_nav_free_side(allocator, &out[1]);
         return TL_ERR_MEMORY;
-    }
-    for_each_pair(&s, fill_pair, out);
-    for (int i = 0; i < 2; i++) {
-        restore_first(&out[i]);
-        if (out[i].link_count == 0) {
-            tl_nav_free_side(allocator, &out[i]);
-        }
     }
     *a_out = out[0];
     *b_out = out[1];
     return TL_OK;
 }
 
+static uint32_t seam_layer(const tl_nav_seam_link *link)
+{
+    return (uint32_t)link->place & ((1u << TL_NAV_SEAM_LAYER_BITS) - 1);
+}
+
 static bool stands_before(const tl_nav_seam_link *a, const tl_nav_seam_link *b)
 {
-    return a->low != b->low ? a->low < b->low : a->layer < b->layer;
+    return a->low != b->low ? a->low < b->low : seam_layer(a) < seam_layer(b);
 }
 
 tl_result tl_nav_join_sides(const tl_allocator *allocator, const tl_nav_side_links *a, const tl_nav_side_links *b,
                             tl_nav_side_links *out)
 {
-    tl_nav_side_links side = { NULL, NULL, a->portal_count, a->link_count + b->link_count,
-                               a->link_count + b->link_count };
-    side.first = tl_allocate_array(allocator, (uint64_t)side.portal_count + 1, sizeof *side.first);
-    side.links = tl_allocate_array(allocator, side.link_capacity, sizeof *side.links);
-    if (side.first == NULL || side.links == NULL) {
-        tl_nav_free_side(allocator, &side);
+    const tl_nav_seam_link *links_a = tl_nav_seam_links_of(a), *links_b = tl_nav_seam_links_of(b);
+    tl_nav_side_links side = allocate_side(allocator, a->portal_count, a->link_count + b->link_count);
+    if (side.first == NULL) {
         return TL_ERR_MEMORY;
     }
-    uint32_t count = 0;
+    tl_nav_seam_link *links = tl_nav_seam_links_of(&side);
     for (uint32_t portal = 0; portal < side.portal_count; portal++) {
         uint32_t i = a->first[portal], k = b->first[portal];
-        side.first[portal] = count;
+        side.first[portal] = side.link_count;
         while (i < a->first[portal + 1] || k < b->first[portal + 1]) {
             const bool takes_b =
-                i == a->first[portal + 1] || (k < b->first[portal + 1] && stands_before(&b->links[k], &a->links[i]));
-            side.links[count++] = takes_b ? b->links[k++] : a->links[i++];
+                i == a->first[portal + 1] || (k < b->first[portal + 1] && stands_before(&links_b[k], &links_a[i]));
+            links[side.link_count++] = takes_b ? links_b[k++] : links_a[i++];
         }
     }
-    side.first[side.portal_count] = count;
+    side.first[side.portal_count] = side.link_count;
     *out = side;
     return TL_OK;
 }
 
 uint32_t tl_nav_drop_links(const tl_allocator *allocator, tl_nav_side_links *side, uint32_t slot)
 {
+    if (side->first == NULL) {
+        return 0;
+    }
+    tl_nav_seam_link *links = tl_nav_seam_links_of(side);
     uint32_t kept = 0;
-    for (uint32_t portal = 0; side->first != NULL && portal < side->portal_count; portal++) {
+    for (uint32_t portal = 0; portal < side->portal_count; portal++) {
         const uint32_t begin = kept;
         for (uint32_t i = side->first[portal]; i < side->first[portal + 1]; i++) {
-            if (side->links[i].slot != slot) {
-                side->links[kept++] = side->links[i];
+            if (tl_nav_seam_slot(&links[i]) != slot) {
+                links[kept++] = links[i];
             }
         }
         side->first[portal] = begin;
     }
     const uint32_t dropped = side->link_count - kept;
-    if (side->first != NULL) {
-        side->first[side->portal_count] = kept;
-        side->link_count = kept;
-    }
+    side->first[side->portal_count] = kept;
+    side->link_count = kept;
     if (kept == 0) {
         tl_nav_free_side(allocator, side);
     }

@@ -53,8 +53,8 @@ static inline void tl_nav_seam_range(const tl_nav_slot *slot, uint32_t portal, c
     *end_out = NULL;
     if (links->first != NULL) {
         uint32_t at = portal - tl_nav_tile_side_first(slot->tile, side);
-        *begin_out = links->links + links->first[at];
-        *end_out = links->links + links->first[at + 1];
+        *begin_out = tl_nav_seam_links_of(links) + links->first[at];
+        *end_out = tl_nav_seam_links_of(links) + links->first[at + 1];
         *key_out = (uint64_t)1 << 35 | (uint64_t)side << 32 | links->first[at];
     }
 }
@@ -69,11 +69,11 @@ static inline bool tl_nav_ways_next(tl_nav_ways *ways, tl_nav_way *way_out)
 {
     for (;;) {
         if (ways->seam != ways->seam_end) {
-            way_out->slot = ways->seam->slot;
-            way_out->polygon = ways->seam->polygon;
+            way_out->slot = tl_nav_seam_slot(ways->seam);
+            way_out->polygon = tl_nav_seam_polygon(ways->seam);
             way_out->edge = ways->edge - 1;
-            way_out->left = ways->seam->left;
-            way_out->right = ways->seam->right;
+            tl_nav_seam_ends(ways->tile, ways->links[ways->edge - 1] & ~TL_NAV_LINK_PORTAL, ways->seam, &way_out->left,
+                             &way_out->right);
             way_out->key = tl_nav_way_key(ways->slot, ways->seam_key++);
             ways->seam++;
             return true;
