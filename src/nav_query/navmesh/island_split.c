@@ -46,12 +46,12 @@ static void join_search_pieces(island_splitter *s, uint32_t piece_a, uint32_t pi
     if (a == b) {
         return;
     }
-    TL_ASSERT(pieces[a].label == pieces[b].label);
+    TL_ASSERT(pieces[a].first_piece == pieces[b].first_piece);
     uint32_t root = a < b ? a : b;
     uint32_t child = a < b ? b : a;
-    tl_nav_island_label *label = &s->labels[pieces[root].label];
-    label->groups--;
-    label->open -= pieces[a].open > 0 && pieces[b].open > 0 ? 1 : 0;
+    tl_nav_island_piece *first = &pieces[pieces[root].first_piece];
+    first->groups--;
+    first->open_groups -= pieces[a].open > 0 && pieces[b].open > 0 ? 1 : 0;
     pieces[child].parent = root;
     pieces[root].open += pieces[child].open;
 }
@@ -121,7 +121,7 @@ static void step_piece(island_splitter *s, uint32_t index)
     if (piece->head == TL_NAV_NO_ISLAND) {
         tl_nav_island_piece *group = &s->islands->pieces[group_of(s->islands->pieces, index)];
         group->open--;
-        s->labels[piece->label].open -= group->open == 0 ? 1 : 0;
+        s->islands->pieces[piece->first_piece].open_groups -= group->open == 0 ? 1 : 0;
     }
 }
 
@@ -130,10 +130,14 @@ static void start_pieces(island_splitter *s, const uint32_t *seeds, uint32_t cou
     for (uint32_t i = 0; i < count; i++) {
         tl_nav_island_node *node = &s->islands->nodes[seeds[i]];
         uint32_t root = tl_nav_label_root(s->labels, node->labels[s->kind]);
-        tl_nav_island_piece piece = { i, seeds[i], seeds[i], seeds[i], 1, root, TL_NAV_NO_ISLAND };
+        tl_nav_island_label *label = &s->labels[root];
+        const uint32_t first = (label->size & TL_NAV_LABEL_SOUGHT) != 0 ? label->size & ~TL_NAV_LABEL_SOUGHT : i;
+        tl_nav_island_piece piece = { i,    seeds[i], seeds[i],    seeds[i], 1, TL_NAV_NO_ISLAND,
+                                      root, first,    label->size, 0,        0 };
         s->islands->pieces[i] = piece;
-        s->labels[root].groups++;
-        s->labels[root].open++;
+        s->islands->pieces[first].groups++;
+        s->islands->pieces[first].open_groups++;
+        label->size = TL_NAV_LABEL_SOUGHT | first;
         node->piece = i;
         node->next = TL_NAV_NO_ISLAND;
     }
@@ -145,7 +149,7 @@ static void finish_split(island_splitter *s, uint32_t count)
     tl_nav_island_piece *pieces = s->islands->pieces;
     tl_nav_island_node *nodes = s->islands->nodes;
     for (uint32_t i = 0; i < count; i++) {
-        bool is_cut_off = pieces[i].parent == i && pieces[i].open == 0 && s->labels[pieces[i].label].groups > 1;
+        bool is_cut_off = pieces[i].parent == i && pieces[i].open == 0 && pieces[pieces[i].first_piece].groups > 1;
         pieces[i].new_label = is_cut_off ? tl_nav_new_label(s->islands, s->kind) : TL_NAV_NO_ISLAND;
     }
     for (uint32_t i = 0; i < count; i++) {
@@ -157,8 +161,9 @@ static void finish_split(island_splitter *s, uint32_t count)
                 tl_nav_touch(s->islands->history, TL_NAV_PAGED_ISLAND_NODES, index);
             }
         }
-        s->labels[pieces[i].label].groups = 0;
-        s->labels[pieces[i].label].open = 0;
+        if (pieces[i].first_piece == i) {
+            s->labels[pieces[i].label].size = pieces[i].label_size;
+        }
     }
 }
 
@@ -172,7 +177,7 @@ static void split_kind(tl_navmesh *navmesh, tl_nav_island_kind kind, const uint3
         goes_on = false;
         for (uint32_t i = 0; i < count; i++) {
             const tl_nav_island_piece *piece = &islands->pieces[i];
-            if (piece->head != TL_NAV_NO_ISLAND && s.labels[piece->label].open > 1) {
+            if (piece->head != TL_NAV_NO_ISLAND && islands->pieces[piece->first_piece].open_groups > 1) {
                 step_piece(&s, i);
                 goes_on = true;
             }
@@ -189,13 +194,14 @@ static uint32_t thin_out(tl_nav_islands *islands, uint32_t *seeds, uint32_t coun
     for (uint32_t i = 0; i < count; i++) {
         tl_nav_island_label *component =
             &components[tl_nav_label_root(components, islands->nodes[seeds[i]].labels[TL_NAV_SEAM_ISLANDS])];
-        if (component->groups == 0) {
-            component->groups = 1;
+        if ((component->size & TL_NAV_LABEL_SOUGHT) == 0) {
+            component->size |= TL_NAV_LABEL_SOUGHT;
             seeds[left++] = seeds[i];
         }
     }
     for (uint32_t i = 0; i < left; i++) {
-        components[tl_nav_label_root(components, islands->nodes[seeds[i]].labels[TL_NAV_SEAM_ISLANDS])].groups = 0;
+        components[tl_nav_label_root(components, islands->nodes[seeds[i]].labels[TL_NAV_SEAM_ISLANDS])].size &=
+            ~TL_NAV_LABEL_SOUGHT;
     }
     return left;
 }

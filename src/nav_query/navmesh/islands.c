@@ -15,6 +15,7 @@
 #include "nav_query/navmesh/islands.h"
 
 #include "base/arena.h"
+#include "base/assert.h"
 #include "nav_query/navmesh/navmesh.h"
 
 #include <string.h>
@@ -46,14 +47,19 @@ static void free_arrays(const tl_allocator *allocator, tl_nav_islands *islands)
 {
     const uint64_t capacity = islands->capacity;
     tl_release_array(allocator, islands->nodes, capacity, sizeof *islands->nodes);
-    tl_release_array(allocator, islands->pieces, capacity, sizeof *islands->pieces);
-    tl_release_array(allocator, islands->seeds, capacity, sizeof *islands->seeds);
     tl_release_array(allocator, islands->labels[0], TL_NAV_ISLAND_KINDS * tl_nav_label_room(islands),
                      sizeof **islands->labels);
 }
 
+static void free_seeds(const tl_allocator *allocator, tl_nav_islands *islands)
+{
+    tl_release_array(allocator, islands->pieces, islands->seed_capacity, sizeof *islands->pieces);
+    tl_release_array(allocator, islands->seeds, islands->seed_capacity, sizeof *islands->seeds);
+}
+
 void tl_nav_free_islands(tl_navmesh *navmesh)
 {
+    free_seeds(&navmesh->allocator, &navmesh->islands);
     free_arrays(&navmesh->allocator, &navmesh->islands);
     memset(&navmesh->islands, 0, sizeof navmesh->islands);
 }
@@ -68,17 +74,15 @@ tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
     }
     // The first tile is often the only one.
     const uint64_t capacity = old->capacity > 0 ? needed + needed / 4 : needed;
-    if (2 * capacity > UINT32_MAX) {
+    if (4 * capacity > UINT32_MAX) {
         return TL_ERR_LIMIT;
     }
     tl_nav_islands grown = *old;
     grown.capacity = (uint32_t)capacity;
     grown.nodes = tl_allocate_array(allocator, capacity, sizeof *grown.nodes);
-    grown.pieces = tl_allocate_array(allocator, capacity, sizeof *grown.pieces);
-    grown.seeds = tl_allocate_array(allocator, capacity, sizeof *grown.seeds);
     const uint64_t room = tl_nav_label_room(&grown);
     grown.labels[0] = tl_allocate_array(allocator, TL_NAV_ISLAND_KINDS * room, sizeof **grown.labels);
-    if (grown.nodes == NULL || grown.pieces == NULL || grown.seeds == NULL || grown.labels[0] == NULL) {
+    if (grown.nodes == NULL || grown.labels[0] == NULL) {
         free_arrays(allocator, &grown);
         return TL_ERR_MEMORY;
     }
@@ -97,6 +101,31 @@ tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
     for (uint32_t kind = 0; kind < TL_NAV_ISLAND_KINDS; kind++) {
         tl_nav_touch_all(grown.history, TL_NAV_PAGED_LABELS + kind, room);
     }
+    return TL_OK;
+}
+
+tl_result tl_nav_reserve_seeds(tl_navmesh *navmesh, uint32_t seams, uint32_t offmesh_capacity)
+{
+    // A tile that leaves seeds what its seams lead to. At both ends of an off-mesh link lies one node before an edit,
+    // and one after it.
+    const tl_nav_islands *old = &navmesh->islands;
+    const uint32_t most_seams = seams > old->most_seams ? seams : old->most_seams;
+    const uint64_t seeds = most_seams + 4 * (uint64_t)offmesh_capacity;
+    const uint32_t capacity = seeds < old->capacity ? (uint32_t)seeds : old->capacity;
+    navmesh->islands.most_seams = most_seams;
+    if (capacity <= old->seed_capacity) {
+        return TL_OK;
+    }
+    tl_nav_islands grown = *old;
+    grown.seed_capacity = capacity;
+    grown.pieces = tl_allocate_array(&navmesh->allocator, capacity, sizeof *grown.pieces);
+    grown.seeds = tl_allocate_array(&navmesh->allocator, capacity, sizeof *grown.seeds);
+    if (grown.pieces == NULL || grown.seeds == NULL) {
+        free_seeds(&navmesh->allocator, &grown);
+        return TL_ERR_MEMORY;
+    }
+    free_seeds(&navmesh->allocator, &navmesh->islands);
+    navmesh->islands = grown;
     return TL_OK;
 }
 
@@ -136,7 +165,7 @@ void tl_nav_reserve_labels(tl_nav_islands *islands, tl_nav_island_kind kind, uin
 uint32_t tl_nav_new_label(tl_nav_islands *islands, tl_nav_island_kind kind)
 {
     uint32_t index = islands->label_count[kind]++;
-    tl_nav_island_label label = { index, 1, 0, 0 };
+    tl_nav_island_label label = { index, 1 };
     islands->labels[kind][index] = label;
     tl_nav_touch(islands->history, TL_NAV_PAGED_LABELS + (uint32_t)kind, index);
     return index;
@@ -234,6 +263,7 @@ void tl_nav_seed_island(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
     uint32_t index = node_of(navmesh, slot, polygon);
     // Until the search begins a seed is known by any piece's number.
     if (islands->nodes[index].piece == TL_NAV_NO_ISLAND) {
+        TL_ASSERT(islands->seed_count < islands->seed_capacity);
         islands->nodes[index].piece = 0;
         islands->seeds[islands->seed_count++] = index;
     }

@@ -30,10 +30,10 @@ typedef struct tl_nav_island_node {
 /// A name that nodes have; names that came to be one form a tree, and its root is the name.
 typedef struct tl_nav_island_label {
     uint32_t parent; ///< itself: the root
-    uint32_t size;   ///< labels, of a root
-    uint32_t groups; ///< of the search under way, else 0: groups of pieces under this root
-    uint32_t open;   ///< those of them with nodes to visit
+    uint32_t size;   ///< labels, of a root; TL_NAV_LABEL_SOUGHT | its first piece while a search is under way
 } tl_nav_island_label;
+
+#define TL_NAV_LABEL_SOUGHT 0x80000000u
 
 /// What a search has found from one seed. Pieces that have met are a group, named by the first of them.
 typedef struct tl_nav_island_piece {
@@ -41,21 +41,28 @@ typedef struct tl_nav_island_piece {
     uint32_t first, last; ///< nodes found
     uint32_t head;        ///< the first of them that was not visited, or TL_NAV_NO_ISLAND
     uint32_t open;        ///< of a root: pieces with such nodes
-    uint32_t label;       ///< root of the nodes' labels
     uint32_t new_label;   ///< of a root: for a group that is cut off, or TL_NAV_NO_ISLAND
+    uint32_t label;       ///< root of the nodes' labels
+    uint32_t first_piece; ///< of those with this label
+    // Of the first one:
+    uint32_t label_size; ///< the label's
+    uint32_t groups;     ///< of pieces with this label
+    uint32_t open_groups;
 } tl_nav_island_piece;
 
 typedef struct tl_nav_islands {
     tl_nav_history *history;                          ///< the navmesh's
     tl_nav_island_node *nodes;                        ///< [capacity]
-    tl_nav_island_piece *pieces;                      ///< [capacity]
-    uint32_t *seeds;                                  ///< [capacity]: nodes that have lost a way
+    tl_nav_island_piece *pieces;                      ///< [seed_capacity]
+    uint32_t *seeds;                                  ///< [seed_capacity]: nodes that have lost a way
     tl_nav_island_label *labels[TL_NAV_ISLAND_KINDS]; ///< [tl_nav_label_room]
     uint32_t capacity;
     uint32_t used;       ///< nodes below have been used once
     uint32_t free;       ///< head of the chain of free nodes
     uint32_t free_count; ///< of them
     uint32_t label_count[TL_NAV_ISLAND_KINDS];
+    uint32_t most_seams; ///< links over seams that any tile has had
+    uint32_t seed_capacity;
     uint32_t seed_count;
     uint32_t seam_seed_count; ///< the first ones, which have lost a way over a seam
 } tl_nav_islands;
@@ -69,6 +76,9 @@ static inline uint64_t tl_nav_label_room(const tl_nav_islands *islands)
 
 /// Room for `count` more components. TL_ERR_MEMORY, TL_ERR_LIMIT.
 tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count);
+/// Room for the seeds of one edit, before a tile has as many links over its seams, or the table of off-mesh links as
+/// much room. TL_ERR_MEMORY.
+tl_result tl_nav_reserve_seeds(tl_navmesh *navmesh, uint32_t seams, uint32_t offmesh_capacity);
 void tl_nav_free_islands(tl_navmesh *navmesh);
 
 /// Names a new slot's components, for which there is room, and joins them to its neighbours'.

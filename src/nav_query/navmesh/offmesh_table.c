@@ -47,6 +47,7 @@ static tl_result grow_offmesh(tl_navmesh *navmesh)
     }
     tl_nav_offmesh_table table = old;
     table.capacity = old.capacity > 0 ? 2 * old.capacity : FIRST_LINKS;
+    TL_TRY(tl_nav_reserve_seeds(navmesh, 0, table.capacity));
     table.entries = tl_allocate_array(&navmesh->allocator, table.capacity, sizeof *table.entries);
     table.buckets = tl_allocate_array(&navmesh->allocator, 2 * (uint64_t)table.capacity, sizeof *table.buckets);
     table.short_cuts = tl_allocate_array(&navmesh->allocator, table.capacity, sizeof *table.short_cuts);

@@ -127,6 +127,26 @@ tl_result tl_nav_seams_make(const tl_navmesh *navmesh, const tl_nav_tile *tile, 
     return result;
 }
 
+static uint32_t count_side_links(const tl_nav_side_links *sides)
+{
+    uint32_t count = 0;
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        count += sides[side].link_count;
+    }
+    return count;
+}
+
+uint32_t tl_nav_seams_most(const tl_navmesh *navmesh, const tl_nav_seams *seams)
+{
+    uint32_t most = count_side_links(seams->own);
+    for (uint32_t n = 0; n < seams->neighbour_count; n++) {
+        const tl_nav_seam_neighbour *neighbour = &seams->neighbours[n];
+        const uint32_t count = count_side_links(navmesh->slots[neighbour->slot].sides) + neighbour->added;
+        most = count > most ? count : most;
+    }
+    return most;
+}
+
 bool tl_nav_seams_remake(const tl_nav_seams *seams, uint32_t slot)
 {
     for (uint32_t n = 0; seams != NULL && n < seams->neighbour_count; n++) {
@@ -142,9 +162,7 @@ void tl_nav_seams_install(tl_navmesh *navmesh, uint32_t slot, tl_nav_seams *seam
     navmesh->slots[slot].rings = seams->rings;
     memcpy(navmesh->slots[slot].sides, seams->own, sizeof seams->own);
     tl_nav_note_edit(navmesh, slot);
-    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
-        navmesh->link_count += seams->own[side].link_count;
-    }
+    navmesh->link_count += count_side_links(seams->own);
     for (uint32_t n = 0; n < seams->neighbour_count; n++) {
         tl_nav_seam_neighbour *made = &seams->neighbours[n];
         tl_nav_slot *neighbour = &navmesh->slots[made->slot];

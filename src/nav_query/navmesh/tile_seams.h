@@ -30,6 +30,8 @@ uint32_t tl_nav_first_facing(const tl_navmesh *navmesh, int32_t tile_x, int32_t 
 /// The seams of a tile that is to come into a slot. TL_ERR_MEMORY, and then there is nothing to free.
 tl_result tl_nav_seams_make(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, tl_nav_seams *seams_out);
 void tl_nav_seams_free(const tl_navmesh *navmesh, tl_nav_seams *seams);
+/// Of the new tile and of those around it, the most links over seams that one will have.
+uint32_t tl_nav_seams_most(const tl_navmesh *navmesh, const tl_nav_seams *seams);
 /// Whether a slot gets new rings. NULL: none does.
 bool tl_nav_seams_remake(const tl_nav_seams *seams, uint32_t slot);
 /// Puts them in place, in the slot, which has its tile, and around it. They are the navmesh's then.

@@ -319,6 +319,9 @@ static tl_result make_new_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, uin
         result = tl_nav_reserve_islands(navmesh, fresh->seams.rings.component_count);
     }
     if (result == TL_OK) {
+        result = tl_nav_reserve_seeds(navmesh, tl_nav_seams_most(navmesh, &fresh->seams), navmesh->offmesh.capacity);
+    }
+    if (result == TL_OK) {
         result = own_surroundings(navmesh, tile, &fresh->seams);
     }
     if (result == TL_OK && navmesh->history != NULL && ownership == TL_NAV_TILE_OWNED) {
