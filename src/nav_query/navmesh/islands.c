@@ -73,7 +73,7 @@ tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
         return TL_OK;
     }
     // The first tile is often the only one.
-    const uint64_t capacity = old->capacity > 0 ? needed + needed / 4 : needed;
+    const uint64_t capacity = old->capacity > 0 ? needed + needed / 8 : needed;
     if (4 * capacity > UINT32_MAX) {
         return TL_ERR_LIMIT;
     }

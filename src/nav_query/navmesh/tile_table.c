@@ -121,11 +121,11 @@ static void unchain_slot(tl_navmesh *navmesh, uint32_t slot)
     *at = navmesh->slots[slot].next;
 }
 
-// Makes room for so many slots, and two buckets a slot, or more.
+// Makes room for so many slots, and a bucket a slot, or more.
 static tl_result grow_slots(tl_navmesh *navmesh, uint32_t capacity)
 {
     uint32_t bucket_count = 2;
-    while (bucket_count < 2 * capacity) {
+    while (bucket_count < capacity) {
         bucket_count *= 2;
     }
     tl_nav_slot *slots = tl_allocate_array(&navmesh->allocator, capacity, sizeof *slots);
@@ -177,7 +177,7 @@ tl_result tl_navmesh_reserve_tiles(tl_navmesh *navmesh, uint32_t count)
     return tl_nav_reserve_islands(navmesh, count);
 }
 
-// The slot that the next tile will get. Where there is none the table grows by a quarter: each slot has hundreds of
+// The slot that the next tile will get. Where there is none the table grows by an eighth: each slot has hundreds of
 // bytes, so room to spare would be dear.
 static tl_result reserve_slot(tl_navmesh *navmesh, uint32_t *slot_out)
 {
@@ -185,7 +185,7 @@ static tl_result reserve_slot(tl_navmesh *navmesh, uint32_t *slot_out)
         if (navmesh->slot_count >= TL_NAV_MAX_TILES) {
             return TL_ERR_LIMIT;
         }
-        TL_TRY(grow_slots(navmesh, navmesh->slot_count + (navmesh->slot_count > 0 ? navmesh->slot_count / 4 + 3 : 1)));
+        TL_TRY(grow_slots(navmesh, navmesh->slot_count + navmesh->slot_count / 8 + 1));
     }
     *slot_out = navmesh->free_slots != TL_NAV_NO_SLOT ? navmesh->free_slots : navmesh->slot_count;
     return TL_OK;
