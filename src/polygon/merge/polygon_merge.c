@@ -27,7 +27,7 @@
 // Fewer than 2^31 slots: MAX_CONTOUR_VERTICES.
 #define ROOT 0x80000000u
 
-enum { TRIANGLES_AHEAD = 4, EDGES_AHEAD = 12, PARTS_AHEAD = 16 };
+enum { TRIANGLES_AHEAD = 12, EDGES_AHEAD = 12, PARTS_AHEAD = 16 };
 
 // An edge and the places of its two polygons, the lower one in the high bits.
 typedef struct waiting_edge {
@@ -207,6 +207,9 @@ static bool start_merge(polygon_merger *m, tl_arena *scratch)
         return false;
     }
     for (uint32_t t = 0; t < input->triangle_count; t++) {
+        if (input->places != NULL && PARTS_AHEAD < input->triangle_count - t) {
+            tl_prefetch(&m->at_place[input->places[t + PARTS_AHEAD]]);
+        }
         merge_slot *slots = &m->slots[4 * t];
         for (uint32_t k = 0; k < 3; k++) {
             const uint32_t twin = input->twins[3 * t + k];
@@ -312,6 +315,9 @@ static void write_merged_parts(polygon_merger *m, tl_convex_parts *parts)
         }
         if (PARTS_AHEAD / 2 < m->place_count - p) {
             tl_prefetch(&m->slots[m->slots[m->at_place[p + PARTS_AHEAD / 2]].part.any_edge]);
+            const uint32_t edge = m->slots[m->at_place[p + PARTS_AHEAD / 4]].part.any_edge;
+            tl_prefetch(&m->slots[m->slots[edge].edge.next]);
+            tl_prefetch(&m->slots[m->slots[edge].edge.previous]);
         }
         parts->first[p] = filled;
         filled += write_part_corners(m, m->at_place[p], parts->corners + filled);
@@ -332,6 +338,14 @@ static bool allocate_parts(tl_convex_parts *parts, tl_arena *arena, const tl_mer
         parts->part_of = TL_PUSH(arena, uint32_t, input->triangle_count);
     }
     return parts->first != NULL && parts->corners != NULL && (input->joined_first == NULL || parts->part_of != NULL);
+}
+
+// The points that tell whether a corner stays convex.
+static TL_ALWAYS_INLINE void fetch_corners_beside(const polygon_merger *m, uint32_t edge)
+{
+    const merge_edge *e = &m->slots[edge].edge;
+    tl_prefetch(&m->points[m->slots[e->previous].edge.origin]);
+    tl_prefetch(&m->points[m->slots[m->slots[e->next].edge.next].edge.origin]);
 }
 
 // Edges come by length, so from anywhere: what they need is fetched before their turn.
@@ -355,6 +369,10 @@ static TL_ALWAYS_INLINE void fetch_edges_ahead(const polygon_merger *m, const tl
         tl_prefetch(&m->slots[parents[1] < ROOT ? parents[1] : twin]);
         tl_prefetch(&m->slots[m->slots[twin].edge.next]);
         tl_prefetch(&m->slots[m->slots[twin].edge.previous]);
+    }
+    if (EDGES_AHEAD / 4 < count - at) {
+        fetch_corners_beside(m, items[at + EDGES_AHEAD / 4].value);
+        fetch_corners_beside(m, m->slots[items[at + EDGES_AHEAD / 4].value].edge.twin);
     }
 }
 

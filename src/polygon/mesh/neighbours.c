@@ -34,6 +34,21 @@ static TL_ALWAYS_INLINE void fetch_polygon(const tl_polygon_store *store, const 
     }
 }
 
+// And where they are put, which the former tells.
+static TL_ALWAYS_INLINE void fetch_edge_ends(const tl_polygon_store *store, const uint32_t *first,
+                                             const tl_sort_item *ends, uint32_t p)
+{
+    if (store->polygon_count >= MANY_POLYGONS && POLYGONS_AHEAD / 2 < store->polygon_count - p) {
+        const tl_stored_polygon *later = &store->polygons[p + POLYGONS_AHEAD / 2];
+        const uint32_t *corners = store->indices + later->first;
+        uint32_t to = corners[0];
+        for (uint32_t k = later->count; k-- > 0;) {
+            tl_prefetch(&ends[first[tl_min_u32(corners[k], to) + 1]]);
+            to = corners[k];
+        }
+    }
+}
+
 // All edges by their lower vertex v, in ends[first[v]] to ends[first[v + 1] - 1]: key is the other vertex and, in the
 // lowest bit, whether the edge falls to v; value its place; extra its polygon. first[]: [vertex_count + 2], zeroed.
 static void gather_edges(const tl_polygon_store *store, uint32_t *first, tl_sort_item *ends)
@@ -57,6 +72,7 @@ static void gather_edges(const tl_polygon_store *store, uint32_t *first, tl_sort
         const tl_stored_polygon *polygon = &store->polygons[p];
         const uint32_t *corners = store->indices + polygon->first;
         fetch_polygon(store, first, p);
+        fetch_edge_ends(store, first, ends, p);
         uint32_t to = corners[0];
         for (uint32_t k = polygon->count; k-- > 0;) {
             const uint32_t from = corners[k];

@@ -7,6 +7,7 @@
 #include <talus/polygon.h>
 
 #include "base/assert.h"
+#include "base/compiler.h"
 #include "base/host.h"
 #include "polygon/mesh/merge_contours.h"
 #include "polygon/mesh/polygon_store.h"
@@ -20,6 +21,8 @@
 
 // What a contour that touches itself nowhere takes of scratch memory, most of it while its triangles are merged.
 #define SCRATCH_BYTES_A_VERTEX 200u
+
+enum { STORED_AHEAD = 8 };
 
 typedef struct polygon_mesh_builder {
     const tl_contour_set *contours;
@@ -100,6 +103,16 @@ static tl_result merge_vertices(polygon_mesh_builder *b, const tl_outline *outli
     return TL_OK;
 }
 
+// Polygons come in no order of place: the numbers of the next ones' corners are fetched meanwhile.
+static TL_ALWAYS_INLINE void fetch_corners_ahead(const tl_convex_parts *parts, uint32_t part, const uint32_t *map)
+{
+    if (STORED_AHEAD < parts->count - part) {
+        for (uint32_t k = parts->first[part + STORED_AHEAD]; k < parts->first[part + STORED_AHEAD + 1]; k++) {
+            tl_prefetch(&map[parts->corners[k]]);
+        }
+    }
+}
+
 static tl_result divide_contour(polygon_mesh_builder *b, uint32_t contour, const tl_outline *outline)
 {
     uint32_t *map = TL_PUSH(&b->scratch, uint32_t, outline->nodes.count);
@@ -115,6 +128,7 @@ static tl_result divide_contour(polygon_mesh_builder *b, uint32_t contour, const
                              contour };
     const tl_convex_parts *parts = &division.parts;
     for (uint32_t p = 0; p < parts->count; p++) {
+        fetch_corners_ahead(parts, p, map);
         TL_TRY(tl_polygon_store_add(&b->store, parts->corners + parts->first[p], parts->first[p + 1] - parts->first[p],
                                     map, &of));
     }

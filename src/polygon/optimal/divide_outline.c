@@ -54,6 +54,12 @@ tl_result tl_pair_edges(tl_arena *arena, const uint32_t *corners, uint32_t *twin
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < bridge_count; i++) {
+        if (TL_KEYS_AHEAD < bridge_count - i) {
+            const uint32_t later = bridges[i + TL_KEYS_AHEAD];
+            const uint32_t from = corners[later], to = corners[tl_triangle_edge_next(later)];
+            tl_key_table_fetch(&table, tl_pair_key(to, from));
+            tl_key_table_fetch(&table, tl_pair_key(from, to));
+        }
         const uint32_t edge = bridges[i], from = corners[edge], to = corners[tl_triangle_edge_next(edge)];
         uint32_t *back = tl_key_table_at(&table, tl_pair_key(to, from));
         if (*back != TL_NO_VALUE) {

@@ -367,11 +367,13 @@ static tl_result gather_segments(edge_splitter *s, const tl_outline_edge *edges,
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t low = edges[i].from < edges[i].to ? edges[i].from : edges[i].to;
-        uint32_t high = edges[i].from < edges[i].to ? edges[i].to : edges[i].from;
-        uint32_t *place = tl_key_table_at(&table, tl_pair_key(low, high));
+        if (TL_KEYS_AHEAD < count - i) {
+            tl_key_table_fetch(&table, tl_unordered_key(edges[i + TL_KEYS_AHEAD].from, edges[i + TL_KEYS_AHEAD].to));
+        }
+        const uint64_t key = tl_unordered_key(edges[i].from, edges[i].to);
+        uint32_t *place = tl_key_table_at(&table, key);
         if (*place == TL_NO_VALUE) {
-            tl_lattice_segment e = { low, high };
+            const tl_lattice_segment e = { (uint32_t)(key >> 32), (uint32_t)key };
             *place = s->segment_count;
             s->source[s->segment_count] = i;
             s->segments[s->segment_count++] = e;

@@ -34,6 +34,12 @@ static inline uint64_t tl_pair_key(uint32_t high, uint32_t low)
     return (uint64_t)high << 32 | low;
 }
 
+/// The same for two numbers in either order: the lower one comes first.
+static inline uint64_t tl_unordered_key(uint32_t a, uint32_t b)
+{
+    return a < b ? tl_pair_key(a, b) : tl_pair_key(b, a);
+}
+
 /// A key that is looked for soon.
 static TL_ALWAYS_INLINE void tl_key_table_fetch(const tl_key_table *table, uint64_t key)
 {

@@ -24,17 +24,16 @@ enum { FINGER_REACH = 8, FINGER_STEPS = 8, POINTS_AHEAD = 8, ITEMS_AROUND = 4 };
 // The parent of a segment that is not on the line.
 #define NOT_ON_LINE (TL_NO_SEGMENT - 1)
 
-// A segment on the sweep line.
+// A segment on the sweep line. Its ends are named by where they lie, for no two points lie at one place: so nothing but
+// items is read on the way.
 typedef struct sweep_item {
     uint32_t child[2]; // below, above
     uint32_t parent;
     uint32_t neighbour[2];       // next below, next above
-    uint32_t from, to;           // points, `from` first on the sweep's way
-    tl_lattice_point begin, end; // their points, so that a descent of the tree reads each item only
+    tl_lattice_point begin, end; // `begin` first on the sweep's way
 } sweep_item;
 
 typedef struct sweep_line {
-    const tl_lattice_point *points;
     sweep_item *items; // [segment]
     uint32_t count;
     uint32_t root;
@@ -43,8 +42,9 @@ typedef struct sweep_line {
     uint32_t *below; // of the point that is passed, in the record; or NULL
 } sweep_line;
 
-// The segments at a point.
+// A point and the segments there.
 typedef struct sweep_star {
+    tl_lattice_point point;
     uint32_t count;
     const uint32_t *segments;
     uint32_t pair[2];
@@ -155,9 +155,8 @@ static uint32_t find_finger(const sweep_line *s, uint32_t item)
 
 // Goes along the list to the segments next below and above a point where none begins yet. False: it is not near, or a
 // segment runs through it.
-static bool locate_near(const sweep_line *s, uint32_t point, uint32_t item, uint32_t around[2])
+static bool locate_near(const sweep_line *s, tl_lattice_point p, uint32_t item, uint32_t around[2])
 {
-    const tl_lattice_point p = s->points[point];
     uint32_t at = find_finger(s, item), last = TL_NO_SEGMENT;
     int side = 0;
     for (uint32_t steps = 0; steps <= FINGER_STEPS && at != TL_NO_SEGMENT; steps++) {
@@ -179,15 +178,14 @@ static bool locate_near(const sweep_line *s, uint32_t point, uint32_t item, uint
     return at == TL_NO_SEGMENT && last != TL_NO_SEGMENT; // it lies beyond the last one
 }
 
-// The segments next below and above where one from `point` to `target` begins (NONE: the point itself). False: one runs
-// through the point or along that segment.
-static bool locate(const sweep_line *s, uint32_t point, uint32_t target, uint32_t around[2])
+// The segments next below and above where one from p to `target` begins. False: one runs through p or along that
+// segment.
+static bool locate(const sweep_line *s, tl_lattice_point p, tl_lattice_point target, uint32_t around[2])
 {
     around[0] = around[1] = TL_NO_SEGMENT;
-    tl_lattice_point p = s->points[point];
     for (uint32_t item = s->root; item != TL_NO_SEGMENT;) {
         const sweep_item *i = &s->items[item];
-        int64_t turn = i->from == point ? tl_turn(p, i->end, s->points[target]) : tl_turn(i->begin, i->end, p);
+        int64_t turn = tl_same_point(i->begin, p) ? tl_turn(p, i->end, target) : tl_turn(i->begin, i->end, p);
         if (turn == 0) {
             return false;
         }
@@ -206,23 +204,23 @@ static bool clash(const sweep_line *s, uint32_t below, uint32_t above)
     }
     const sweep_item *i = &s->items[below];
     const sweep_item *j = &s->items[above];
-    if (i->from == j->from || i->from == j->to || i->to == j->from || i->to == j->to) {
+    tl_lattice_point a = i->begin, b = i->end, c = j->begin, d = j->end;
+    if (tl_same_point(a, c) || tl_same_point(a, d) || tl_same_point(b, c) || tl_same_point(b, d)) {
         // Should they overlap, an end of one lies inside the other and is found there.
         return false;
     }
-    tl_lattice_point a = i->begin, b = i->end, c = j->begin, d = j->end;
     // Both are in order now; they meet when the one that ends first ends on the wrong side of the other, or on it.
     return tl_is_swept_first(b, d) ? tl_turn(c, d, b) >= 0 : tl_turn(a, b, d) <= 0;
 }
 
 // Takes out the segments that end in a point. Those next to the last one, after the others are gone, are next to the
 // point, unless a segment that runs through the point stood between them: then it is one of them. Returns how many.
-static uint32_t end_segments(sweep_line *s, const sweep_star *star, uint32_t point, uint32_t around[2])
+static uint32_t end_segments(sweep_line *s, const sweep_star *star, uint32_t around[2])
 {
     uint32_t ended = 0;
     for (uint32_t k = 0; k < star->count; k++) {
         const sweep_item *i = &s->items[star->segments[k]];
-        if (i->to == point) {
+        if (tl_same_point(i->end, star->point)) {
             around[0] = i->neighbour[0];
             around[1] = i->neighbour[1];
             take_out(s, star->segments[k]);
@@ -248,18 +246,19 @@ static bool locate_beside(const sweep_line *s, uint32_t other, uint32_t item, ui
 }
 
 // Puts in the segments that begin in a point; around[] is known where others ended there. False: a contact.
-static bool begin_segments(sweep_line *s, const sweep_star *star, uint32_t point, uint32_t around[2], bool is_located)
+static bool begin_segments(sweep_line *s, const sweep_star *star, uint32_t around[2], bool is_located)
 {
+    const tl_lattice_point p = star->point;
     uint32_t begun = 0, first = TL_NO_SEGMENT;
     for (uint32_t k = 0; k < star->count; k++) {
         const uint32_t item = star->segments[k];
-        if (s->items[item].from != point) {
+        if (!tl_same_point(s->items[item].begin, p)) {
             continue;
         }
         bool apart = begun == 1   ? locate_beside(s, first, item, around)
-                     : begun > 1  ? locate(s, point, s->items[item].to, around)
+                     : begun > 1  ? locate(s, p, s->items[item].end, around)
                      : is_located ? true
-                                  : locate_near(s, point, item, around) || locate(s, point, s->items[item].to, around);
+                                  : locate_near(s, p, item, around) || locate(s, p, s->items[item].end, around);
         if (!apart) {
             return false;
         }
@@ -272,7 +271,7 @@ static bool begin_segments(sweep_line *s, const sweep_star *star, uint32_t point
     }
     for (uint32_t k = 0; k < star->count && begun > 0; k++) {
         const uint32_t item = star->segments[k];
-        if (s->items[item].from == point &&
+        if (tl_same_point(s->items[item].begin, p) &&
             (clash(s, s->items[item].neighbour[0], item) || clash(s, item, s->items[item].neighbour[1]))) {
             return false;
         }
@@ -280,30 +279,42 @@ static bool begin_segments(sweep_line *s, const sweep_star *star, uint32_t point
     return begun > 0 || !clash(s, around[0], around[1]);
 }
 
+// Flipping the sign bits makes the unsigned order the signed one.
+static uint64_t sweep_key(tl_lattice_point p)
+{
+    const uint64_t x = (uint32_t)p.x ^ 0x80000000u, z = (uint32_t)p.z ^ 0x80000000u;
+    return x << 32 | z;
+}
+
+static tl_lattice_point point_of_key(uint64_t key)
+{
+    const tl_lattice_point p = { (int32_t)((uint32_t)(key >> 32) ^ 0x80000000u),
+                                 (int32_t)((uint32_t)key ^ 0x80000000u) };
+    return p;
+}
+
 // False: a contact at the point, or of segments that have become neighbours there. All points are ends of segments.
-static bool pass_point(sweep_line *s, uint32_t point)
+static bool pass_point(sweep_line *s, const tl_sort_item *point)
 {
     uint32_t around[2] = { TL_NO_SEGMENT, TL_NO_SEGMENT };
     sweep_star star;
-    find_star(s, point, &star);
-    const uint32_t ended = end_segments(s, &star, point, around);
-    const tl_lattice_point p = s->points[point];
-    if (ended > 0 && (runs_through(s, around[0], p) || runs_through(s, around[1], p))) {
+    star.point = point_of_key(point->key);
+    find_star(s, point->value, &star);
+    const uint32_t ended = end_segments(s, &star, around);
+    if (ended > 0 && (runs_through(s, around[0], star.point) || runs_through(s, around[1], star.point))) {
         return false;
     }
     if (ended > 0 && s->below != NULL) {
         *s->below = around[0];
     }
-    return begin_segments(s, &star, point, around, ended > 0);
+    return begin_segments(s, &star, around, ended > 0);
 }
 
-static void init_sweep_item(const sweep_line *s, sweep_item *item, uint32_t a, uint32_t b)
+static void init_sweep_item(sweep_item *item, tl_lattice_point a, tl_lattice_point b)
 {
-    const bool forward = tl_is_swept_first(s->points[a], s->points[b]);
-    item->from = forward ? a : b;
-    item->to = forward ? b : a;
-    item->begin = s->points[item->from];
-    item->end = s->points[item->to];
+    const bool forward = tl_is_swept_first(a, b);
+    item->begin = forward ? a : b;
+    item->end = forward ? b : a;
     item->parent = NOT_ON_LINE;
 }
 
@@ -331,7 +342,7 @@ static bool gather_stars(sweep_line *s, tl_arena *arena, uint32_t point_count, c
     return true;
 }
 
-static bool gather_sweep_segments(sweep_line *s, tl_arena *arena, uint32_t point_count,
+static bool gather_sweep_segments(sweep_line *s, tl_arena *arena, const tl_lattice_point *points, uint32_t point_count,
                                   const tl_lattice_segment *segments, uint32_t count)
 {
     s->items = TL_PUSH(arena, sweep_item, count);
@@ -343,7 +354,8 @@ static bool gather_sweep_segments(sweep_line *s, tl_arena *arena, uint32_t point
     }
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t next = i + 1 < count ? i + 1 : 0;
-        init_sweep_item(s, &s->items[i], segments != NULL ? segments[i].a : i, segments != NULL ? segments[i].b : next);
+        init_sweep_item(&s->items[i], points[segments != NULL ? segments[i].a : i],
+                        points[segments != NULL ? segments[i].b : next]);
     }
     return true;
 }
@@ -372,7 +384,6 @@ static TL_ALWAYS_INLINE void fetch_points_ahead(const sweep_line *s, const tl_so
         return;
     }
     tl_prefetch(&s->first[order[3 * POINTS_AHEAD].value]);
-    tl_prefetch(&s->points[order[3 * POINTS_AHEAD].value]);
     tl_prefetch(&s->around[s->first[order[2 * POINTS_AHEAD].value]]);
     const uint32_t *around = &s->around[s->first[order[POINTS_AHEAD].value]];
     tl_prefetch(&s->items[around[0]]);
@@ -390,17 +401,12 @@ tl_result tl_sweep_segments(tl_arena *arena, const tl_lattice_point *points, uin
                             const tl_lattice_segment *segments, uint32_t segment_count, tl_sweep_record *record,
                             bool *apart_out)
 {
-    sweep_line s;
-    s.points = points;
-    s.below = NULL;
     tl_sort_item *order = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)point_count);
-    if (order == NULL || !gather_sweep_segments(&s, arena, point_count, segments, segment_count)) {
+    if (order == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t p = 0; p < point_count; p++) {
-        // Flipping the sign bit makes the unsigned order the signed one.
-        uint64_t x = (uint32_t)points[p].x ^ 0x80000000u, z = (uint32_t)points[p].z ^ 0x80000000u;
-        tl_sort_item item = { x << 32 | z, p, 0 };
+        const tl_sort_item item = { sweep_key(points[p]), p, 0 };
         order[p] = item;
     }
     tl_radix_sort(order, order + point_count, point_count);
@@ -408,13 +414,18 @@ tl_result tl_sweep_segments(tl_arena *arena, const tl_lattice_point *points, uin
     for (uint32_t i = 1; i < point_count && *apart_out; i++) {
         *apart_out = order[i].key != order[i - 1].key;
     }
-    for (uint32_t i = 0; i < point_count && record != NULL; i++) {
-        record->order[i] = order[i].value;
+    sweep_line s;
+    if (*apart_out && !gather_sweep_segments(&s, arena, points, point_count, segments, segment_count)) {
+        return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < point_count && *apart_out; i++) {
         fetch_points_ahead(&s, order + i, point_count - i);
-        s.below = record != NULL ? &record->below[i] : NULL;
-        *apart_out = pass_point(&s, order[i].value);
+        s.below = NULL;
+        if (record != NULL) {
+            record->order[i] = order[i].value;
+            s.below = &record->below[i];
+        }
+        *apart_out = pass_point(&s, &order[i]);
     }
     return TL_OK;
 }

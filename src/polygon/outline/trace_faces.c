@@ -37,11 +37,6 @@ static uint32_t half_twin(uint32_t half)
     return half ^ 1u;
 }
 
-static uint64_t undirected_key(const tl_outline_edge *edge)
-{
-    return edge->from < edge->to ? tl_pair_key(edge->from, edge->to) : tl_pair_key(edge->to, edge->from);
-}
-
 static tl_result gather_half_edges(graph *g, tl_arena *arena, const tl_outline_edge *edges, uint32_t count)
 {
     tl_key_table table;
@@ -58,9 +53,9 @@ static tl_result gather_half_edges(graph *g, tl_arena *arena, const tl_outline_e
     uint32_t made = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (TL_KEYS_AHEAD < count - i) {
-            tl_key_table_fetch(&table, undirected_key(&edges[i + TL_KEYS_AHEAD]));
+            tl_key_table_fetch(&table, tl_unordered_key(edges[i + TL_KEYS_AHEAD].from, edges[i + TL_KEYS_AHEAD].to));
         }
-        uint32_t *place = tl_key_table_at(&table, undirected_key(&edges[i]));
+        uint32_t *place = tl_key_table_at(&table, tl_unordered_key(edges[i].from, edges[i].to));
         if (*place == TL_NO_VALUE) {
             *place = made;
             g->origin[2 * made] = edges[i].from;

@@ -34,6 +34,7 @@ enum { VERTICES_AHEAD = 6 };
 
 // A vertex that splits a region, and the one it is joined to, stand in two chains: once in each.
 typedef struct chain_node {
+    tl_lattice_point position;
     uint32_t vertex;
     uint32_t up, down;
     uint32_t beyond; // far side of the link up
@@ -106,13 +107,14 @@ static uint32_t add_ear_triangle(ear_sweep *s, uint32_t a, uint32_t b, uint32_t 
 
 static uint32_t add_chain_node(ear_sweep *s, uint32_t v)
 {
+    s->nodes[s->node_count].position = s->points[v];
     s->nodes[s->node_count].vertex = v;
     return s->node_count++;
 }
 
 static bool is_left_of(const ear_sweep *s, uint32_t a, uint32_t b, uint32_t c)
 {
-    return tl_turn(s->points[s->nodes[a].vertex], s->points[s->nodes[b].vertex], s->points[s->nodes[c].vertex]) > 0;
+    return tl_turn(s->nodes[a].position, s->nodes[b].position, s->nodes[c].position) > 0;
 }
 
 // Joins vertex v to a region's chain from its lower end on. `side`: the far side of the edge between these two.

@@ -99,22 +99,55 @@ static bool is_free_partition(const triangulation *t, const tl_partition *item)
     return tl_ear_list_is_free(&t->list, a->position, t->vertices[a->next].position, t->vertices[item->extra].position);
 }
 
+// What a cut from a to c needs, in steps, each of which reads what the one before has fetched: both ends; the corner
+// between them and the vertices before and after; the next ones on both sides, and the triangle that the fan begins
+// with.
+static TL_ALWAYS_INLINE void fetch_ends(const tl_ear_vertex *vertices, const tl_partition *item)
+{
+    tl_prefetch(&vertices[item->value]);
+    tl_prefetch(&vertices[item->extra]);
+}
+
+static TL_ALWAYS_INLINE void fetch_beside(const tl_ear_vertex *vertices, const tl_partition *item)
+{
+    tl_prefetch(&vertices[vertices[item->value].next]);
+    tl_prefetch(&vertices[vertices[item->value].previous]);
+    tl_prefetch(&vertices[vertices[item->extra].next]);
+}
+
+static TL_ALWAYS_INLINE void fetch_around(const tl_ear_vertex *vertices, const tl_partition *item)
+{
+    const tl_ear_vertex *a = &vertices[item->value], *c = &vertices[item->extra];
+    tl_prefetch(&vertices[vertices[a->previous].previous]);
+    tl_prefetch(&vertices[vertices[c->next].next]);
+    tl_prefetch(&vertices[vertices[a->next].outer >> 2]);
+}
+
+static TL_ALWAYS_INLINE void fetch_fan(const tl_ear_vertex *vertices, const tl_partition *item)
+{
+    const uint32_t back = tl_ear_edge_previous(vertices[vertices[item->value].next].outer);
+    tl_prefetch(&vertices[tl_ear_edge_origin(vertices, back)]);
+    const uint32_t twin = tl_ear_edge_twin(vertices, back);
+    tl_prefetch(&vertices[twin != TL_NO_EAR_EDGE ? twin >> 2 : item->value]);
+}
+
 // Corners are cut off in no order of place. Those of the sorted list are known long before their turn, the next ones of
 // the heap are likely to be on top of it: what they need is fetched meanwhile.
 static TL_ALWAYS_INLINE void fetch_cuts_ahead(const triangulation *t)
 {
     const tl_partition_queue *queue = &t->queue;
-    const tl_ear_vertex *vertices = t->vertices;
-    if (queue->sorted_count > 2 * CUTS_AHEAD) {
-        tl_prefetch(&vertices[queue->sorted[2 * CUTS_AHEAD].value]);
-        tl_prefetch(&vertices[queue->sorted[2 * CUTS_AHEAD].extra]);
+    if (queue->sorted_count > 3 * CUTS_AHEAD) {
+        fetch_ends(t->vertices, &queue->sorted[3 * CUTS_AHEAD]);
+        fetch_beside(t->vertices, &queue->sorted[2 * CUTS_AHEAD]);
+        fetch_around(t->vertices, &queue->sorted[CUTS_AHEAD]);
+        fetch_fan(t->vertices, &queue->sorted[CUTS_AHEAD / 2]);
     }
-    if (queue->sorted_count > CUTS_AHEAD) {
-        tl_prefetch(&vertices[vertices[queue->sorted[CUTS_AHEAD].value].next]);
+    for (uint32_t i = 1; i < 5 && i < queue->heap_count; i++) {
+        fetch_ends(t->vertices, &queue->heap[i]);
     }
-    for (uint32_t i = 0; i < 5 && i < queue->heap_count; i++) { // the top and its children
-        tl_prefetch(&vertices[queue->heap[i].value]);
-        tl_prefetch(&vertices[queue->heap[i].extra]);
+    if (queue->heap_count > 0) {
+        fetch_beside(t->vertices, &queue->heap[0]);
+        fetch_around(t->vertices, &queue->heap[0]);
     }
 }
 
