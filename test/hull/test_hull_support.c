@@ -382,6 +382,38 @@ static void test_starts_at_caps(void **state)
     TEST_CHECK(most <= 2.0);
 }
 
+// A cap of a flat middle and a band around it whose slope no cell of the table can tell from flat.
+static void test_starts_at_nearly_flat_caps(void **state)
+{
+    (void)state;
+    enum { SIDES = 512, QUERIES = 200 };
+    static tl_vec3 points[3 * SIDES];
+    test_random random = { 9 };
+    double most = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        static const float along[3] = { -1.0f, 1.0f, 1.001f }, size[3] = { 1.0f, 0.99f, 0.5f };
+        for (uint32_t i = 0; i < 3 * SIDES; i++) {
+            const double turn = 6.283185307179586 * (double)(i / 3) / SIDES, radius = (double)size[i % 3];
+            points[i] = along_axis(axis, along[i % 3], (float)(radius * cos(turn)), (float)(radius * sin(turn)));
+        }
+        tl_hull *hull;
+        TEST_RESULT(tl_hull_bake(points, 3 * SIDES, NULL, &hull, NULL), TL_OK);
+        TEST_RESULT(tl_hull_check(hull, hull->blob.size, NULL), TL_OK);
+        for (float away = 1e-6f; away < 0.2f; away *= 10.0f) {
+            double steps = 0.0;
+            for (int i = 0; i < QUERIES; i++) {
+                const double turn = (double)test_random_range(&random, 0.0f, 6.2831853f);
+                steps +=
+                    steps_from_start(hull, along_axis(axis, 1.0f, away * (float)cos(turn), away * (float)sin(turn)));
+            }
+            most = fmax(most, steps / QUERIES);
+        }
+        tl_blob_free(hull);
+    }
+    print_message("at nearly flat caps: %.2f steps at most\n", most);
+    TEST_CHECK(most <= 2.0);
+}
+
 // The table's bytes do not depend on the machine: the march gives the same cells in every instruction set.
 static void test_marches_agree(void **state)
 {
@@ -419,6 +451,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_directions_without_a_size),
         cmocka_unit_test(test_starts_are_good),
         cmocka_unit_test(test_starts_at_caps),
+        cmocka_unit_test(test_starts_at_nearly_flat_caps),
         cmocka_unit_test(test_marches_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

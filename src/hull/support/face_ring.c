@@ -9,6 +9,9 @@
 #include "hull/support/direction_table.h"
 #include "math/vec3d.h"
 
+// Tiers of a cap that its ring serves: more would be as many steps away.
+enum { MAX_SPREADS = 4 };
+
 static tl_vec3d ring_corner(const tl_hull *hull, uint32_t half_edge)
 {
     return tl_vec3d_from(tl_hull_corner(hull, half_edge));
@@ -88,6 +91,54 @@ static void fill_ring(const tl_hull *hull, uint32_t face, const tl_face_ring *ri
     }
 }
 
+static uint32_t cell_of_direction(const tl_hull *hull, tl_vec3 direction)
+{
+    const tl_hull_climb *climb = tl_hull_climb_head(hull);
+    return tl_table_cell(tl_mul(direction, climb->table_scale), climb->table_side);
+}
+
+// Of a face's normal, or of the normal of a ring's face: the axes' cross product.
+static uint32_t cell_of_face(const tl_hull *hull, uint32_t face)
+{
+    const tl_hull_plane plane = tl_hull_face_plane(hull, face);
+    const tl_vec3d normal = tl_vec3d_make(plane.normal[0], plane.normal[1], plane.normal[2]);
+    return cell_of_direction(hull, tl_vec3d_to_float(normal));
+}
+
+static uint32_t cell_of_ring(const tl_hull *hull, uint32_t index)
+{
+    const tl_face_ring *ring = &tl_hull_rings(hull)[index];
+    return cell_of_direction(hull, tl_cross(tl_vec3_make(ring->u[0], ring->u[1], ring->u[2]),
+                                            tl_vec3_make(ring->v[0], ring->v[1], ring->v[2])));
+}
+
+// Whether two cells of the table are one or lie side by side. Its two squares have one rim.
+static bool are_cells_near(uint32_t a, uint32_t b, uint32_t side)
+{
+    const uint32_t row = a / side % side, column = a % side, other_row = b / side % side, other_column = b % side;
+    const bool on_rim = row == 0 || column == 0 || row == side - 1 || column == side - 1;
+    return (on_rim || a / (side * side) == b / (side * side)) && row - other_row + 1 <= 2 &&
+           column - other_column + 1 <= 2;
+}
+
+// Gives rings to corners of faces whose normals the table cannot tell from a ring's: a cap that is nearly flat has
+// wedges beyond its middle, too. From the ring's corner at the same angle they are a step or two away, along the rim
+// up to half of it.
+static void spread_rings(const tl_hull *hull, uint32_t *rings_of_vertices)
+{
+    const uint32_t side = tl_hull_climb_head(hull)->table_side;
+    for (uint32_t round = 0; round < MAX_SPREADS; round++) {
+        for (uint32_t edge = 0; edge < hull->half_edge_count; edge++) {
+            const uint32_t ring = rings_of_vertices[tl_hull_edge_origin(hull, tl_hull_edge_twin(hull, edge))];
+            uint32_t *of = &rings_of_vertices[tl_hull_edge_origin(hull, edge)];
+            if (*of == TL_NO_FACE_RING && ring != TL_NO_FACE_RING &&
+                are_cells_near(cell_of_face(hull, tl_hull_edge_face(hull, edge)), cell_of_ring(hull, ring), side)) {
+                *of = ring;
+            }
+        }
+    }
+}
+
 void tl_hull_fill_rings(tl_hull *hull, uint32_t *table, uint32_t *rings_of_vertices)
 {
     tl_face_ring *rings = (tl_face_ring *)(uintptr_t)tl_hull_rings(hull);
@@ -112,4 +163,5 @@ void tl_hull_fill_rings(tl_hull *hull, uint32_t *table, uint32_t *rings_of_verti
         first += rings[count].cell_count;
         count++;
     }
+    spread_rings(hull, rings_of_vertices);
 }
