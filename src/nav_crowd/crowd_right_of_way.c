@@ -273,7 +273,7 @@ void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor 
     if (!loses && traffic.follows && is_late) {
         a->stalled[i] = 0.0f; // some that follow one another in a ring would do so for ever
     }
-    if (is_held && (loses || traffic.follows)) {
+    if (a->stalled[i] > YIELD_AFTER && (loses || traffic.follows)) {
         a->flags[i] |= CROWD_YIELDS;
         a->wanted_x[i] = -YIELD_SPEED * a->max_speed[i] * x;
         a->wanted_z[i] = -YIELD_SPEED * a->max_speed[i] * z;
