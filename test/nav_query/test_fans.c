@@ -63,7 +63,7 @@ static void rings_have_no_room_to_spare(void **state)
             seams_in_all += seams;
             edges_in_all += edges;
             walls_in_all += rings->walls_count - TL_NAV_WALLS_FIRST;
-            TEST_CHECK(rings->block_size ==
+            TEST_CHECK(tl_nav_rings_size(rings) ==
                        edges * sizeof *rings->edges + seams * sizeof *rings->seams +
                            (polygons + 1) * sizeof *rings->cells +
                            (2 * polygons + navmesh->slots[slot].tile->node_count) * sizeof(uint16_t));

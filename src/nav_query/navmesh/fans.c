@@ -34,7 +34,7 @@ typedef struct vertex_fan {
 static tl_nav_ring_edge *ring_at(tl_navmesh *navmesh, tl_nav_ring_place place, uint32_t *count_out)
 {
     tl_nav_rings *rings = &navmesh->slots[place.slot].rings;
-    TL_ASSERT(!tl_nav_is_shared(navmesh->history, rings->block));
+    TL_ASSERT(!tl_nav_is_shared(navmesh->history, rings->edges));
     tl_nav_ring_of(rings, place.polygon, count_out);
     return rings->edges + rings->cells[place.polygon].first;
 }
@@ -300,7 +300,7 @@ static void find_seam_twins(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
             // A polygon may reach from side to side: what lies across there keeps its twin where older versions have
             // it. A twin over a seam only says where to look first.
             uint32_t across_count = 0;
-            if (tl_nav_is_shared(navmesh->history, navmesh->slots[last.slot].rings.block)) {
+            if (tl_nav_is_shared(navmesh->history, navmesh->slots[last.slot].rings.edges)) {
                 continue;
             }
             tl_nav_ring_edge *across = ring_at(navmesh, last, &across_count);

@@ -59,7 +59,7 @@ static void join_search_pieces(island_splitter *s, uint32_t piece_a, uint32_t pi
 static void reach_node(island_splitter *s, uint32_t piece, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_rings *rings = &s->navmesh->slots[slot].rings;
-    uint32_t index = rings->island[tl_nav_component_of(rings, polygon)];
+    uint32_t index = tl_nav_ring_islands(rings)[tl_nav_component_of(rings, polygon)];
     tl_nav_island_node *node = &s->islands->nodes[index];
     if (node->piece != TL_NAV_NO_ISLAND) {
         join_search_pieces(s, piece, node->piece);
@@ -104,7 +104,7 @@ static void reach_over_links(island_splitter *s, uint32_t piece, const tl_nav_is
             }
             end = own->next;
         }
-        polygon = tl_nav_ring_number(rings, rings->next_member, polygon);
+        polygon = tl_nav_next_member(rings, polygon);
     } while (polygon != node->polygon);
 }
 

@@ -23,7 +23,7 @@
 static uint32_t node_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_rings *rings = &navmesh->slots[slot].rings;
-    return rings->island[tl_nav_component_of(rings, polygon)];
+    return tl_nav_ring_islands(rings)[tl_nav_component_of(rings, polygon)];
 }
 
 static uint32_t label_of(const tl_navmesh *navmesh, tl_nav_island_kind kind, uint32_t slot, uint32_t polygon)
@@ -228,7 +228,7 @@ static void make_nodes(tl_navmesh *navmesh, uint32_t slot)
                                     TL_NAV_NO_ISLAND };
         islands->nodes[index] = node;
         tl_nav_touch(islands->history, TL_NAV_PAGED_ISLAND_NODES, index);
-        rings->island[made++] = index;
+        tl_nav_ring_islands(rings)[made++] = index;
     }
 }
 
@@ -281,11 +281,12 @@ void tl_nav_leave_islands(tl_navmesh *navmesh, uint32_t slot)
     }
     islands->seam_seed_count = islands->seed_count;
     for (uint32_t c = 0; c < own->rings.component_count; c++) {
-        tl_nav_island_node *node = &islands->nodes[own->rings.island[c]];
-        tl_nav_touch(islands->history, TL_NAV_PAGED_ISLAND_NODES, own->rings.island[c]);
+        const uint32_t index = tl_nav_ring_islands(&own->rings)[c];
+        tl_nav_island_node *node = &islands->nodes[index];
+        tl_nav_touch(islands->history, TL_NAV_PAGED_ISLAND_NODES, index);
         node->slot = TL_NAV_NO_SLOT;
         node->next = islands->free;
-        islands->free = own->rings.island[c];
+        islands->free = index;
         islands->free_count++;
     }
 }

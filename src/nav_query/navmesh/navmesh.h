@@ -70,7 +70,6 @@ typedef struct tl_nav_slot {
     uint32_t salt;            ///< 1 to 65535
     uint32_t next;            ///< in the chain of its bucket, or of the free slots
     tl_nav_edit last_edit;    ///< that changed what a search sees here
-    uint64_t inner_links;     ///< ways between polygons of the tile
     uint64_t changed_in;      ///< the draft that made `changed`
     void *keeper;             ///< memory of a history that frees an owned tile; NULL: there is none
     tl_nav_tile_ownership ownership;

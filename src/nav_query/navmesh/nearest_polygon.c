@@ -136,7 +136,7 @@ enum { MAX_MASKED_COMPONENTS = 256 };
 static bool is_component_on_island(const nearest_search *search, const tl_nav_rings *rings, uint32_t component)
 {
     const tl_nav_islands *islands = &search->navmesh->islands;
-    const uint32_t label = islands->nodes[rings->island[component]].labels[TL_NAV_ISLANDS];
+    const uint32_t label = islands->nodes[tl_nav_ring_islands(rings)[component]].labels[TL_NAV_ISLANDS];
     return tl_nav_label_root(islands->labels[TL_NAV_ISLANDS], label) == search->island;
 }
 

@@ -195,7 +195,7 @@ static void label_components(tl_nav_rings *rings, uint32_t *stack)
         uint32_t depth = 0;
         stack[depth++] = p;
         set_number(rings, rings->component, p, label);
-        set_number(rings, rings->next_member, p, p);
+        set_number(rings, rings->component, rings->polygon_count + p, p);
         while (depth > 0) {
             uint32_t count = 0;
             const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, stack[--depth], &count);
@@ -203,8 +203,8 @@ static void label_components(tl_nav_rings *rings, uint32_t *stack)
                 uint32_t to = ring[i].to;
                 if (to < TL_NAV_RING_SEAM && tl_nav_component_of(rings, to) == none) {
                     set_number(rings, rings->component, to, label);
-                    set_number(rings, rings->next_member, to, tl_nav_ring_number(rings, rings->next_member, p));
-                    set_number(rings, rings->next_member, p, to);
+                    set_number(rings, rings->component, rings->polygon_count + to, tl_nav_next_member(rings, p));
+                    set_number(rings, rings->component, rings->polygon_count + p, to);
                     stack[depth++] = to;
                 }
             }
@@ -241,7 +241,6 @@ static void label_tree_nodes(const tl_nav_tile *tile, tl_nav_rings *rings)
 static void place_arrays(tl_nav_rings *rings, void *block, uint64_t edges, uint64_t seams, uint64_t polygons)
 {
     char *at = (char *)block;
-    rings->block = block;
     rings->edges = (tl_nav_ring_edge *)(void *)at;
     at += edges * sizeof(tl_nav_ring_edge);
     rings->seams = (tl_nav_ring_seam *)(void *)at;
@@ -250,22 +249,30 @@ static void place_arrays(tl_nav_rings *rings, void *block, uint64_t edges, uint6
     at += (polygons + 1) * sizeof(tl_nav_ring_cell);
     const size_t size = polygons * number_size(rings);
     rings->component.wide = (uint32_t *)(void *)at;
-    rings->next_member.wide = (uint32_t *)(void *)(at + size);
-    rings->node_component.wide = (uint32_t *)(void *)(at + 2 * size);
+    rings->node_component.wide = (uint32_t *)(void *)(at + 2 * size); // behind the next members
 }
 
-static bool allocate_rings(const tl_allocator *allocator, const tl_nav_tile *tile, uint64_t edges, uint64_t seams,
-                           tl_nav_rings *rings)
+static uint64_t block_size_of(const tl_nav_rings *rings, uint64_t edges, uint64_t seams)
 {
-    const uint64_t polygons = tile->polygon_count;
-    uint64_t size = edges * sizeof(tl_nav_ring_edge) + seams * sizeof(tl_nav_ring_seam) +
-                    (polygons + 1) * sizeof(tl_nav_ring_cell) + (2 * polygons + tile->node_count) * number_size(rings);
-    void *block = tl_allocate_array(allocator, size, 1);
+    const uint64_t polygons = rings->polygon_count;
+    return edges * sizeof(tl_nav_ring_edge) + seams * sizeof(tl_nav_ring_seam) +
+           (polygons + 1) * sizeof(tl_nav_ring_cell) + (2 * polygons + rings->node_count) * number_size(rings);
+}
+
+uint64_t tl_nav_rings_size(const tl_nav_rings *rings)
+{
+    const tl_nav_ring_seam *seams_end = (const tl_nav_ring_seam *)(const void *)rings->cells;
+    return block_size_of(rings, rings->cells[rings->polygon_count].first, (uint64_t)(seams_end - rings->seams));
+}
+
+static bool allocate_rings(const tl_allocator *allocator, uint64_t edges, uint64_t seams, tl_nav_rings *rings)
+{
+    void *block = tl_allocate_array(allocator, block_size_of(rings, edges, seams), 1);
     if (block == NULL) {
         return false;
     }
-    rings->block_size = size;
-    place_arrays(rings, block, edges, seams, polygons);
+    place_arrays(rings, block, edges, seams, rings->polygon_count);
+    rings->cells[rings->polygon_count].first = (uint32_t)edges;
     return true;
 }
 
@@ -316,26 +323,24 @@ static void fill_rings(const tl_nav_tile *tile, const tl_nav_side_links *sides[T
 }
 
 // Components do not depend on seams.
-static void copy_components(const tl_nav_rings *old, uint32_t node_count, tl_nav_rings *rings)
+static void copy_components(const tl_nav_rings *old, tl_nav_rings *rings)
 {
     const size_t size = rings->polygon_count * number_size(rings);
-    memcpy(rings->component.narrow, old->component.narrow, size);
-    memcpy(rings->next_member.narrow, old->next_member.narrow, size);
-    memcpy(rings->node_component.narrow, old->node_component.narrow, node_count * number_size(rings));
+    memcpy(rings->component.narrow, old->component.narrow, 2 * size);
+    memcpy(rings->node_component.narrow, old->node_component.narrow, rings->node_count * number_size(rings));
     rings->component_count = old->component_count;
 }
 
 static uint64_t walls_size(const tl_nav_rings *rings)
 {
-    return rings->walls_count * (uint64_t)sizeof *rings->walls + rings->component_count * sizeof *rings->island +
+    return rings->walls_count * (uint64_t)sizeof *rings->walls + rings->component_count * (uint64_t)sizeof(uint32_t) +
            rings->branch_count * sizeof *rings->branch_end;
 }
 
 static void place_walls(tl_nav_rings *rings, void *block)
 {
     rings->walls = (tl_nav_ring_walls *)block;
-    rings->island = (uint32_t *)(void *)(rings->walls + rings->walls_count);
-    rings->branch_end = rings->island + rings->component_count;
+    rings->branch_end = tl_nav_ring_islands(rings) + rings->component_count;
 }
 
 // Gives all vertices their walls: those of old rings, where edges name some, and others that are not known yet.
@@ -355,7 +360,7 @@ static tl_result make_walls(const tl_allocator *allocator, const tl_nav_rings *o
         place_walls(rings, block);
         memcpy(rings->branch_end, branch_end, rings->branch_count * sizeof *rings->branch_end);
         if (old != NULL) {
-            memcpy(rings->island, old->island, rings->component_count * sizeof *rings->island);
+            memcpy(tl_nav_ring_islands(rings), tl_nav_ring_islands(old), rings->component_count * sizeof(uint32_t));
         }
         rings->walls[TL_NAV_WALLS_CONVEX].first_x = 1.0f;
         for (uint64_t k = 0; k < edges; k++) {
@@ -381,14 +386,15 @@ static tl_result make_rings(const tl_allocator *allocator, const tl_nav_tile *ti
         return TL_ERR_LIMIT;
     }
     rings->polygon_count = tile->polygon_count;
+    rings->node_count = tile->node_count;
     rings->is_wide = tile->polygon_count > TL_NAV_MAX_SHORT_NUMBER;
-    if (!allocate_rings(allocator, tile, edges, seams, rings)) {
+    if (!allocate_rings(allocator, edges, seams, rings)) {
         return TL_ERR_MEMORY;
     }
     fill_rings(tile, sides, scratch, old, rings);
     TL_ASSERT(rings->cells[tile->polygon_count].first == edges);
     if (old != NULL) {
-        copy_components(old, tile->node_count, rings);
+        copy_components(old, rings);
     } else {
         label_components(rings, scratch);
         label_tree_nodes(tile, rings);
@@ -423,24 +429,27 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
 void tl_nav_rings_free(const tl_allocator *allocator, tl_nav_rings *rings)
 {
     tl_release_array(allocator, rings->walls, walls_size(rings), 1);
-    tl_release_array(allocator, rings->block, rings->block_size, 1);
+    if (rings->edges != NULL) {
+        tl_release_array(allocator, rings->edges, tl_nav_rings_size(rings), 1);
+    }
     memset(rings, 0, sizeof *rings);
 }
 
 tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings)
 {
-    void *block = tl_allocate_array(allocator, rings->block_size, 1);
+    const uint64_t size = tl_nav_rings_size(rings);
+    void *block = tl_allocate_array(allocator, size, 1);
     void *walls = tl_allocate_array(allocator, walls_size(rings), 1);
     if (block == NULL || walls == NULL) {
-        tl_release_array(allocator, block, rings->block_size, 1);
+        tl_release_array(allocator, block, size, 1);
         tl_release_array(allocator, walls, walls_size(rings), 1);
         return TL_ERR_MEMORY;
     }
     const uint64_t edges = (uint64_t)((char *)rings->seams - (char *)rings->edges);
     const uint64_t seams = (uint64_t)((char *)rings->cells - (char *)rings->seams);
-    memcpy(block, rings->block, (size_t)rings->block_size);
+    memcpy(block, rings->edges, (size_t)size);
     memcpy(walls, rings->walls, (size_t)walls_size(rings));
-    tl_release_array(allocator, rings->block, rings->block_size, 1);
+    tl_release_array(allocator, rings->edges, size, 1);
     tl_release_array(allocator, rings->walls, walls_size(rings), 1);
     place_walls(rings, walls);
     place_arrays(rings, block, edges / sizeof(tl_nav_ring_edge), seams / sizeof(tl_nav_ring_seam),

@@ -73,18 +73,23 @@ typedef struct tl_nav_rings {
     tl_nav_ring_edge *edges;
     tl_nav_ring_walls *walls; ///< [walls_count]
     tl_nav_ring_seam *seams;
-    uint32_t *island;                ///< by component: a node of the navmesh's islands (islands.c)
-    uint32_t *branch_end;            ///< by branch: those on it, and on those, are numbered from it up to here
-    tl_nav_ring_numbers component;   ///< by polygon: its connected component within the tile, from 0
-    tl_nav_ring_numbers next_member; ///< by polygon: the next one of its component, around
+    uint32_t *branch_end;          ///< by branch: those on it, and on those, are numbered from it up to here
+    tl_nav_ring_numbers component; ///< by polygon: its connected component within the tile, from 0; tl_nav_next_member
     /// By node of the tile's box tree: the component of all polygons below it, or the highest bit and those of theirs.
     tl_nav_ring_numbers node_component;
-    uint32_t polygon_count, component_count, branch_count, walls_count;
+    uint32_t polygon_count, component_count, branch_count, walls_count, node_count;
     bool has_back; ///< some edge is a TL_NAV_RING_BACK
     bool is_wide;  ///< its numbers have 32 bits
-    void *block;   ///< that all arrays stand in but `walls`, behind which `island` and `branch_end` stand
-    uint64_t block_size;
 } tl_nav_rings;
+
+/// Bytes of the block that begins with `edges` and holds all arrays but walls, islands and ends of branches.
+uint64_t tl_nav_rings_size(const tl_nav_rings *rings);
+
+/// By component: a node of the navmesh's islands (islands.c).
+static inline uint32_t *tl_nav_ring_islands(const tl_nav_rings *rings)
+{
+    return (uint32_t *)(void *)(rings->walls + rings->walls_count);
+}
 
 typedef struct tl_nav_side_links tl_nav_side_links;
 
@@ -124,6 +129,12 @@ static inline uint32_t tl_nav_ring_number(const tl_nav_rings *rings, tl_nav_ring
 static inline uint32_t tl_nav_component_of(const tl_nav_rings *rings, uint32_t polygon)
 {
     return tl_nav_ring_number(rings, rings->component, polygon);
+}
+
+/// The next polygon of the same component, around.
+static inline uint32_t tl_nav_next_member(const tl_nav_rings *rings, uint32_t polygon)
+{
+    return tl_nav_ring_number(rings, rings->component, rings->polygon_count + polygon);
 }
 
 static inline uint32_t tl_nav_component_bit(const tl_nav_rings *rings, uint32_t component)

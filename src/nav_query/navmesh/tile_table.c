@@ -198,6 +198,7 @@ static bool same_lattice(const tl_navmesh *navmesh, const tl_nav_tile *tile)
            navmesh->cell_height == tile->cell_height && navmesh->tile_size == tile->tile_size;
 }
 
+// Ways between polygons of the tile.
 static uint64_t count_inner_links(const tl_nav_tile *tile)
 {
     const uint32_t *links = tl_nav_tile_at(tile, tile->links);
@@ -212,7 +213,7 @@ static tl_result own_rings(tl_navmesh *navmesh, uint32_t slot)
 {
     tl_nav_touch_slot(navmesh, slot);
     tl_nav_rings *rings = &navmesh->slots[slot].rings;
-    return tl_nav_is_shared(navmesh->history, rings->block) ? tl_nav_rings_copy(&navmesh->allocator, rings) : TL_OK;
+    return tl_nav_is_shared(navmesh->history, rings->edges) ? tl_nav_rings_copy(&navmesh->allocator, rings) : TL_OK;
 }
 
 // Before a tile comes, with these seams, or leaves, NULL: of the tiles around its place, what the change will write to
@@ -360,7 +361,6 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     }
     slot->tile = tile;
     slot->ownership = ownership;
-    slot->inner_links = count_inner_links(tile);
     chain_slot(navmesh, index);
     slot->keeper = fresh.keeper;
     slot->areas = fresh.areas;
@@ -374,7 +374,7 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     navmesh->cell_height = tile->cell_height;
     navmesh->tile_size = tile->tile_size;
     navmesh->tile_count++;
-    navmesh->link_count += slot->inner_links;
+    navmesh->link_count += count_inner_links(tile);
     navmesh->polygon_count += tile->polygon_count;
     tl_nav_anchor_near(navmesh, index, false);
     tl_nav_split_islands(navmesh);
@@ -393,7 +393,7 @@ static tl_result remove_slot(tl_navmesh *navmesh, uint32_t index)
     tl_nav_unlink_slot(navmesh, index);
     unchain_slot(navmesh, index);
     navmesh->tile_count--;
-    navmesh->link_count -= slot->inner_links;
+    navmesh->link_count -= count_inner_links(slot->tile);
     navmesh->polygon_count -= slot->tile->polygon_count;
     tl_nav_area_table_change(navmesh, index, -1);
     tl_nav_count_tile_flags(navmesh, slot->tile, -1);
