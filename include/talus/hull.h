@@ -20,7 +20,7 @@ extern "C" {
 #endif
 
 #define TL_HULL_MAGIC   0x4c554854u ///< "THUL"
-#define TL_HULL_VERSION 4u          ///< of the layout
+#define TL_HULL_VERSION 5u          ///< of the layout
 
 /// Largest absolute coordinate of a hull's points: edges and their dot products stay finite floats.
 #define TL_MAX_HULL_COORDINATE 1e30f
