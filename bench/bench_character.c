@@ -20,7 +20,8 @@
 #include <talus/nav_around.h>
 #include <talus/nav_bake.h>
 
-enum { MAX_TICKS = 60 * 300 };
+// Of a level of many islands few pairs of places have a path.
+enum { MAX_TICKS = 60 * 300, MAX_TRIES = 20000 };
 
 static const float TOO_DEEP = 0.001f; // metres
 
@@ -87,7 +88,7 @@ static void walk_path(path_walker *w, walk_sums *sums)
 
 static bool next_pair(path_walker *w, uint64_t *random)
 {
-    for (int tries = 0; tries < 200; tries++) {
+    for (int tries = 0; tries < MAX_TRIES; tries++) {
         const uint64_t numbers[4] = { tl_random_bits(random), tl_random_bits(random), tl_random_bits(random),
                                       tl_random_bits(random) };
         tl_nav_location start, goal;
