@@ -106,6 +106,107 @@ static void far_twins_are_found(void **state)
     }
 }
 
+// Over a seam the place is known however many edges the ring across has: else adding a tile of many strips beside one
+// polygon takes quadratic time.
+static void seam_twins_are_near(void **state)
+{
+    (void)state;
+    static const uint32_t COUNTS[7] = { 3, 64, 150, 4096, 1u << 18, 1000003, UINT32_MAX };
+    test_random random = { 7 };
+    for (int c = 0; c < 7; c++) {
+        for (uint32_t i = 0; i < 1000; i++) {
+            tl_nav_ring_seam seam = { TL_NAV_MAX_TILES - 1, 5 };
+            tl_nav_rings rings;
+            memset(&rings, 0, sizeof rings);
+            rings.seams = &seam;
+            tl_nav_ring_edge edge = { 0, 0, 0, TL_NAV_RING_SEAM, 0, 77u << TL_NAV_RING_TWIN_BITS };
+            const uint32_t twin = i == 0 ? COUNTS[c] - 1 : test_random_below(&random, COUNTS[c]);
+            tl_nav_set_seam_twin(&rings, &edge, 0, COUNTS[c]);
+            tl_nav_set_seam_twin(&rings, &edge, twin, COUNTS[c]);
+            const uint32_t near = tl_nav_seam_twin_hint(&rings, &edge, COUNTS[c]);
+            TEST_CHECK(near <= twin && twin - near <= COUNTS[c] >> 17);
+            TEST_CHECK(tl_nav_ring_seam_of(&rings, edge.to).slot == TL_NAV_MAX_TILES - 1);
+            TEST_CHECK(edge.mark >> TL_NAV_RING_TWIN_BITS == 77);
+        }
+    }
+}
+
+enum { HUB_STRIPS = 1000 };
+
+// A tile of one row: `count` strips that run along x, side by side from z = 0 to HUB_STRIPS.
+static tl_nav_tile *make_row(uint32_t count, int32_t tile_x)
+{
+    static int32_t vertices[6 * (HUB_STRIPS + 1)];
+    static uint32_t first[HUB_STRIPS + 1], indices[4 * HUB_STRIPS], neighbours[4 * HUB_STRIPS];
+    static uint32_t areas[HUB_STRIPS], zeros[HUB_STRIPS];
+    for (uint32_t i = 0; i <= count; i++) {
+        vertices[6 * i] = 0;
+        vertices[6 * i + 2] = vertices[6 * i + 5] = (int32_t)(i * (HUB_STRIPS / count));
+        vertices[6 * i + 3] = HUB_STRIPS;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t corners[4] = { 2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1 };
+        const uint32_t across[4] = { tile_x == 1 ? TL_PORTAL | 0u : TL_NO_POLYGON, TL_NO_POLYGON,
+                                     tile_x == 0 ? TL_PORTAL | 2u : TL_NO_POLYGON, TL_NO_POLYGON };
+        memcpy(indices + 4 * i, corners, sizeof corners);
+        memcpy(neighbours + 4 * i, across, sizeof across);
+        first[i + 1] = 4 * (i + 1);
+        areas[i] = 63;
+    }
+    tl_polygon_mesh mesh;
+    memset(&mesh, 0, sizeof mesh);
+    mesh.vertex_count = 2 * (count + 1);
+    mesh.polygon_count = count;
+    mesh.index_count = 4 * count;
+    mesh.vertices = vertices;
+    mesh.first = first;
+    mesh.indices = indices;
+    mesh.neighbours = neighbours;
+    mesh.areas = areas;
+    mesh.regions = mesh.contours = zeros;
+    mesh.cell_size = mesh.cell_height = 1.0f;
+    mesh.bounds.min.x = (float)(tile_x * HUB_STRIPS);
+    tl_nav_tile_source source;
+    memset(&source, 0, sizeof source);
+    source.polygons = &mesh;
+    source.tile_size = HUB_STRIPS;
+    source.tile_x = tile_x;
+    source.agent_height = 2.0f;
+    source.agent_max_climb = 1.0f;
+    tl_nav_tile *tile = NULL;
+    TEST_RESULT(tl_nav_tile_encode(&source, NULL, &tile, NULL), TL_OK);
+    return tile;
+}
+
+// Whichever comes first, the hub or its strips, each strip knows where it lies in the hub's ring.
+static void strips_know_their_place_in_a_hub(void **state)
+{
+    (void)state;
+    for (uint32_t hub = 0; hub < 2; hub++) {
+        tl_navmesh *navmesh = NULL;
+        TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
+        TEST_RESULT(tl_navmesh_add_tile(navmesh, make_row(hub == 0 ? 1 : HUB_STRIPS, 0), TL_NAV_TILE_OWNED), TL_OK);
+        TEST_RESULT(tl_navmesh_add_tile(navmesh, make_row(hub == 1 ? 1 : HUB_STRIPS, 1), TL_NAV_TILE_OWNED), TL_OK);
+        const tl_nav_rings *rings = &navmesh->slots[1 - hub].rings;
+        uint32_t seams = 0, hub_edges = 0;
+        tl_nav_ring_at(navmesh, hub, 0, &hub_edges);
+        TEST_CHECK(rings->polygon_count == HUB_STRIPS && hub_edges == HUB_STRIPS + 3);
+        for (uint32_t p = 0; p < HUB_STRIPS; p++) {
+            uint32_t count = 0;
+            const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, p, &count);
+            for (uint32_t k = 0; k < count; k++) {
+                if (tl_nav_ring_is_open(&ring[k])) {
+                    const tl_nav_ring_place twin = tl_nav_ring_twin(navmesh, 1 - hub, p, ring, count, k);
+                    TEST_CHECK(tl_nav_seam_twin_hint(rings, &ring[k], hub_edges) == twin.edge);
+                    seams++;
+                }
+            }
+        }
+        TEST_CHECK(seams == HUB_STRIPS);
+        tl_navmesh_destroy(navmesh);
+    }
+}
+
 enum { STRIP_LENGTH = 235, STRIPS = 140, SQUARE = 600 }; // more than TL_NAV_MAX_SHORT_NUMBER squares
 
 // One tile: strips of squares that do not touch one another.
@@ -432,6 +533,8 @@ int main(void)
     const struct CMUnitTest tests[] = { cmocka_unit_test(seams_know_their_twins),
                                         cmocka_unit_test(rings_have_no_room_to_spare),
                                         cmocka_unit_test(far_twins_are_found),
+                                        cmocka_unit_test(seam_twins_are_near),
+                                        cmocka_unit_test(strips_know_their_place_in_a_hub),
                                         cmocka_unit_test(large_tiles_have_wide_numbers),
                                         cmocka_unit_test(collapsed_vertices_have_walls),
                                         cmocka_unit_test(slits_end_in_corners),

@@ -282,7 +282,9 @@ static void find_seam_twins(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
 {
     const tl_nav_tile *tile = navmesh->slots[slot].tile;
     const tl_nav_portal *portals = tl_nav_tile_portals(tile);
+    tl_nav_rings *rings = &navmesh->slots[slot].rings;
     tl_nav_ring_place last = { TL_NAV_NO_SLOT, 0, 0 };
+    uint32_t across_count = 0;
     for (uint32_t i = tl_nav_tile_side_first(tile, side); i < tl_nav_tile_side_first(tile, side + 1); i++) {
         tl_nav_ring_place place = { slot, portals[i].polygon, 0 };
         uint32_t count = 0;
@@ -293,19 +295,19 @@ static void find_seam_twins(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
             }
             const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, ring[k].to);
             if (to.slot == last.slot && to.polygon == last.polygon) {
-                tl_nav_set_ring_twin(&ring[k], last.edge > 4 ? last.edge - 4 : 0);
+                tl_nav_set_seam_twin(rings, &ring[k], last.edge > 4 ? last.edge - 4 : 0, across_count);
             }
             last = tl_nav_ring_twin(navmesh, slot, place.polygon, ring, count, k);
-            tl_nav_set_ring_twin(&ring[k], last.edge);
+            tl_nav_ring_at(navmesh, last.slot, last.polygon, &across_count);
+            tl_nav_set_seam_twin(rings, &ring[k], last.edge, across_count);
             // A polygon may reach from side to side: what lies across there keeps its twin where older versions have
             // it. A twin over a seam only says where to look first.
-            uint32_t across_count = 0;
             if (tl_nav_is_shared(navmesh->history, navmesh->slots[last.slot].rings.edges)) {
                 continue;
             }
             tl_nav_ring_edge *across = ring_at(navmesh, last, &across_count);
             if (last.edge < across_count && (across[last.edge].to & TL_NAV_RING_SEAM) != 0) {
-                tl_nav_set_ring_twin(&across[last.edge], k);
+                tl_nav_set_seam_twin(&navmesh->slots[last.slot].rings, &across[last.edge], k, count);
             }
         }
     }

@@ -26,7 +26,7 @@ static inline const tl_nav_ring_edge *tl_nav_ring_at(const tl_navmesh *navmesh, 
 static inline tl_nav_ring_seam tl_nav_ring_across(const tl_navmesh *navmesh, uint32_t slot, uint32_t to)
 {
     tl_nav_ring_seam target = { slot, to };
-    return (to & TL_NAV_RING_SEAM) == 0 ? target : navmesh->slots[slot].rings.seams[to & ~TL_NAV_RING_SEAM];
+    return (to & TL_NAV_RING_SEAM) == 0 ? target : tl_nav_ring_seam_of(&navmesh->slots[slot].rings, to);
 }
 
 /// The same edge as the polygon across it has it. `edge` stands in polygon's ring, which has `count` of them.
@@ -41,6 +41,9 @@ static inline tl_nav_ring_place tl_nav_ring_twin(const tl_navmesh *navmesh, uint
         const tl_nav_ring_edge *end = &ring[edge + 1 < count ? edge + 1 : 0];
         uint32_t across_count = 0;
         const tl_nav_ring_edge *across = tl_nav_ring_at(navmesh, to.slot, to.polygon, &across_count);
+        if ((ring[edge].to & TL_NAV_RING_SEAM) != 0) {
+            twin.edge = tl_nav_seam_twin_hint(&navmesh->slots[slot].rings, &ring[edge], across_count);
+        }
         uint32_t k = !navmesh->slots[to.slot].rings.has_back && twin.edge < across_count ? twin.edge : 0;
         for (uint32_t i = 0; i < across_count; i++, k = k + 1 < across_count ? k + 1 : 0) {
             if (across[k].x != end->x || across[k].z != end->z || !tl_nav_ring_is_open(&across[k])) {

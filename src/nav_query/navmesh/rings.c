@@ -462,7 +462,7 @@ void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot)
     for (uint32_t i = 0; i < rings->cells[rings->polygon_count].first; i++) {
         tl_nav_ring_edge *edge = &rings->edges[i];
         if (tl_nav_ring_is_open(edge) && (edge->to & TL_NAV_RING_SEAM) != 0 &&
-            rings->seams[edge->to & ~TL_NAV_RING_SEAM].slot == slot) {
+            tl_nav_ring_seam_of(rings, edge->to).slot == slot) {
             edge->to = TL_NAV_RING_WALL;
             tl_nav_set_ring_twin(edge, TL_NAV_RING_ON_PORTAL);
         }

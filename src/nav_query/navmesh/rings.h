@@ -19,6 +19,7 @@
 enum {
     TL_NAV_RING_TWIN_BITS = 6,                               ///< of tl_nav_ring_edge.mark
     TL_NAV_RING_FAR_TWIN = (1 << TL_NAV_RING_TWIN_BITS) - 1, ///< no less: the twin is looked for from here on
+    TL_NAV_SEAM_TWIN_BITS = TL_NAV_RING_TWIN_BITS + 12,      ///< over a seam; 12 are left above TL_NAV_MAX_TILES
 };
 /// Instead of a place, of a wall over which other tiles' polygons may come to lie.
 #define TL_NAV_RING_ON_PORTAL 1u
@@ -30,11 +31,12 @@ typedef struct tl_nav_ring_edge {
     float x, y, z;
     uint32_t to;   ///< across: a polygon of the tile, or TL_NAV_RING_...
     uint32_t turn; ///< names the free way around this vertex when a shortest path may turn here, else 0
-    /// In the low bits the same edge's place in the ring across, or TL_NAV_RING_FAR_TWIN; over a seam: near which it
-    /// stands there, if anywhere. Above them which walls this vertex has.
+    /// In the low bits the same edge's place in the ring across, or TL_NAV_RING_FAR_TWIN; over a seam the low bits of
+    /// near which it stands there, if anywhere (tl_nav_set_seam_twin). Above them which walls this vertex has.
     uint32_t mark;
 } tl_nav_ring_edge;
 
+/// What lies across a seam. In tl_nav_rings.seams the twin's high bits stand above the slot: tl_nav_ring_seam_of.
 typedef struct tl_nav_ring_seam {
     uint32_t slot, polygon;
 } tl_nav_ring_seam;
@@ -173,6 +175,41 @@ static inline void tl_nav_set_ring_twin(tl_nav_ring_edge *edge, uint32_t twin)
 static inline uint32_t tl_nav_ring_twin_hint(const tl_nav_ring_edge *edge)
 {
     return edge->mark & TL_NAV_RING_FAR_TWIN;
+}
+
+/// The polygon across an edge whose `to` names a seam.
+static inline tl_nav_ring_seam tl_nav_ring_seam_of(const tl_nav_rings *rings, uint32_t to)
+{
+    tl_nav_ring_seam seam = rings->seams[to & ~TL_NAV_RING_SEAM];
+    seam.slot &= TL_NAV_MAX_TILES - 1;
+    return seam;
+}
+
+/// By how many bits a place in a ring of so many edges is shifted to fit TL_NAV_SEAM_TWIN_BITS: 0 in all but absurd
+/// ones.
+static inline uint32_t tl_nav_seam_twin_shift(uint32_t count)
+{
+    uint32_t shift = 0;
+    while (count >> TL_NAV_SEAM_TWIN_BITS >> shift != 0) {
+        shift++;
+    }
+    return shift;
+}
+
+/// Notes near which of the `count` edges of the ring across a seam's edge stands there.
+static inline void tl_nav_set_seam_twin(tl_nav_rings *rings, tl_nav_ring_edge *edge, uint32_t twin, uint32_t count)
+{
+    const uint32_t place = twin >> tl_nav_seam_twin_shift(count);
+    tl_nav_ring_seam *seam = &rings->seams[edge->to & ~TL_NAV_RING_SEAM];
+    seam->slot = (seam->slot & (TL_NAV_MAX_TILES - 1)) | (place >> TL_NAV_RING_TWIN_BITS) * TL_NAV_MAX_TILES;
+    edge->mark = (edge->mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) | (place & TL_NAV_RING_FAR_TWIN);
+}
+
+/// Where tl_nav_set_seam_twin says that an edge stands in the ring across, of `count` edges.
+static inline uint32_t tl_nav_seam_twin_hint(const tl_nav_rings *rings, const tl_nav_ring_edge *edge, uint32_t count)
+{
+    const uint32_t high = rings->seams[edge->to & ~TL_NAV_RING_SEAM].slot / TL_NAV_MAX_TILES;
+    return (high << TL_NAV_RING_TWIN_BITS | tl_nav_ring_twin_hint(edge)) << tl_nav_seam_twin_shift(count);
 }
 
 /// The walls of the vertex where an edge starts. They are those of its fan where its turn is not 0.

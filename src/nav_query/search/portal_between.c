@@ -21,8 +21,8 @@ static inline uint32_t next_to(const tl_nav_slot *slot, const tl_nav_ring_edge *
     }
     for (; edge < count; edge++) {
         if (ring[edge].to >= TL_NAV_RING_SEAM && tl_nav_ring_is_open(&ring[edge])) {
-            const tl_nav_ring_seam *seam = &slot->rings.seams[ring[edge].to & ~TL_NAV_RING_SEAM];
-            if (seam->slot == ends->to_slot && seam->polygon == ends->to_polygon) {
+            const tl_nav_ring_seam seam = tl_nav_ring_seam_of(&slot->rings, ring[edge].to);
+            if (seam.slot == ends->to_slot && seam.polygon == ends->to_polygon) {
                 break;
             }
         }
