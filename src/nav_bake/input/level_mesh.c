@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/host.h"
+#include "math/box4.h"
 
 // Blocks of triangles, each of which may be a task.
 enum { MAX_SCAN_BLOCKS = 64, MIN_SCAN_BLOCK = 2048 };
@@ -49,6 +50,11 @@ typedef struct mesh_scan {
     mesh_block blocks[MAX_SCAN_BLOCKS];
 } mesh_scan;
 
+static inline tl_box4 box_of_point(tl_vec3 p)
+{
+    return tl_box4_of((tl_aabb){ p, p });
+}
+
 // Of equal bounds, 0 and -0, the last is kept, so that blocks in order give what all triangles do.
 static void scan_block(uint32_t index, uint32_t worker, void *user)
 {
@@ -57,7 +63,7 @@ static void scan_block(uint32_t index, uint32_t worker, void *user)
     const tl_mesh_view *mesh = scan->mesh;
     const uint32_t *end = mesh->indices + 3 * (size_t)tl_block_end(index, scan->block_size, mesh->triangle_count);
     mesh_block *block = &scan->blocks[index];
-    tl_aabb bounds = tl_aabb_empty();
+    tl_box4 box = tl_box4_empty();
     float noise = 0.0f; // until something is infinite or no number
     block->is_sound = false;
     for (const uint32_t *corner = mesh->indices + 3 * (size_t)index * scan->block_size; corner < end; corner += 3) {
@@ -67,9 +73,10 @@ static void scan_block(uint32_t index, uint32_t worker, void *user)
         const tl_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
         const tl_vec3 sum = tl_add(a, tl_add(b, c));
         noise += 0.0f * (sum.x + sum.y + sum.z);
-        bounds.min = tl_min(bounds.min, tl_min(a, tl_min(b, c)));
-        bounds.max = tl_max(bounds.max, tl_max(a, tl_max(b, c)));
+        const tl_box4 last_two = tl_box4_union(box_of_point(b), box_of_point(c));
+        box = tl_box4_union(box, tl_box4_union(box_of_point(a), last_two));
     }
+    const tl_aabb bounds = tl_box4_to_aabb(box);
     const tl_vec3 size = tl_max(tl_abs(bounds.min), tl_abs(bounds.max));
     block->bounds = bounds;
     block->is_sound = noise == 0.0f && tl_maxf(size.x, tl_maxf(size.y, size.z)) <= TL_MAX_COORDINATE;

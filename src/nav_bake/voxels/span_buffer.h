@@ -5,6 +5,8 @@
 #ifndef TALUS_SRC_NAV_BAKE_SPAN_BUFFER_H
 #define TALUS_SRC_NAV_BAKE_SPAN_BUFFER_H
 
+#include "base/compiler.h"
+
 #include <talus/nav_bake.h>
 
 /// One voxelized piece of a triangle: column (24 bits), min, max (16 each), area (8), most significant first. Sorting
@@ -125,8 +127,8 @@ static inline uint32_t tl_span_buffer_take_node(tl_span_buffer *buffer)
 }
 
 /// Adds [min, max), of the given area, to a column; there is room. min < max <= 0xffff.
-static inline void tl_span_buffer_add(tl_span_buffer *buffer, uint32_t column, uint32_t min, uint32_t max,
-                                      uint32_t area)
+static TL_ALWAYS_INLINE void tl_span_buffer_add(tl_span_buffer *buffer, uint32_t column, uint32_t min, uint32_t max,
+                                                uint32_t area)
 {
     tl_span_node *span = &buffer->lowest[column];
     uint32_t steps = 0;

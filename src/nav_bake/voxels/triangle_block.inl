@@ -9,6 +9,17 @@
 
 #include <math.h>
 
+// As tl_min_f64 and tl_max_f64, as compilers make vectors of them.
+static inline double block_min(double a, double b)
+{
+    return b < a ? b : a;
+}
+
+static inline double block_max(double a, double b)
+{
+    return b > a ? b : a;
+}
+
 #define EACH_TRIANGLE(i) for (uint32_t i = 0; i < TL_TRIANGLE_BLOCK; i++)
 
 // As tl_lattice_map_x.
@@ -81,8 +92,8 @@ static inline void find_block_reach(double corner[3][TL_TRIANGLE_BLOCK], block_r
     double *restrict min = reach->min, *restrict max = reach->max;
     EACH_TRIANGLE(i)
     {
-        min[i] = tl_min_f64(a[i], tl_min_f64(b[i], c[i]));
-        max[i] = tl_max_f64(a[i], tl_max_f64(b[i], c[i]));
+        min[i] = block_min(a[i], block_min(b[i], c[i]));
+        max[i] = block_max(a[i], block_max(b[i], c[i]));
     }
 }
 
@@ -112,8 +123,8 @@ static inline void find_block_cells(const block_reach *reach, double begin, doub
     EACH_TRIANGLE(i)
     {
         const double min = reach->min[i] - begin, max = reach->max[i] - begin;
-        const int32_t from = (int32_t)tl_min_f64(tl_max_f64(min, 0.0), count);
-        const int32_t to = (int32_t)tl_min_f64(tl_max_f64(max, 0.0), in_last);
+        const int32_t from = (int32_t)block_min(block_max(min, 0.0), count);
+        const int32_t to = (int32_t)block_min(block_max(max, 0.0), in_last);
         // What is only touched is not overlapped, but a single point on a border lies in the higher cell.
         const double least_gap = min < max ? 0.0 : 0.5 / TL_SUBDIVISIONS;
         first[i] = from;
@@ -129,7 +140,7 @@ static inline void find_block_sides(const block_reach *reach, double begin, doub
     EACH_TRIANGLE(i)
     {
         const double min = reach->min[i] - begin, max = reach->max[i] - begin;
-        const double in_one = tl_min_f64(min, (double)first[i] + 1.0 - max) >= 0.0 ? one : 0.0;
+        const double in_one = block_min(min, (double)first[i] + 1.0 - max) >= 0.0 ? one : 0.0;
         place[i] += in_one + (min >= 0.0 ? 0.0 : before) + (max < count ? 0.0 : behind);
     }
 }
@@ -144,10 +155,10 @@ static inline void find_block_voxels(double height_voxels, tl_triangle_block *bl
     int32_t *restrict min = block->min, *restrict max = block->max;
     EACH_TRIANGLE(i)
     {
-        const double low = tl_min_f64(ay[i], tl_min_f64(by[i], cy[i]));
-        const double high = tl_max_f64(ay[i], tl_max_f64(by[i], cy[i]));
-        const double low_in = tl_min_f64(tl_max_f64(low * TL_SUBDIVISIONS, least), most);
-        const double high_in = tl_min_f64(tl_max_f64(high * TL_SUBDIVISIONS, least), most);
+        const double low = block_min(ay[i], block_min(by[i], cy[i]));
+        const double high = block_max(ay[i], block_max(by[i], cy[i]));
+        const double low_in = block_min(block_max(low * TL_SUBDIVISIONS, least), most);
+        const double high_in = block_min(block_max(high * TL_SUBDIVISIONS, least), most);
         const int32_t bottom = (int32_t)((low_in + TL_WHOLE_ROUNDER) - TL_WHOLE_ROUNDER);
         const int32_t top = (int32_t)((high_in + TL_WHOLE_ROUNDER) - TL_WHOLE_ROUNDER);
         const int32_t first = (bottom > 0 ? bottom : 0) >> TL_SUBDIVISION_BITS;
@@ -157,7 +168,7 @@ static inline void find_block_voxels(double height_voxels, tl_triangle_block *bl
         max[i] = outside != 0 ? 0 : end > first ? end : first + 1;
         const int32_t level =
             (bottom >= 0) & (top <= whole_limit) & (bottom >> TL_SUBDIVISION_BITS == top >> TL_SUBDIVISION_BITS);
-        const double inside = tl_min_f64(low, height_voxels - high) >= 0.0 ? (double)TL_PLACE_INSIDE : 0.0;
+        const double inside = block_min(low, height_voxels - high) >= 0.0 ? (double)TL_PLACE_INSIDE : 0.0;
         place[i] = (double)(level * TL_PLACE_LEVEL) + inside;
     }
 }
