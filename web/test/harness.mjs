@@ -146,17 +146,32 @@ export class Viewer {
     await this.page.mouse.up();
   }
 
+  /** A finger that moves over the screen. */
+  async swipe(from, to) {
+    const touch = await this.context.newCDPSession(this.page);
+    const send = (type, points) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: points });
+    await send('touchStart', [from]);
+    for (let i = 1; i <= 8; i++) {
+      await send('touchMove', [{ x: from.x + ((to.x - from.x) * i) / 8, y: from.y + ((to.y - from.y) * i) / 8 }]);
+      await this.page.waitForTimeout(20);
+    }
+    await this.page.waitForTimeout(100);
+    await send('touchEnd', []);
+    await touch.detach();
+  }
+
   async shot(name) {
     mkdirSync(SHOTS, { recursive: true });
     await this.page.screenshot({ path: `${SHOTS}${name}.png` });
   }
 
-  async drop(name, text) {
-    await this.page.evaluate(([name, text]) => {
+  /** Drops a file of these words, or of these bytes. */
+  async drop(name, content) {
+    await this.page.evaluate(([name, content]) => {
       const transfer = new DataTransfer();
-      transfer.items.add(new File([text], name));
+      transfer.items.add(new File([typeof content === 'string' ? content : new Uint8Array(content)], name));
       dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }));
-    }, [name, text]);
+    }, [name, typeof content === 'string' ? content : [...content]]);
   }
 
   /** Nothing went wrong on the page that nobody expected. */

@@ -157,7 +157,17 @@ test('opens a dropped file, and names what is wrong with one', async () => {
   await viewer.close();
 });
 
-test('reads STL, PLY and glTF as it reads OBJ', async () => {
+/** A glTF of one buffer as its binary form: a header, then a chunk of JSON and one of bytes, each of whole words. */
+function toGlb(gltf, buffer) {
+  const scene = JSON.parse(gltf);
+  delete scene.buffers[0].uri;
+  const text = JSON.stringify(scene), json = Buffer.from(text.padEnd(4 * Math.ceil(text.length / 4)));
+  const words = (...list) => Buffer.from(new Uint32Array(list).buffer);
+  return Buffer.concat([words(0x46546c67, 2, 28 + json.length + buffer.length), words(json.length, 0x4e4f534a), json,
+    words(buffer.length, 0x004e4942), buffer]);
+}
+
+test('reads STL, PLY, glTF and GLB as it reads OBJ', async () => {
   const viewer = await open(`#level=sample:courtyard${COARSE}`);
   await viewer.ready();
   const stl = 'solid s\nfacet normal 0 1 0\nouter loop\nvertex -6 0 -6\nvertex -6 0 6\nvertex 6 0 6\nendloop\nendfacet\n' +
@@ -176,8 +186,8 @@ test('reads STL, PLY and glTF as it reads OBJ', async () => {
       { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [-6, 0, -6], max: [6, 0, 6] },
       { bufferView: 1, componentType: 5123, count: 6, type: 'SCALAR' }],
   });
-  for (const [name, text] of [['a.stl', stl], ['b.ply', ply], ['c.gltf', gltf], ['d.obj', floorObj(12)]]) {
-    await viewer.drop(name, text);
+  for (const [name, content] of [['a.stl', stl], ['b.ply', ply], ['c.gltf', gltf], ['d.obj', floorObj(12)], ['e.glb', toGlb(gltf, buffer)]]) {
+    await viewer.drop(name, content);
     await viewer.until(({ app }, name) => app.session.get().level.name === name && !app.session.get().baking, name);
     const { level, bake } = await viewer.ask(({ app }) => app.session.get());
     assert.equal(level.triangles, 2, name);
@@ -287,6 +297,35 @@ test('says at once that a goal is unreachable, and where the nearest reachable p
   await viewer.close();
 });
 
+test('places links by two clicks, drags their ends, and finds more', async () => {
+  const viewer = await open('#level=sample:courtyard&tool=link&camera=20,42,22;20,0,18');
+  await viewer.ready();
+  const placed = () => viewer.ask(({ app }) => app.view.get().links);
+  const panel = viewer.page.locator('#tool-panel');
+  await viewer.page.locator('#tool-panel input[type=checkbox]').uncheck();
+  await viewer.click([15, 0, 14]);
+  await panel.getByText('Now click where the link ends.').waitFor();
+  assert.deepEqual(await placed(), [], 'one end is no link');
+  await viewer.click([25, 0, 14]);
+  await viewer.until(({ app }) => app.view.get().links.length === 1);
+  const [link] = await placed();
+  assert.ok(Math.abs(link.start[0] - 15) < 0.5 && Math.abs(link.end[0] - 25) < 0.5 && !link.bothWays, JSON.stringify(link));
+  await panel.getByText('With floor at both ends').waitFor();
+  assert.deepEqual(await panel.locator('dd').allInnerTexts(), ['1', '1']);
+  await viewer.drag(link.end, [25, 0, 10]);
+  await viewer.until(({ app }) => app.view.get().links[0].end[2] < 11);
+  await viewer.page.waitForFunction(() => /links?=/.test(location.hash));
+  await viewer.page.click('#find-links');
+  await viewer.page.waitForSelector('#links-found');
+  const found = await viewer.ask(({ tools }) => tools.find((tool) => tool.name === 'link').answer);
+  assert.ok(found.count > 0 && found.tried >= found.count, `${found.count} of ${found.tried} tried`);
+  await viewer.settled();
+  await viewer.shot('links-placed');
+  await panel.getByText('Remove placed').click();
+  await viewer.until(({ app }) => app.view.get().links.length === 0);
+  await viewer.close();
+});
+
 test('says why a point is not walkable, and its button makes it walkable', async () => {
   const viewer = await open('#level=sample:courtyard&tool=why&why=0.3,0,20');
   await viewer.ready();
@@ -365,6 +404,17 @@ test('climbs a hull vertex by vertex', async () => {
   for (let i = 1; i < climb.heights.length; i++) assert.ok(climb.heights[i] > climb.heights[i - 1], 'always up');
   await viewer.settled();
   await viewer.shot('climb');
+  const top = await viewer.picture(), said = viewer.page.locator('#tool-panel .step-text');
+  assert.match(await said.innerText(), /none of them farther: done/);
+  await viewer.page.click('#tool-panel button[aria-label="One step back"]');
+  assert.match(await said.innerText(), /the farthest of them is next/);
+  assert.notEqual(await viewer.picture(), top, 'each step is drawn');
+  // Another direction, another top.
+  await viewer.page.locator('#climb-turn').evaluate((range) => {
+    range.value = String((Number(range.value) + 170) % 360);
+    range.dispatchEvent(new Event('input', { bubbles: true }));
+  });
+  await viewer.until(({ tools }, old) => String(tools.find((tool) => tool.name === 'climb').answer.answer) !== old, String(climb.answer));
   await viewer.close();
 });
 
@@ -383,6 +433,18 @@ test('tells merging step by step', async () => {
   await viewer.shot('steps-merged');
   assert.notEqual(cut, first);
   assert.notEqual(await viewer.picture(), cut);
+  // It plays by itself, from the beginning when it stands at the end, and stops where it is told to.
+  const step = viewer.page.locator('#merge-step');
+  const play = viewer.page.locator('#tool-panel button[aria-label="Play"]');
+  await play.click();
+  const pause = viewer.page.locator('#tool-panel button[aria-label="Pause"]');
+  await viewer.page.waitForFunction(() => { const at = Number(document.getElementById('merge-step').value); return at > 0 && at < 5; });
+  await pause.click();
+  const stopped = await step.inputValue();
+  await viewer.page.waitForTimeout(700);
+  assert.equal(await step.inputValue(), stopped, 'a story that is stopped stands still');
+  await viewer.page.click('#tool-panel button[aria-label="One step on"]');
+  assert.equal(Number(await step.inputValue()), Number(stopped) + 1);
   await viewer.close();
 });
 
@@ -405,6 +467,19 @@ test('audits, and steps through what it finds', async () => {
   const found = await viewer.ask(({ tools }) => tools.find((tool) => tool.name === 'audit').answer.findings);
   assert.ok(found.some((one) => one.kind === 'missing' && Math.hypot(one.point[0] - 25, one.point[2] - 27) < 5));
   await viewer.shot('audit-findings');
+  // One by one: the words and the mark are the next finding's, and the eye goes there.
+  if (found.length > 1) {
+    const words = () => viewer.page.locator('#tool-panel .step-text').innerText();
+    const [before, camera] = [await viewer.picture(), await viewer.ask(({ app }) => app.stage.getCamera())];
+    assert.match(await words(), /missing|blocked|step|no floor/);
+    await viewer.page.click('#tool-panel button[aria-label="One step on"]');
+    assert.equal(await viewer.page.locator('#audit-step').inputValue(), '1');
+    const target = await viewer.ask(({ app }) => app.stage.getCamera().target);
+    assert.notDeepEqual(target, camera.target);
+    assert.ok(Math.hypot(...target.map((v, i) => v - found[1].point[i])) < 1e-3, 'the eye looks at the second finding');
+    assert.notEqual(await viewer.picture(), before);
+    await viewer.shot('audit-second');
+  }
   await viewer.close();
 });
 
@@ -516,6 +591,14 @@ test('works by keyboard and by touch', async () => {
   await phone.until(({ app }) => app.view.get().start !== null);
   assert.match(await phone.page.locator('.hint').innerText(), /Click the start/);
   await phone.shot('phone');
+  // A finger on a mark drags it, a finger beside it turns the level.
+  const eye = () => phone.ask(({ app }) => app.stage.getCamera().eye);
+  const [start, still] = [await phone.ask(({ app }) => app.view.get().start), await eye()];
+  await phone.swipe(await phone.screen(start), { x: at.x - 40, y: at.y });
+  await phone.until(({ app }, old) => Math.hypot(...app.view.get().start.map((v, i) => v - old[i])) > 0.5, start);
+  assert.deepEqual(await eye(), still, 'a mark that is dragged turns nothing');
+  await phone.swipe({ x: 200, y: 250 }, { x: 120, y: 250 });
+  await phone.until(({ app }, old) => Math.hypot(...app.stage.getCamera().eye.map((v, i) => v - old[i])) > 0.5, still);
   await phone.page.click('button.drawer >> nth=0');
   assert.equal(await phone.page.locator('#set-cellSize').isVisible(), true);
   await phone.shot('phone-drawer');
