@@ -177,7 +177,7 @@ async function start(root: HTMLElement): Promise<void> {
     h('header', {}, h('h1', {}, 'talus'), chooser.element, buttons, h('span', { class: 'space' }),
       drawer(left, 'Bake'), drawer(right, 'Layers'),
       h('span', { class: 'row wide', style: 'margin: 0; flex-wrap: nowrap' }, ...shareButtons(app)), themeButton(app), help.button),
-    left, right, footer(app, wasm.reason));
+    left, right, footer(app, wasm.simd, wasm.reason));
   viewBox.append(hint, messageBox(app));
   new Pointer(app, chosen);
   keys(app, tools, help.show, root);

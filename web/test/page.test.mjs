@@ -41,6 +41,7 @@ test('opens from disk with a level and its bake inside', { skip: TALUS ? false :
   run('sample', 'courtyard', '-o', 'courtyard.obj');
   run('view', 'courtyard.obj', '-o', 'page.html', '--agent-radius', '0.4', '--tile-size', '48', '--from', '2,0,20', '--to', '20,5,20');
   const viewer = await Viewer.open(browser, fileUrl(join(folder, 'page.html')));
+  assert.doesNotMatch(await viewer.page.locator('body').innerText(), /without SIMD/);
   const asked = [];
   viewer.page.on('request', (request) => asked.push(request.url()));
   await viewer.ready();
@@ -96,7 +97,7 @@ test('says what is missing without WebAssembly', async () => {
   await page.close();
 });
 
-test('does without SIMD', async () => {
+test('does without SIMD, and says so', async () => {
   const context = await browser.newContext();
   const page = await context.newPage();
   await page.addInitScript(() => { WebAssembly.validate = () => false; });
@@ -104,6 +105,10 @@ test('does without SIMD', async () => {
   const viewer = new Viewer(page, context);
   await viewer.ready();
   assert.equal(await viewer.ask(({ simd }) => simd), false);
+  const total = page.locator('#total');
+  assert.match(await total.innerText(), /^bake .*, without SIMD$/);
+  assert.match(await total.getAttribute('title'), /lacks WebAssembly SIMD/);
+  await viewer.shot('no-simd');
   assert.ok(await viewer.ask(({ app }) => app.session.get().bake.polygons > 10));
   await viewer.close();
 });

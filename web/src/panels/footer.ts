@@ -4,8 +4,8 @@ import type { App } from '../app';
 import { colourOfId, css, mix } from '../scene/palette';
 import { count, fill, h, milliseconds } from './dom';
 
-/** `oneThread`: why threads were not asked for. */
-export function footer(app: App, oneThread: string | null): HTMLElement {
+/** `simd`: whether the module has it. `oneThread`: why threads were not asked for. */
+export function footer(app: App, simd: boolean, oneThread: string | null): HTMLElement {
   const bar = h('progress', { max: 1, value: 0, 'aria-label': 'Progress of the bake' });
   const stage = h('span', { class: 'muted', id: 'stage' });
   const cancel = h('button', { id: 'cancel', onclick: () => app.cancel() }, 'Cancel');
@@ -37,8 +37,11 @@ export function footer(app: App, oneThread: string | null): HTMLElement {
     }
     const threads = bake?.threads.count ?? 1;
     total.textContent = !bake || busy ? '' : bake.milliseconds === 0 ? 'as baked in the file'
-      : `bake ${milliseconds(bake.milliseconds)}${threads > 1 ? `, ${threads} threads` : ''}`;
-    total.title = threads > 1 ? '' : `On one thread: ${bake?.threads.reason ?? oneThread}`;
+      : `bake ${milliseconds(bake.milliseconds)}${threads > 1 ? `, ${threads} threads` : ''}${simd ? '' : ', without SIMD'}`;
+    total.title = [
+      simd ? '' : 'Slower than it could be: this browser lacks WebAssembly SIMD. The results are the same.',
+      threads > 1 ? '' : `On one thread: ${bake?.threads.reason ?? oneThread}`,
+    ].join(' ').trim();
   });
   return h('footer', {}, work, numbers, times, total);
 }
