@@ -105,14 +105,14 @@ def test_what_is_not_there_is_said(land: tuple[Path, talus.Navmesh]) -> None:
 
 def test_budget_is_kept_on_a_walk(land: tuple[Path, talus.Navmesh]) -> None:
     file, _ = land
-    world = talus.World(file, budget=256 << 10)
+    world = talus.World(file, budget=192 << 10)
     seen = set()
     for step in range(60):
         at = [2 + 1.9 * step, 0, 3]
         world.update([at], radius=15, max_changes=2)
         world.load(max_loads=2)
         state = world.state
-        assert state.bytes <= state.peak_bytes <= 256 << 10
+        assert state.bytes <= state.peak_bytes <= 192 << 10
         seen.add(state.loaded)
     world.stream([[116, 0, 3]], radius=500)  # more than fits: it ends nevertheless
     state = world.state

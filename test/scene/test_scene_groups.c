@@ -79,13 +79,14 @@ typedef struct map {
 static map map_of(tl_transform pose, tl_vec3 scale)
 {
     const tl_quat q = pose.rotation;
-    long double x = q.x, y = q.y, z = q.z, w = q.w, n = x * x + y * y + z * z + w * w;
+    const long double x = (long double)q.x, y = (long double)q.y, z = (long double)q.z, w = (long double)q.w;
+    const long double n = x * x + y * y + z * z + w * w;
     const tl_vec3 s = tl_scale_factors(scale);
-    const long double factors[3] = { s.x, s.y, s.z };
+    const long double factors[3] = { (long double)s.x, (long double)s.y, (long double)s.z };
     map r = { { { n - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w) },
                 { 2 * (x * y + z * w), n - 2 * (x * x + z * z), 2 * (y * z - x * w) },
                 { 2 * (x * z - y * w), 2 * (y * z + x * w), n - 2 * (x * x + y * y) } },
-              { pose.position.x, pose.position.y, pose.position.z } };
+              { (long double)pose.position.x, (long double)pose.position.y, (long double)pose.position.z } };
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             r.m[i][k] = r.m[i][k] / n * factors[k];
