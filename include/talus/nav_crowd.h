@@ -106,7 +106,8 @@ typedef enum tl_nav_agent_status {
     TL_NAV_AGENT_IDLE,        ///< it has no goal, and makes way for others
     TL_NAV_AGENT_WAITING,     ///< for its path to be searched
     TL_NAV_AGENT_WALKING,     ///< to its goal
-    TL_NAV_AGENT_ARRIVED,     ///< within its arrive_distance, or as near as those that stand there already let it come
+    TL_NAV_AGENT_ARRIVED,     ///< within its arrive_distance, or as near as those that stand there already let it come,
+                              ///< or as walls let one come that is wider than the mesh was baked for
     TL_NAV_AGENT_UNREACHABLE, ///< no path leads to the goal: it stands as near as a path leads
     TL_NAV_AGENT_QUEUED,      ///< at an off-mesh link that another one takes just now
     TL_NAV_AGENT_ON_LINK,     ///< on its way along an off-mesh link

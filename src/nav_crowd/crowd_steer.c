@@ -15,6 +15,11 @@
 // An agent takes a link once it is so near to it, as a share of its radius.
 #define LINK_SHARE 1.0f
 
+// A wide agent that hardly comes forward for so long, no farther from its goal than so many times what it is wider than
+// the mesh was baked for, is kept off by walls, and has arrived. In a corner of a right angle it is 1.4 times.
+#define KEPT_OFF_AFTER 1.0f // seconds
+#define KEPT_OFF_REACH 2.0f
+
 // Below this share of its top speed towards its corner an agent is held up; it is not any more when it has walked a
 // third of that time.
 #define PROGRESS_SHARE 0.25f
@@ -43,6 +48,12 @@ static void pass_corner(float x, float z, float side, float room, float toward_o
     float cosine = leg / sqrtf(distance_sq), sine = side * room / sqrtf(distance_sq);
     toward_out[0] = cosine * (cosine * x - sine * z);
     toward_out[1] = cosine * (sine * x + cosine * z);
+}
+
+static bool is_kept_off(const crowd_fields *a, uint32_t i, float distance)
+{
+    return a->clearance[i] > 0.0f && a->stalled[i] > KEPT_OFF_AFTER &&
+           distance <= a->arrive_distance[i] + KEPT_OFF_REACH * a->clearance[i];
 }
 
 // The wanted velocity: `speed` towards a direction.
@@ -217,7 +228,7 @@ void tl_crowd_walk(const crowd_step *step, uint32_t i)
             return;
         }
     } else if ((next->flags & TL_NAV_CORNER_END) != 0) {
-        if (distance <= a->arrive_distance[i]) {
+        if (distance <= a->arrive_distance[i] || is_kept_off(a, i, distance)) {
             arrive(step, i);
             return;
         }

@@ -179,6 +179,38 @@ static void test_wide(void **state)
     tl_navmesh_destroy(navmesh);
 }
 
+// Wide agents whose goals lie nearer to walls than they can come arrive as near as that: at an edge, in a corner, and
+// in a gap that is open at both ends and narrower than they are.
+static void test_wide_before_walls(void **state)
+{
+    (void)state;
+    static test_level level;
+    memset(&level, 0, sizeof level);
+    audit_floor(&level, -12, -12, 12, 12, 0.0f);
+    audit_block(&level, -6.0f, -1, 2.0f, 6.0f, 3, 2.5f); // 1 m apart
+    audit_block(&level, -6.0f, -1, 3.5f, 6.0f, 3, 4.0f);
+    tl_navmesh *navmesh = crowd_bake(&level, 0);
+    tl_nav_agent_def def = tl_default_nav_agent_def();
+    def.radius = 0.6f;
+    static const float goals[4][2] = { { 0, -11.99f }, { 11.99f, -5 }, { 11.99f, -11.99f }, { -5.9f, 2.8f } };
+    uint32_t arrived = 0;
+    for (uint32_t i = 0; i < 4; i++) {
+        tl_nav_crowd *crowd = crowd_make(1);
+        tl_nav_location goal = crowd_place(navmesh, goals[i][0], 0.0f, goals[i][1]);
+        tl_nav_agent agent = crowd_send(crowd, navmesh, def, 0.3f, 0.0f, -0.4f, &goal);
+        crowd_measure m;
+        const uint32_t steps = crowd_run(crowd, navmesh, DT, 1200, &m);
+        tl_nav_agent_state end = look(crowd, agent);
+        print_message("%u: %s after %u steps, %.3f m from the goal\n", (unsigned)i,
+                      tl_nav_agent_status_name(end.status), (unsigned)steps,
+                      (double)hypotf(end.position.x - goal.point.x, end.position.z - goal.point.z));
+        arrived += end.status == TL_NAV_AGENT_ARRIVED;
+        tl_nav_crowd_destroy(crowd);
+    }
+    TEST_CHECK(arrived == 4);
+    tl_navmesh_destroy(navmesh);
+}
+
 // A ditch with one link over it: everyone crosses, one at a time.
 static void test_links(void **state)
 {
@@ -443,9 +475,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_come_and_go), cmocka_unit_test(test_names),
                                         cmocka_unit_test(test_head_on),     cmocka_unit_test(test_floors),
-                                        cmocka_unit_test(test_wide),        cmocka_unit_test(test_links),
-                                        cmocka_unit_test(test_edits),       cmocka_unit_test(test_near_goals),
-                                        cmocka_unit_test(test_let_out),     cmocka_unit_test(test_shut_off),
-                                        cmocka_unit_test(test_fixed),       cmocka_unit_test(test_goal_gone) };
+                                        cmocka_unit_test(test_wide),        cmocka_unit_test(test_wide_before_walls),
+                                        cmocka_unit_test(test_links),       cmocka_unit_test(test_edits),
+                                        cmocka_unit_test(test_near_goals),  cmocka_unit_test(test_let_out),
+                                        cmocka_unit_test(test_shut_off),    cmocka_unit_test(test_fixed),
+                                        cmocka_unit_test(test_goal_gone) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
