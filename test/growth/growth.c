@@ -6,7 +6,7 @@
 //
 // Only growth_measured is counted: making the input, and what the operation needs, is not.
 
-#include <talus/talus.h>
+#include "nav_row.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -202,50 +202,6 @@ static tl_result bake_polygons_of(const work *w)
     return result;
 }
 
-// A tile of one row: `count` strips that run along x, side by side, each with a portal at one end.
-static tl_nav_tile *make_row(uint32_t count, uint32_t length, int32_t tile_x)
-{
-    int32_t *vertices = calloc(6 * ((size_t)count + 1), sizeof *vertices);
-    uint32_t *numbers = calloc(11 * (size_t)count + 1, sizeof *numbers);
-    uint32_t *first = numbers, *indices = first + count + 1, *neighbours = indices + 4 * (size_t)count;
-    uint32_t *areas = neighbours + 4 * (size_t)count, *zeros = areas + count;
-    for (uint32_t i = 0; i <= count; i++) {
-        int32_t *at = vertices + 6 * (size_t)i;
-        at[2] = at[5] = (int32_t)(i * (length / count));
-        at[3] = (int32_t)length;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t corners[4] = { 2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1 };
-        const uint32_t across[4] = { tile_x == 1 ? TL_PORTAL | 0u : TL_NO_POLYGON, TL_NO_POLYGON,
-                                     tile_x == 0 ? TL_PORTAL | 2u : TL_NO_POLYGON, TL_NO_POLYGON };
-        memcpy(indices + 4 * (size_t)i, corners, sizeof corners);
-        memcpy(neighbours + 4 * (size_t)i, across, sizeof across);
-        first[i + 1] = 4 * (i + 1);
-        areas[i] = 63;
-    }
-    tl_polygon_mesh mesh = { .vertex_count = 2 * (count + 1),
-                             .polygon_count = count,
-                             .index_count = 4 * count,
-                             .vertices = vertices,
-                             .first = first,
-                             .indices = indices,
-                             .neighbours = neighbours,
-                             .areas = areas,
-                             .regions = zeros,
-                             .contours = zeros,
-                             .cell_size = 1.0f,
-                             .cell_height = 1.0f };
-    mesh.bounds.min.x = (float)tile_x * (float)length;
-    const tl_nav_tile_source source = {
-        .polygons = &mesh, .tile_size = length, .tile_x = tile_x, .agent_height = 2.0f, .agent_max_climb = 1.0f
-    };
-    tl_nav_tile *tile = NULL;
-    const tl_result result = tl_nav_tile_encode(&source, NULL, &tile, NULL);
-    free(vertices);
-    free(numbers);
-    return result == TL_OK ? tile : NULL;
-}
-
 // Strips beside one polygon as long as all of them: which of the two comes last is added.
 static bool make_hub(work *w, const char *family, uint32_t n)
 {
@@ -253,8 +209,8 @@ static bool make_hub(work *w, const char *family, uint32_t n)
     if ((!hub_comes_last && strcmp(family, "hub-first") != 0) || tl_navmesh_create(NULL, &w->navmesh) != TL_OK) {
         return false;
     }
-    tl_nav_tile *there = make_row(hub_comes_last ? n : 1, n, 0);
-    w->tile = make_row(hub_comes_last ? 1 : n, n, 1);
+    tl_nav_tile *there = nav_row_tile(hub_comes_last ? n : 1, n, 0);
+    w->tile = nav_row_tile(hub_comes_last ? 1 : n, n, 1);
     return there != NULL && w->tile != NULL && tl_navmesh_add_tile(w->navmesh, there, TL_NAV_TILE_OWNED) == TL_OK;
 }
 

@@ -8,6 +8,7 @@
 
 #include "nav_query/navmesh/area_table.h"
 #include "nav_query/navmesh/ring_step.h"
+#include "nav_row.h"
 
 #include <math.h>
 #include <talus/nav_around.h>
@@ -133,51 +134,6 @@ static void seam_twins_are_near(void **state)
 
 enum { HUB_STRIPS = 1000 };
 
-// A tile of one row: `count` strips that run along x, side by side from z = 0 to HUB_STRIPS.
-static tl_nav_tile *make_row(uint32_t count, int32_t tile_x)
-{
-    static int32_t vertices[6 * (HUB_STRIPS + 1)];
-    static uint32_t first[HUB_STRIPS + 1], indices[4 * HUB_STRIPS], neighbours[4 * HUB_STRIPS];
-    static uint32_t areas[HUB_STRIPS], zeros[HUB_STRIPS];
-    for (uint32_t i = 0; i <= count; i++) {
-        vertices[6 * i] = 0;
-        vertices[6 * i + 2] = vertices[6 * i + 5] = (int32_t)(i * (HUB_STRIPS / count));
-        vertices[6 * i + 3] = HUB_STRIPS;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t corners[4] = { 2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1 };
-        const uint32_t across[4] = { tile_x == 1 ? TL_PORTAL | 0u : TL_NO_POLYGON, TL_NO_POLYGON,
-                                     tile_x == 0 ? TL_PORTAL | 2u : TL_NO_POLYGON, TL_NO_POLYGON };
-        memcpy(indices + 4 * i, corners, sizeof corners);
-        memcpy(neighbours + 4 * i, across, sizeof across);
-        first[i + 1] = 4 * (i + 1);
-        areas[i] = 63;
-    }
-    tl_polygon_mesh mesh;
-    memset(&mesh, 0, sizeof mesh);
-    mesh.vertex_count = 2 * (count + 1);
-    mesh.polygon_count = count;
-    mesh.index_count = 4 * count;
-    mesh.vertices = vertices;
-    mesh.first = first;
-    mesh.indices = indices;
-    mesh.neighbours = neighbours;
-    mesh.areas = areas;
-    mesh.regions = mesh.contours = zeros;
-    mesh.cell_size = mesh.cell_height = 1.0f;
-    mesh.bounds.min.x = (float)(tile_x * HUB_STRIPS);
-    tl_nav_tile_source source;
-    memset(&source, 0, sizeof source);
-    source.polygons = &mesh;
-    source.tile_size = HUB_STRIPS;
-    source.tile_x = tile_x;
-    source.agent_height = 2.0f;
-    source.agent_max_climb = 1.0f;
-    tl_nav_tile *tile = NULL;
-    TEST_RESULT(tl_nav_tile_encode(&source, NULL, &tile, NULL), TL_OK);
-    return tile;
-}
-
 // Whichever comes first, the hub or its strips, each strip knows where it lies in the hub's ring.
 static void strips_know_their_place_in_a_hub(void **state)
 {
@@ -185,8 +141,12 @@ static void strips_know_their_place_in_a_hub(void **state)
     for (uint32_t hub = 0; hub < 2; hub++) {
         tl_navmesh *navmesh = NULL;
         TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
-        TEST_RESULT(tl_navmesh_add_tile(navmesh, make_row(hub == 0 ? 1 : HUB_STRIPS, 0), TL_NAV_TILE_OWNED), TL_OK);
-        TEST_RESULT(tl_navmesh_add_tile(navmesh, make_row(hub == 1 ? 1 : HUB_STRIPS, 1), TL_NAV_TILE_OWNED), TL_OK);
+        TEST_RESULT(
+            tl_navmesh_add_tile(navmesh, nav_row_tile(hub == 0 ? 1 : HUB_STRIPS, HUB_STRIPS, 0), TL_NAV_TILE_OWNED),
+            TL_OK);
+        TEST_RESULT(
+            tl_navmesh_add_tile(navmesh, nav_row_tile(hub == 1 ? 1 : HUB_STRIPS, HUB_STRIPS, 1), TL_NAV_TILE_OWNED),
+            TL_OK);
         const tl_nav_rings *rings = &navmesh->slots[1 - hub].rings;
         uint32_t seams = 0, hub_edges = 0;
         tl_nav_ring_at(navmesh, hub, 0, &hub_edges);
