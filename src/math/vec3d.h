@@ -142,6 +142,12 @@ static inline void tl_frame_set(tl_frame *frame, tl_quatd q, tl_vec3d origin)
     frame->origin = origin;
 }
 
+static inline bool tl_pose_is_finite(tl_transform pose)
+{
+    tl_quat q = pose.rotation;
+    return tl_is_finite(pose.position) && isfinite(q.x) && isfinite(q.y) && isfinite(q.z) && isfinite(q.w);
+}
+
 static inline tl_frame tl_frame_from(tl_transform pose)
 {
     tl_frame f;

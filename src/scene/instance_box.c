@@ -64,9 +64,7 @@ static TL_NOINLINE tl_result check_scaled(const tl_scene_instance *instance, tl_
 
 tl_result tl_scene_read_instance(const tl_scene_instance *instance, tl_aabb *local_out)
 {
-    tl_quat q = instance->pose.rotation;
-    if (!tl_is_finite(instance->pose.position) || !isfinite(q.x) || !isfinite(q.y) || !isfinite(q.z) ||
-        !isfinite(q.w)) {
+    if (!tl_pose_is_finite(instance->pose)) {
         return TL_ERR_NOT_FINITE;
     }
     if (!is_within_range(instance->pose.position)) {

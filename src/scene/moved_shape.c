@@ -17,9 +17,7 @@
 
 tl_result tl_moved_shape_make(const tl_convex *convex, tl_transform pose, tl_vec3 motion, tl_moved_shape *shape_out)
 {
-    tl_quat q = pose.rotation;
-    if (!tl_is_finite(motion) || !tl_is_finite(pose.position) || !isfinite(q.x) || !isfinite(q.y) || !isfinite(q.z) ||
-        !isfinite(q.w)) {
+    if (!tl_is_finite(motion) || !tl_pose_is_finite(pose)) {
         return TL_ERR_NOT_FINITE;
     }
     if (!(convex->radius >= 0.0f)) {

@@ -12,8 +12,7 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
-#include "math/scale.h"
-#include "math/vec3d.h"
+#include "scene/scene_layout.h"
 
 #include <float.h>
 #include <string.h>
@@ -37,14 +36,9 @@ static tl_result refuse_group(tl_report *report, tl_result result, uint32_t grou
     return tl_report_fail(report, result, "group", group, advice);
 }
 
-static bool is_quat_finite(tl_quat q)
-{
-    return isfinite(q.x) && isfinite(q.y) && isfinite(q.z) && isfinite(q.w);
-}
-
 static tl_result check_placement(const tl_scene_placement *at, uint32_t group, tl_report *report)
 {
-    if (!tl_is_finite(at->pose.position) || !is_quat_finite(at->pose.rotation)) {
+    if (!tl_pose_is_finite(at->pose)) {
         return refuse_group(report, TL_ERR_NOT_FINITE, group, "check the poses of its placements");
     }
     tl_result result = tl_scale_check(tl_vec3_make(at->scale, at->scale, at->scale), TL_MAX_SCALE);
@@ -74,25 +68,21 @@ static tl_result check_groups(const tl_scene_group *groups, uint32_t group_count
     return TL_OK;
 }
 
-// Adds what is inside a group to the one that it is placed in.
-static tl_result add_total(group_total *outer, const group_total *inner, uint32_t group, tl_report *report)
+static tl_result check_total(const group_total *total, uint32_t group, tl_report *report)
 {
-    outer->instances += inner->instances;
-    outer->copies += inner->copies;
-    if (outer->instances > TL_MAX_SCENE_INSTANCES || outer->copies > TL_MAX_SCENE_INSTANCES) {
-        return refuse_group(report, TL_ERR_LIMIT, group, "make several scenes");
-    }
-    return TL_OK;
+    return total->instances > TL_MAX_SCENE_INSTANCES || total->copies > TL_MAX_SCENE_INSTANCES
+               ? refuse_group(report, TL_ERR_LIMIT, group, "make several scenes")
+               : TL_OK;
 }
 
+// Begins the total of a group with what it holds itself.
 static tl_result open_total(const tl_scene_group *groups, uint32_t group_count, uint32_t group, group_total *total,
                             tl_report *report)
 {
     TL_TRY(check_group(groups, group_count, group, report));
     group_total own = { groups[group].instance_count, 1, GROUP_OPEN };
-    group_total none = { 0, 0, GROUP_NEW };
     *total = own;
-    return add_total(total, &none, group, report);
+    return check_total(total, group, report);
 }
 
 // Fills `totals` of the root and all groups inside. A path holds each group once, so `path` has a place for each.
@@ -120,7 +110,9 @@ static tl_result count_groups(const tl_scene_group *groups, uint32_t group_count
             TL_TRY(open_total(groups, group_count, inner, &totals[inner], report));
             continue; // and comes back to this placement
         }
-        TL_TRY(add_total(&totals[top->group], &totals[inner], top->group, report));
+        totals[top->group].instances += totals[inner].instances;
+        totals[top->group].copies += totals[inner].copies;
+        TL_TRY(check_total(&totals[top->group], top->group, report));
         top->next++;
     }
     return TL_OK;
@@ -162,33 +154,25 @@ static float scale_times(float a, float b)
     return product == 0.0f ? FLT_MIN : product;
 }
 
+// First `inner`, then `outer`.
 static tl_quat quat_product(tl_quat outer, tl_quat inner)
 {
-    tl_quatd a = tl_quatd_from(outer), b = tl_quatd_from(inner);
-    double x = (a.w * b.x + a.x * b.w) + (a.y * b.z - a.z * b.y), y = (a.w * b.y - a.x * b.z) + (a.y * b.w + a.z * b.x);
-    double z = (a.w * b.z + a.x * b.y) - (a.y * b.x - a.z * b.w), w = (a.w * b.w - a.x * b.x) - (a.y * b.y + a.z * b.z);
-    double unit = 1.0 / sqrt(a.length_sq * b.length_sq);
-    tl_quat q = { (float)(x * unit), (float)(y * unit), (float)(z * unit), (float)(w * unit) };
-    return q;
-}
-
-static bool is_turned(tl_quat q)
-{
-    return (q.x != 0.0f) | (q.y != 0.0f) | (q.z != 0.0f);
+    const tl_quatd q = tl_quatd_between(tl_quatd_from(tl_quat_conjugate(outer)), tl_quatd_from(inner));
+    const double unit = 1.0 / sqrt(q.length_sq);
+    const tl_quat r = { (float)(q.x * unit), (float)(q.y * unit), (float)(q.z * unit), (float)(q.w * unit) };
+    return r;
 }
 
 static tl_transform pose_in_world(const tl_scene_copy *copy, tl_transform pose)
 {
-    tl_vec3 p = copy->pose.position;
-    bool is_turned_copy = is_turned(copy->pose.rotation);
-    if (is_turned_copy || copy->scale != 1.0f || p.x != 0.0f || p.y != 0.0f || p.z != 0.0f) {
+    const tl_quat turn = copy->pose.rotation;
+    if (tl_scene_rigid_way(&copy->pose) != TL_SCENE_IDENTITY || copy->scale != 1.0f) {
         tl_frame frame = tl_frame_from(copy->pose);
         tl_vec3d scaled = tl_vec3d_scale(tl_vec3d_from(pose.position), (double)copy->scale);
         pose.position = tl_vec3d_to_float(tl_frame_point(&frame, scaled));
     }
-    if (is_turned_copy) {
-        pose.rotation =
-            is_turned(pose.rotation) ? quat_product(copy->pose.rotation, pose.rotation) : copy->pose.rotation;
+    if (tl_scene_is_rotated(turn)) {
+        pose.rotation = tl_scene_is_rotated(pose.rotation) ? quat_product(turn, pose.rotation) : turn;
     }
     return pose;
 }

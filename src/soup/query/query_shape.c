@@ -27,9 +27,7 @@ static bool has_finite_corners(const tl_convex *convex)
 
 tl_result tl_query_shape_make(const tl_convex *convex, tl_transform pose, tl_query_shape *shape_out)
 {
-    tl_quat q = pose.rotation;
-    if (!tl_is_finite(pose.position) || !isfinite(q.x) || !isfinite(q.y) || !isfinite(q.z) || !isfinite(q.w) ||
-        !has_finite_corners(convex)) {
+    if (!tl_pose_is_finite(pose) || !has_finite_corners(convex)) {
         return TL_ERR_NOT_FINITE;
     }
     if (!(convex->radius >= 0.0f)) {
