@@ -127,13 +127,16 @@ static bool are_cells_near(uint32_t a, uint32_t b, uint32_t side)
 static void spread_rings(const tl_hull *hull, uint32_t *rings_of_vertices)
 {
     const uint32_t side = tl_hull_climb_head(hull)->table_side;
-    for (uint32_t round = 0; round < MAX_SPREADS; round++) {
+    bool spreads = true;
+    for (uint32_t round = 0; round < MAX_SPREADS && spreads; round++) {
+        spreads = false;
         for (uint32_t edge = 0; edge < hull->half_edge_count; edge++) {
             const uint32_t ring = rings_of_vertices[tl_hull_edge_origin(hull, tl_hull_edge_twin(hull, edge))];
             uint32_t *of = &rings_of_vertices[tl_hull_edge_origin(hull, edge)];
             if (*of == TL_NO_FACE_RING && ring != TL_NO_FACE_RING &&
                 are_cells_near(cell_of_face(hull, tl_hull_edge_face(hull, edge)), cell_of_ring(hull, ring), side)) {
                 *of = ring;
+                spreads = true;
             }
         }
     }
