@@ -192,7 +192,7 @@ static void share_evading(const tl_nav_crowd *crowd, uint32_t k, const crowd_nei
     const crowd_seen_agent *own = &crowd->seen.agents[k];
     const crowd_group *group = tl_crowd_group_of(crowd, own->agent);
     crowd_discs *discs = &view->discs;
-    const uint32_t all = (uint32_t)(((uint64_t)1 << discs->count) - 1);
+    const uint32_t all = tl_crowd_neighbor_bits(discs->count);
     const uint32_t still = (own->kind & CROWD_SEEN_STILL) != 0 ? ~view->still & all : view->still & all;
     for (uint32_t n = 0; n < tl_crowd_lanes_end(discs->count); n++) {
         discs->evade[n] = 0.5f + 0.5f * (view->priority[n] - own->priority);

@@ -82,6 +82,12 @@ static inline uint32_t tl_crowd_lanes_end(uint32_t count)
     return (count + CROWD_LANES - 1) / CROWD_LANES * CROWD_LANES;
 }
 
+/// The bits of `count` <= CROWD_MAX_NEIGHBORS neighbours.
+static inline uint32_t tl_crowd_neighbor_bits(uint32_t count)
+{
+    return (uint32_t)(((uint64_t)1 << count) - 1);
+}
+
 typedef struct crowd_kernels {
     /// Scans the spans from the next one on; at the end there are none. False: it is full, and there may be more.
     bool (*scan)(crowd_scan *scan);

@@ -136,7 +136,7 @@ static crowd_traffic look_at_traffic(const crowd_step *step, uint32_t k, const c
     const crowd_traffic_bits bits = tl_crowd_best_kernels()->traffic(view, look);
     const uint32_t against = bits.against & (bits.quick | view->fixed);
     const uint32_t counts = look->held ? against | view->yields : against & ~view->yields;
-    const uint32_t all = (uint32_t)(((uint64_t)1 << view->discs.count) - 1);
+    const uint32_t all = tl_crowd_neighbor_bits(view->discs.count);
     crowd_traffic traffic = { false, false, false };
     for (uint32_t left = bits.ahead & counts & ~view->still & all; left != 0; left &= left - 1) {
         const uint32_t n = tl_lowest_bit(left);
