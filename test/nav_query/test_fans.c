@@ -30,7 +30,7 @@ static void seams_know_their_twins(void **state)
                 uint32_t count = 0;
                 const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, p, &count);
                 for (uint32_t k = 0; k < count; k++) {
-                    if (tl_nav_ring_is_open(&ring[k]) && (ring[k].to & TL_NAV_RING_SEAM) != 0) {
+                    if (tl_nav_ring_is_seam(&ring[k])) {
                         const tl_nav_ring_place twin = tl_nav_ring_twin(navmesh, slot, p, ring, count, k);
                         TEST_CHECK(tl_nav_ring_twin_hint(&ring[k]) == twin.edge);
                         seams += twin.edge > 0;
@@ -57,7 +57,7 @@ static void rings_have_no_room_to_spare(void **state)
             const uint64_t edges = rings->cells[rings->polygon_count].first, polygons = rings->polygon_count;
             uint64_t seams = 0;
             for (uint64_t k = 0; k < edges; k++) {
-                seams += tl_nav_ring_is_open(&rings->edges[k]) && (rings->edges[k].to & TL_NAV_RING_SEAM) != 0;
+                seams += tl_nav_ring_is_seam(&rings->edges[k]);
                 const uint32_t walls = rings->edges[k].mark >> TL_NAV_RING_TWIN_BITS;
                 TEST_CHECK(walls < rings->walls_count && (rings->edges[k].turn == 0 || walls >= TL_NAV_WALLS_FIRST));
             }
@@ -165,6 +165,34 @@ static void strips_know_their_place_in_a_hub(void **state)
         TEST_CHECK(seams == HUB_STRIPS);
         tl_navmesh_destroy(navmesh);
     }
+}
+
+// A tile that says it is the next one while its vertices are not: links lead over the seam to edges that are not the
+// same, some of them walls.
+static void tiles_that_do_not_meet_are_added(void **state)
+{
+    (void)state;
+    static const char *const ROWS[4] = { "000000000000", "000000000000", "000000000000", "000000000000" };
+    uint32_t apart = 0;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        fixture_level level = fixture_make(ROWS, 4);
+        level.tile_cells = 4;
+        level.shake = (int32_t)(seed % 4);
+        level.seed = seed;
+        tl_navmesh *navmesh = NULL;
+        TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
+        for (int32_t i = 0; i < 2; i++) {
+            tl_nav_tile *tile = fixture_build_tile(&level, 1, 0, NULL);
+            tile->tile_x = 1 + i;
+            TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
+        }
+        const tl_nav_rings *rings = &navmesh->slots[0].rings;
+        for (uint32_t k = 0; k < rings->cells[rings->polygon_count].first; k++) {
+            apart += tl_nav_ring_is_seam(&rings->edges[k]);
+        }
+        tl_navmesh_destroy(navmesh);
+    }
+    TEST_CHECK(apart > 50);
 }
 
 enum { STRIP_LENGTH = 235, STRIPS = 140, SQUARE = 600 }; // more than TL_NAV_MAX_SHORT_NUMBER squares
@@ -495,6 +523,7 @@ int main(void)
                                         cmocka_unit_test(far_twins_are_found),
                                         cmocka_unit_test(seam_twins_are_near),
                                         cmocka_unit_test(strips_know_their_place_in_a_hub),
+                                        cmocka_unit_test(tiles_that_do_not_meet_are_added),
                                         cmocka_unit_test(large_tiles_have_wide_numbers),
                                         cmocka_unit_test(collapsed_vertices_have_walls),
                                         cmocka_unit_test(slits_end_in_corners),

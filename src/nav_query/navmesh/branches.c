@@ -85,7 +85,7 @@ static void walk_from(branch_walk *walk, uint32_t polygon, uint32_t back)
 static uint32_t first_seam(const tl_nav_rings *rings, uint32_t polygon)
 {
     for (uint32_t i = rings->cells[polygon].first; i < rings->cells[polygon + 1].first; i++) {
-        if (tl_nav_ring_is_open(&rings->edges[i]) && (rings->edges[i].to & TL_NAV_RING_SEAM) != 0) {
+        if (tl_nav_ring_is_seam(&rings->edges[i])) {
             return i;
         }
     }

@@ -290,7 +290,7 @@ static void find_seam_twins(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
         uint32_t count = 0;
         tl_nav_ring_edge *ring = ring_at(navmesh, place, &count);
         for (uint32_t k = 0; k < count; k++) {
-            if (!tl_nav_ring_is_open(&ring[k]) || (ring[k].to & TL_NAV_RING_SEAM) == 0) {
+            if (!tl_nav_ring_is_seam(&ring[k])) {
                 continue;
             }
             const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, ring[k].to);
@@ -305,8 +305,9 @@ static void find_seam_twins(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
             if (tl_nav_is_shared(navmesh->history, navmesh->slots[last.slot].rings.edges)) {
                 continue;
             }
+            // Where tiles do not meet at their portals no edge across is the twin, and any may stand there.
             tl_nav_ring_edge *across = ring_at(navmesh, last, &across_count);
-            if (last.edge < across_count && (across[last.edge].to & TL_NAV_RING_SEAM) != 0) {
+            if (last.edge < across_count && tl_nav_ring_is_seam(&across[last.edge])) {
                 tl_nav_set_seam_twin(&navmesh->slots[last.slot].rings, &across[last.edge], k, count);
             }
         }

@@ -118,7 +118,7 @@ static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t pol
     tl_nav_rings *rings = writer->rings;
     for (uint32_t i = 0; i < count; i++) {
         tl_nav_ring_edge edge = ring[i];
-        if (tl_nav_ring_is_open(&edge) && (edge.to & TL_NAV_RING_SEAM) != 0) {
+        if (tl_nav_ring_is_seam(&edge)) {
             edge.to = add_ring_seam(writer, old->seams[edge.to & ~TL_NAV_RING_SEAM]);
         }
         rings->has_back = rings->has_back || edge.to == TL_NAV_RING_BACK;
@@ -461,8 +461,7 @@ void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot)
 {
     for (uint32_t i = 0; i < rings->cells[rings->polygon_count].first; i++) {
         tl_nav_ring_edge *edge = &rings->edges[i];
-        if (tl_nav_ring_is_open(edge) && (edge->to & TL_NAV_RING_SEAM) != 0 &&
-            tl_nav_ring_seam_of(rings, edge->to).slot == slot) {
+        if (tl_nav_ring_is_seam(edge) && tl_nav_ring_seam_of(rings, edge->to).slot == slot) {
             edge->to = TL_NAV_RING_WALL;
             tl_nav_set_ring_twin(edge, TL_NAV_RING_ON_PORTAL);
         }

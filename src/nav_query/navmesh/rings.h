@@ -166,6 +166,12 @@ static inline bool tl_nav_ring_is_open(const tl_nav_ring_edge *edge)
     return edge->to < TL_NAV_RING_BACK;
 }
 
+/// Whether an edge leads over a seam.
+static inline bool tl_nav_ring_is_seam(const tl_nav_ring_edge *edge)
+{
+    return (edge->to & TL_NAV_RING_SEAM) != 0 && tl_nav_ring_is_open(edge);
+}
+
 static inline void tl_nav_set_ring_twin(tl_nav_ring_edge *edge, uint32_t twin)
 {
     edge->mark = (edge->mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) |
