@@ -158,6 +158,8 @@ typedef struct work {
     tl_soup *soup;
     tl_navmesh *navmesh;
     tl_nav_tile *tile;
+    tl_nav_query *query;
+    uint32_t n;
     tl_result result;
 } work;
 
@@ -214,6 +216,23 @@ static bool make_hub(work *w, const char *family, uint32_t n)
     return there != NULL && w->tile != NULL && tl_navmesh_add_tile(w->navmesh, there, TL_NAV_TILE_OWNED) == TL_OK;
 }
 
+// A place for an agent wider than all of them.
+static bool make_wide(work *w, const char *family, uint32_t n)
+{
+    return make_hub(w, family, n) && tl_navmesh_add_tile(w->navmesh, w->tile, TL_NAV_TILE_OWNED) == TL_OK &&
+           tl_nav_query_create(NULL, &w->query, NULL) == TL_OK;
+}
+
+static tl_result find_wide_place(work *w)
+{
+    const float size = (float)w->n;
+    const tl_vec3 middle = { size, 0.0f, 0.5f * size }, half = { size, 1.0f, size };
+    tl_nav_around_request around = { .radius = 4.0f * size };
+    const tl_result result = tl_navmesh_find_nearest(w->navmesh, NULL, middle, half, &around.center);
+    tl_nav_location place;
+    return result != TL_OK ? result : tl_nav_query_find_wide_place(w->query, w->navmesh, &around, 8.0f * size, &place);
+}
+
 void growth_measured(work *w);
 
 ALONE void growth_measured(work *w)
@@ -246,6 +265,8 @@ ALONE void growth_measured(work *w)
         w->result = bake_polygons_of(w);
     } else if (strcmp(w->operation, "add-tile") == 0) {
         w->result = tl_navmesh_add_tile(w->navmesh, w->tile, TL_NAV_TILE_OWNED);
+    } else if (strcmp(w->operation, "wide-place") == 0) {
+        w->result = find_wide_place(w);
     } else {
         w->result = TL_ERR_UNSUPPORTED;
     }
@@ -253,9 +274,10 @@ ALONE void growth_measured(work *w)
 
 static bool make_input(work *w, const char *family, uint32_t n)
 {
-    return strcmp(w->operation, "add-tile") == 0   ? make_hub(w, family, n)
-           : strcmp(w->operation, "polygons") == 0 ? make_outline(&w->l, family, n)
-                                                   : make_mesh(&w->l, family, n);
+    return strcmp(w->operation, "add-tile") == 0     ? make_hub(w, family, n)
+           : strcmp(w->operation, "wide-place") == 0 ? make_wide(w, family, n)
+           : strcmp(w->operation, "polygons") == 0   ? make_outline(&w->l, family, n)
+                                                     : make_mesh(&w->l, family, n);
 }
 
 int main(int count, char **arguments)
@@ -265,7 +287,7 @@ int main(int count, char **arguments)
         fprintf(stderr, "growth OPERATION FAMILY SIZE\n");
         return 2;
     }
-    work w = { .operation = arguments[1] };
+    work w = { .operation = arguments[1], .n = n };
     w.l.vertices = malloc((4 * (size_t)n + 16) * sizeof *w.l.vertices);
     w.l.indices = malloc((4 * (size_t)n + 16) * 3 * sizeof *w.l.indices);
     w.l.outline = malloc((2 * (size_t)n + 16) * sizeof *w.l.outline);
@@ -280,6 +302,7 @@ int main(int count, char **arguments)
     growth_measured(&w);
     printf("%s\n", tl_result_name(w.result));
     tl_blob_free(w.soup);
+    tl_nav_query_destroy(w.query);
     tl_navmesh_destroy(w.navmesh);
     free(w.l.vertices);
     free(w.l.indices);

@@ -27,8 +27,9 @@ typedef struct tl_nav_clearance {
     double least;                ///< metres that its path keeps: a share of reach, as corners are rounded by chords
     double slack;                ///< metres: what rounding may do to a place
     double touch;                ///< metres, squared: what lies no farther apart touches
-    tl_nav_scratch scratch;      ///< what is left of the query's memory
-    bool is_full;                ///< it was not enough
+    double cover; ///< metres: once a wall is nearer than that to all of a polygon, no others need be found; 0: all are
+    tl_nav_scratch scratch; ///< what is left of the query's memory
+    bool is_full;           ///< it was not enough
 } tl_nav_clearance;
 
 /// Metres lost to rounding when a place of a coordinate's size is kept as floats, and distances are taken from it: the
@@ -71,6 +72,7 @@ typedef struct tl_nav_near_walls {
     uint32_t wall_count;
     tl_nav_met *met; ///< met[-i]: they grow downwards
     uint32_t met_count;
+    bool is_covered; ///< a wall is nearer than `cover` to all of the shape; others may be missing
 } tl_nav_near_walls;
 
 /// Finds the walls that can be walked to straight, within `distance`, from some spot of a convex shape (1 corner: a

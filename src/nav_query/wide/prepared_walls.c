@@ -16,6 +16,7 @@
 #include "nav_query/wide/prepared_walls.h"
 #include "nav_query/search/query_memory.h"
 #include "nav_query/wide/wall_cell.h"
+#include "nav_query/wide/walls_near_shape.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
@@ -399,6 +400,16 @@ bool tl_nav_gather_cell(tl_nav_clearance *clearance, uint32_t slot, uint32_t pol
                                      &cell_out->near);
 }
 
+static bool is_covered(const tl_nav_wall_cell *cell, double distance)
+{
+    bool covered = false;
+    for (uint32_t i = 0; distance > 0.0 && i < cell->near.wall_count && !covered; i++) {
+        covered =
+            tl_nav_wall_covers(tl_nav_segment_of_wall(&cell->near.walls[i]), cell->corners, cell->count, distance);
+    }
+    return covered;
+}
+
 bool tl_nav_wall_cell_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, double distance,
                          tl_nav_wall_cell *cell_out)
 {
@@ -417,6 +428,7 @@ bool tl_nav_wall_cell_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t po
     cell_out->count = tl_nav_corner_spots(navmesh, slot, polygon, cell_out->corners);
     cell_out->near.walls = kept->walls + cell[0].wall;
     cell_out->near.wall_count = tl_nav_count_within(cell_out->near.walls, cell[1].wall - cell[0].wall, distance);
+    cell_out->near.is_covered = is_covered(cell_out, clearance->cover);
     cell_out->side_first = kept->side_first + first_corner[polygon];
     cell_out->hits = kept->hits;
     cell_out->pairs = kept->pairs + cell[0].pair;

@@ -114,6 +114,7 @@ typedef struct wall_walk {
     tl_nav_near_wall *walls;
     uint32_t count;
     beam *top; // of the beams that wait
+    bool is_covered;
 } wall_walk;
 
 static double pass_window(tl_nav_spot a, tl_nav_spot b)
@@ -218,6 +219,8 @@ static bool add_wall(wall_walk *walk, uint32_t slot, const tl_nav_ring_edge *edg
         return false;
     }
     if (!found) {
+        walk->is_covered = walk->is_covered ||
+                           tl_nav_wall_covers(wall, walk->reach->corners, walk->reach->count, walk->clearance->cover);
         tl_nav_near_wall fresh = { distance_sq, (float)wall.a.x, (float)wall.a.z, (float)wall.b.x, (float)wall.b.z };
         known->stop = walk->count;
         walk->walls[walk->count++] = fresh;
@@ -330,14 +333,15 @@ bool tl_nav_add_visible_walls(tl_nav_clearance *clearance, tl_nav_met at, const 
 {
     tl_nav_shape reach = tl_nav_shape_make(shape, count, distance, clearance->slack);
     beam *bottom = (beam *)(void *)clearance->scratch.high;
-    wall_walk walk = { clearance, &reach, (tl_nav_near_wall *)(void *)clearance->scratch.low, near->wall_count,
-                       bottom };
+    wall_walk walk = { clearance,        &reach, (tl_nav_near_wall *)(void *)clearance->scratch.low,
+                       near->wall_count, bottom, false };
     bool fits = cast_beams(&walk, at, NULL);
-    while (fits && walk.top < bottom) {
+    while (fits && !walk.is_covered && walk.top < bottom) {
         const beam next = *walk.top++;
         fits = cast_beams(&walk, next.at, &next);
     }
     near->wall_count = walk.count;
+    near->is_covered = near->is_covered || walk.is_covered;
     clearance->is_full = clearance->is_full || !fits;
     return fits;
 }

@@ -57,6 +57,18 @@ static inline double tl_nav_shape_distance_sq(const tl_nav_shape *reach, tl_nav_
     return best_sq;
 }
 
+/// Whether a wall is nearer than `distance` to all of a convex outline: what it forbids is convex, so the corners tell.
+static inline bool tl_nav_wall_covers(tl_nav_segment wall, const tl_nav_spot *corners, uint32_t count, double distance)
+{
+    tl_nav_spot nearest;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(tl_nav_nearest_of_segment(wall, corners[i], &nearest) < distance * distance)) {
+            return false;
+        }
+    }
+    return distance > 0.0;
+}
+
 /// Begins a list of walls in the scratch memory.
 void tl_nav_begin_walls(tl_nav_clearance *clearance, tl_nav_near_walls *near);
 /// Adds the walls around a shape that lies in a polygon. False: out of scratch memory.
