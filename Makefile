@@ -191,9 +191,9 @@ js-test: wasm all
 	cd js && npm ci --no-audit --no-fund --silent && npx tsc -p .
 	cd js && TALUS_COMMAND=$(abspath $(BUILD))/cli/talus npm test
 
-# JavaScript peers, in node: rays, paths, bakes.
+# JavaScript peers, in node: rays, paths, bakes. BENCH_WEB="courtyard /tmp/level.obj" names levels.
 bench-web: wasm
-	cd js/bench && npm ci --no-audit --no-fund --silent && node bench.js
+	cd js/bench && npm ci --no-audit --no-fund --silent && node bench.js $(BENCH_WEB)
 
 install: all
 	cmake --install $(BUILD) --prefix "$(PREFIX)"

@@ -2,21 +2,25 @@
 //
 // JavaScript peers in node: rays one call each (three-mesh-bvh, Rapier), batches in no order and of a camera, bakes
 // (recast-navigation), paths (recast-navigation, navcat). Warmed, alternated, medians; answers are compared first. Figures
-// are times as fast as the peer: above 1 talus is faster. Levels: two built-in ones, and the OBJ files named as arguments.
-// TALUS_THREADS=2 gives talus threads, which no peer has; TALUS_SCALAR=1 takes SIMD away.
+// are times as fast as the peer: above 1 talus is faster. Arguments are levels, OBJ files or names of built-in ones; without
+// any, two built-in ones. In the end the batches once more, in a process whose talus has as many threads as the machine;
+// TALUS_THREADS=2 gives it threads in all rows, which no peer has. TALUS_SCALAR=1 takes SIMD away.
 
 import RAPIER from '@dimforge/rapier3d-compat';
 import { DEFAULT_QUERY_FILTER, findPath } from 'navcat';
 import { generateSoloNavMesh as navcatBake } from 'navcat/blocks';
+import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
 import { basename } from 'node:path';
 import { NavMeshQuery, init as initRecast } from 'recast-navigation';
 import { generateSoloNavMesh as recastBake } from 'recast-navigation/generators';
+import { fileURLToPath } from 'node:url';
 import * as THREE from 'three';
 import { MeshBVH } from 'three-mesh-bvh';
 import { Mesh, Navmesh, Soup, hasSimd, init, sampleLevel, threads } from '../src/index.js';
 
-const RAYS = 20000, PAIRS = 400, ROUNDS = 5;
+const RAYS = 20000, PAIRS = 400, ROUNDS = 7, NO_TRIANGLE = 0xffffffff;
 const ratios = new Map();
 
 function randomNumbers(seed) { // mulberry32
@@ -34,7 +38,7 @@ const median = (list) => [...list].sort((a, b) => a - b)[list.length >> 1];
  * Medians of each runner's milliseconds, alternated. The first rounds warm: the engine begins with quick code, and replaces
  * it function by function while that runs.
  */
-function race(runners, rounds = ROUNDS, warming = 1) {
+function race(runners, rounds = ROUNDS, warming = 4) {
   const times = runners.map(() => []);
   for (let round = 0; round < warming + rounds; round++) {
     runners.forEach((run, i) => {
@@ -48,7 +52,7 @@ function race(runners, rounds = ROUNDS, warming = 1) {
 
 function note(what, level, own, peer, more = '') {
   ratios.set(what, [...(ratios.get(what) ?? []), peer / own]);
-  console.log(`${level.padEnd(24)} ${what.padEnd(34)} ${(peer / own).toFixed(2).padStart(6)}  ${more}`);
+  console.log(`${level.padEnd(24)} ${what.padEnd(42)} ${(peer / own).toFixed(2).padStart(6)}  ${more}`);
 }
 
 // --------------------------------------------------------------------------------------------------------
@@ -63,8 +67,9 @@ function cameraRays({ min, max }) {
   return rays;
 }
 
-function benchRays(name, mesh) {
-  const random = randomNumbers(1), { min, max } = mesh.bounds(), rays = new Float32Array(7 * RAYS);
+/** From anywhere in the level into any direction. */
+function randomRays({ min, max }) {
+  const random = randomNumbers(1), rays = new Float32Array(7 * RAYS);
   for (let i = 0; i < RAYS; i++) {
     const d = [random() - 0.5, random() - 0.5, random() - 0.5], length = Math.hypot(...d);
     for (let k = 0; k < 3; k++) {
@@ -73,7 +78,36 @@ function benchRays(name, mesh) {
     }
     rays[7 * i + 6] = 1e6;
   }
+  return rays;
+}
+
+function castEach(soup, rays, t) {
+  for (let i = 0, r = 0; i < RAYS; i++, r += 7) {
+    const hit = soup.castRay(rays[r], rays[r + 1], rays[r + 2], rays[r + 3], rays[r + 4], rays[r + 5], rays[r + 6]);
+    t[i] = hit === null ? -1 : hit.t;
+  }
+}
+
+/** One call for all rays against one for each; the hits are the same. */
+function benchBatch(what, name, soup, rays) {
+  const out = soup.castRays(rays), t = new Float32Array(RAYS);
+  castEach(soup, rays, t);
+  const differ = t.findIndex((one, i) => one !== (out.triangle[i] === NO_TRIANGLE ? -1 : out.t[i]));
+  if (differ >= 0) throw new Error(`${name}: ray ${differ} has another hit in the batch`);
+  const [batch, single] = race([() => soup.castRays(rays, null, out), () => castEach(soup, rays, t)]);
+  const { count } = threads();
+  note(`${what}${count > 1 ? `, ${count} threads` : ''}`, name, batch, single, `${(1e6 * batch / RAYS).toFixed(0)} ns a ray`);
+}
+
+function benchBatches(name, mesh) {
   const soup = Soup.bake(mesh);
+  benchBatch('batch in no order: single calls', name, soup, randomRays(mesh.bounds()));
+  benchBatch('batch of a camera: single calls', name, soup, cameraRays(mesh.bounds()));
+  soup.free();
+}
+
+function benchRays(name, mesh) {
+  const rays = randomRays(mesh.bounds()), soup = Soup.bake(mesh);
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(mesh.vertices, 3));
   geometry.setIndex(new THREE.BufferAttribute(mesh.indices.slice(), 1)); // the BVH puts it in an order of its own
@@ -82,15 +116,9 @@ function benchRays(name, mesh) {
   world.createCollider(RAPIER.ColliderDesc.trimesh(mesh.vertices, mesh.indices));
   world.step();
   const rapierRay = new RAPIER.Ray({ x: 0, y: 0, z: 0 }, { x: 1, y: 0, z: 0 });
-  const pixels = cameraRays(mesh.bounds()), seen = soup.castRays(pixels);
   const answers = [0, 1, 2].map(() => new Float32Array(RAYS));
   const runs = [
-    () => {
-      for (let i = 0, r = 0; i < RAYS; i++, r += 7) {
-        const hit = soup.castRay(rays[r], rays[r + 1], rays[r + 2], rays[r + 3], rays[r + 4], rays[r + 5], 1e6);
-        answers[0][i] = hit === null ? -1 : hit.t;
-      }
-    },
+    () => castEach(soup, rays, answers[0]),
     () => {
       for (let i = 0, r = 0; i < RAYS; i++, r += 7) {
         ray.origin.set(rays[r], rays[r + 1], rays[r + 2]);
@@ -111,23 +139,13 @@ function benchRays(name, mesh) {
         answers[2][i] = hit === null ? -1 : hit.timeOfImpact;
       }
     },
-    () => soup.castRays(rays, null, batch),
-    () => {
-      for (let r = 0; r < pixels.length; r += 7) {
-        soup.castRay(pixels[r], pixels[r + 1], pixels[r + 2], pixels[r + 3], pixels[r + 4], pixels[r + 5], pixels[r + 6]);
-      }
-    },
-    () => soup.castRays(pixels, null, seen),
   ];
-  const batch = soup.castRays(rays);
-  runs.slice(0, 3).forEach((run) => run());
+  runs.forEach((run) => run());
   const differ = [1, 2].map((peer) => answers[0].reduce((n, t, i) => n + (Math.abs(t - answers[peer][i]) > 1e-3 * Math.max(1, t) ? 1 : 0), 0));
   if (differ.some((n) => n > RAYS / 100)) throw new Error(`${name}: rays differ: ${differ}`);
-  const [own, three, rapier, batched, camera, image] = race(runs);
+  const [own, three, rapier] = race(runs);
   note('rays: three-mesh-bvh', name, own, three, `${(1e6 * own / RAYS).toFixed(0)} ns a ray, ${differ[0]} of ${RAYS} differ`);
   note('rays: Rapier', name, own, rapier, `${differ[1]} differ`);
-  note('rays: batch against single calls', name, batched, own);
-  note('camera: batch against single calls', name, image, camera);
   soup.free();
   world.free();
 }
@@ -198,18 +216,27 @@ function readObj(path) {
   return new Mesh(vertices, indices);
 }
 
-await init({ simd: !process.env.TALUS_SCALAR, threads: Number(process.env.TALUS_THREADS ?? 1) });
+const levels = process.argv.length > 2 ? process.argv.slice(2) : ['courtyard', 'dungeon'];
+const ownThreads = Number(process.env.TALUS_THREADS ?? 1), onlyBatches = Boolean(process.env.TALUS_ONLY_BATCHES);
+
+await init({ simd: !process.env.TALUS_SCALAR, threads: ownThreads });
 await RAPIER.init();
 await initRecast();
 console.log(`talus ${hasSimd() ? 'with' : 'without'} SIMD, threads: ${threads().count}, node ${process.version}; times as fast as the peer`);
-const levels = [['courtyard', sampleLevel('courtyard')], ['dungeon', sampleLevel('dungeon')],
-                ...process.argv.slice(2).map((path) => [basename(path), readObj(path)])];
-for (const [name, mesh] of levels) {
-  benchRays(name, mesh);
-  benchNav(name, mesh);
+for (const level of levels) {
+  const name = basename(level), mesh = level.endsWith('.obj') ? readObj(level) : sampleLevel(level);
+  if (!onlyBatches) benchRays(name, mesh);
+  benchBatches(name, mesh);
+  if (!onlyBatches) benchNav(name, mesh);
 }
 console.log('\ngeometric mean, worst');
 for (const [what, list] of ratios) {
   const mean = Math.exp(list.reduce((sum, x) => sum + Math.log(x), 0) / list.length);
-  console.log(`${what.padEnd(34)} ${mean.toFixed(2).padStart(6)} ${Math.min(...list).toFixed(2).padStart(6)}`);
+  console.log(`${what.padEnd(42)} ${mean.toFixed(2).padStart(6)} ${Math.min(...list).toFixed(2).padStart(6)}`);
+}
+// A process has one module, with threads or without.
+if (ownThreads === 1 && availableParallelism() > 1) {
+  console.log();
+  const env = { ...process.env, TALUS_THREADS: `${availableParallelism()}`, TALUS_ONLY_BATCHES: '1' };
+  execFileSync(process.execPath, [fileURLToPath(import.meta.url), ...levels], { env, stdio: 'inherit' });
 }
