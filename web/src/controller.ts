@@ -75,7 +75,7 @@ export class Controller implements App {
       });
       this.opened(source, name, done, keepView);
     } catch (error) {
-      this.ended(error);
+      this.ended(error, source.kind === 'pack' ? source.name : null);
     }
   }
 
@@ -188,18 +188,20 @@ export class Controller implements App {
     void this.layers.update();
   }
 
-  private ended(error: unknown): void {
+  private ended(error: unknown, file: string | null = null): void {
     if (error instanceof Cancelled) {
       // A newer bake may have taken its place.
       if (!this.engine.baking) this.session.set({ baking: false, progress: null });
       return;
     }
     this.session.set({ baking: false, progress: null });
-    this.report(error);
+    this.report(error, file);
   }
 
-  private report(error: unknown): void {
-    const text = error instanceof Error ? error.message : String(error);
+  /** Says what went wrong: with the file that could not be read, or as a sentence. */
+  private report(error: unknown, file: string | null = null): void {
+    const cause = error instanceof Error ? error.message : String(error);
+    const text = file === null ? cause.replace(/^./, (letter) => letter.toUpperCase()) : `${file}: ${cause}`;
     const field = error instanceof EngineError && error.field ? keyOfField(error.field) ?? undefined : undefined;
     const memory = error instanceof EngineError && error.result === 'TL_ERR_MEMORY'
       ? ' A larger cell size, or tiles, take less.' : '';

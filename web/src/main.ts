@@ -153,6 +153,12 @@ function keys(app: Controller, tools: readonly Tool[], help: () => void, root: H
 /** The page as a stranger sees it first: a path, which may be dragged. */
 const FIRST_SIGHT: Partial<View> = { tool: 'path', start: [14, 0, 28], goal: [20, 5, 20] };
 
+/** Once what else is under way has begun. */
+async function startStage(canvas: HTMLCanvasElement): Promise<Stage> {
+  await Promise.resolve();
+  return new Stage(canvas);
+}
+
 async function start(root: HTMLElement): Promise<void> {
   const embedded = readEmbedded();
   const asked = location.hash.length > 1 ? location.hash : embedded?.hash ?? '';
@@ -161,10 +167,12 @@ async function start(root: HTMLElement): Promise<void> {
   if (embedded && !hashHasSettings(asked)) first.settings = { ...first.settings, ...embedded.settings };
   const canvas = h('canvas', { tabIndex: 0, 'aria-label': 'The level in three dimensions' });
   const viewBox = h('main', { class: 'view' }, canvas);
-  root.append(viewBox);
-  const wasm = await loadWasm();
-  const engine = new EngineHost(wasm); // its worker starts while the graphics do
-  const app = new Controller(new Store<View>(first), new Stage(canvas), engine);
+  root.replaceChildren(viewBox);
+  // The module is compiled and the worker starts beside the graphics, which hold this thread until they are there.
+  const compiled = loadWasm();
+  const engine = new EngineHost(compiled);
+  const [wasm, stage] = await Promise.all([compiled, startStage(canvas)]);
+  const app = new Controller(new Store<View>(first), stage, engine);
   const files = fileOpener(app, viewBox);
   const chooser = levelChooser(app, files.open);
   const help = helpDialog();

@@ -97,6 +97,17 @@ test('says what is missing without WebAssembly', async () => {
   await page.close();
 });
 
+test('says so where the browser cannot read the script', async () => {
+  const page = await browser.newPage();
+  // Syntax of a later year, as ours is for an old browser.
+  const html = readFileSync(PAGE, 'utf8').replace('<script type="module">', '<script type="module">let let = of the future;');
+  await page.route(server.url, (route) => route.fulfill({ contentType: 'text/html', body: html }));
+  await page.goto(server.url);
+  await page.getByText('This browser cannot read it').waitFor({ state: 'visible' });
+  await page.screenshot({ path: `${SHOTS}old-browser.png` });
+  await page.close();
+});
+
 test('does without SIMD, and says so', async () => {
   const context = await browser.newContext();
   const page = await context.newPage();

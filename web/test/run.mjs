@@ -15,7 +15,7 @@ if (!existsSync(PAGE)) {
   console.error('viewer tests: the page is not built; make viewer-page does it');
   process.exit(1);
 }
-const files = ['viewer.test.mjs', 'page.test.mjs', 'bundle.test.mjs'].map((name) => fileURLToPath(new URL(name, import.meta.url)));
+const files = ['viewer.test.mjs', 'levels.test.mjs', 'page.test.mjs', 'bundle.test.mjs'].map((name) => fileURLToPath(new URL(name, import.meta.url)));
 const begin = Date.now();
 let passed = 0;
 let failed = 0;

@@ -127,78 +127,18 @@ test('opens on a path, steps through the stages of a bake, and looks into buildi
   await viewer.close();
 });
 
-test('opens a dropped file, and names what is wrong with one', async () => {
-  const viewer = await open(`#level=sample:courtyard${COARSE}`);
+test('times the stages of a bake in tiles', async () => {
+  const viewer = await open(`#level=sample:courtyard&tileSize=32${COARSE}`);
   await viewer.ready();
-  await viewer.drop('floor.obj', floorObj(12));
-  await viewer.until(({ app }) => app.session.get().level.name === 'floor.obj' && !app.session.get().baking);
-  await viewer.settled();
-  assert.equal(await viewer.ask(({ app }) => app.session.get().level.triangles), 2);
-  const area = await viewer.ask(({ app }) => app.session.get().bake.area);
-  assert.ok(area > 90 && area < 144, `${area} m2 of 144 are left by the radius`);
-  await viewer.shot('drop');
-  const faults = [
-    ['v 0 0 0\nv 1 0 0\nv 0 0 zero\n', /broken\.obj: line 3: .*zero.*not three finite numbers/],
-    ['v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 4\n', /broken\.obj: line 4: vertex 4 is not there/],
-    ['v 0 0 0\n', /broken\.obj: holds no faces/],
-    ['', /broken\.obj: is empty/],
-  ];
-  for (const [text, words] of faults) {
-    await viewer.drop('broken.obj', text);
-    await viewer.page.waitForFunction((source) => new RegExp(source).test(document.querySelector('#message').innerText), words.source);
-    assert.equal(await viewer.ask(({ app }) => app.session.get().level.name), 'floor.obj', 'the level before stays');
-  }
-  await viewer.drop('level.blend', 'x');
-  await viewer.page.waitForFunction(() => /\.obj .*\.glb/.test(document.querySelector('#message').innerText));
-  await viewer.drop('level.talus', 'no such file');
-  await viewer.page.waitForFunction(() => !/glb/.test(document.querySelector('#message').innerText));
-  assert.ok((await viewer.page.locator('#message').innerText()).length > 10);
-  await viewer.shot('broken-file');
-  await viewer.close();
-});
-
-/** A glTF of one buffer as its binary form: a header, then a chunk of JSON and one of bytes, each of whole words. */
-function toGlb(gltf, buffer) {
-  const scene = JSON.parse(gltf);
-  delete scene.buffers[0].uri;
-  const text = JSON.stringify(scene), json = Buffer.from(text.padEnd(4 * Math.ceil(text.length / 4)));
-  const words = (...list) => Buffer.from(new Uint32Array(list).buffer);
-  return Buffer.concat([words(0x46546c67, 2, 28 + json.length + buffer.length), words(json.length, 0x4e4f534a), json,
-    words(buffer.length, 0x004e4942), buffer]);
-}
-
-test('reads STL, PLY, glTF and GLB as it reads OBJ', async () => {
-  const viewer = await open(`#level=sample:courtyard${COARSE}`);
-  await viewer.ready();
-  const stl = 'solid s\nfacet normal 0 1 0\nouter loop\nvertex -6 0 -6\nvertex -6 0 6\nvertex 6 0 6\nendloop\nendfacet\n' +
-    'facet normal 0 1 0\nouter loop\nvertex -6 0 -6\nvertex 6 0 6\nvertex 6 0 -6\nendloop\nendfacet\nendsolid s\n';
-  const ply = 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n' +
-    'property list uchar int vertex_indices\nend_header\n-6 0 -6\n-6 0 6\n6 0 6\n6 0 -6\n4 0 1 2 3\n';
-  const buffer = Buffer.alloc(4 * 12 + 6 * 2);
-  [-6, 0, -6, -6, 0, 6, 6, 0, 6, 6, 0, -6].forEach((v, i) => buffer.writeFloatLE(v, 4 * i));
-  [0, 1, 2, 0, 2, 3].forEach((v, i) => buffer.writeUInt16LE(v, 48 + 2 * i));
-  const gltf = JSON.stringify({
-    asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }],
-    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
-    buffers: [{ byteLength: 60, uri: `data:application/octet-stream;base64,${buffer.toString('base64')}` }],
-    bufferViews: [{ buffer: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 12 }],
-    accessors: [
-      { bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [-6, 0, -6], max: [6, 0, 6] },
-      { bufferView: 1, componentType: 5123, count: 6, type: 'SCALAR' }],
-  });
-  for (const [name, content] of [['a.stl', stl], ['b.ply', ply], ['c.gltf', gltf], ['d.obj', floorObj(12)], ['e.glb', toGlb(gltf, buffer)]]) {
-    await viewer.drop(name, content);
-    await viewer.until(({ app }, name) => app.session.get().level.name === name && !app.session.get().baking, name);
-    const { level, bake } = await viewer.ask(({ app }) => app.session.get());
-    assert.equal(level.triangles, 2, name);
-    assert.ok(bake.area > 90 && bake.area < 144, `${name}: ${bake.area} m2`);
-  }
-  // A floor that stands upright is one once z is up.
-  await viewer.page.setInputFiles('#file', { name: 'up.obj', mimeType: 'text/plain', buffer: Buffer.from('v -6 -6 0\nv 6 -6 0\nv 6 6 0\nv -6 6 0\nf 1 2 3 4\n') });
-  await viewer.until(({ app }) => app.session.get().level.name === 'up.obj' && !app.session.get().baking);
-  assert.equal(await viewer.ask(({ app }) => app.session.get().bake?.polygons ?? 0), 0);
-  await viewer.page.selectOption('#up', 'z');
-  await viewer.until(({ app }) => app.session.get().bake?.polygons > 0);
+  const bake = await viewer.ask(({ app }) => app.session.get().bake);
+  assert.ok(bake.tiles > 4 && bake.measuredTiles >= 1 && bake.measuredTiles <= bake.tiles, `${bake.measuredTiles} of ${bake.tiles}`);
+  const names = bake.stages.map(({ stage }) => stage);
+  for (const name of ['rasterize', 'regions', 'contours', 'polygons', 'detail']) assert.ok(names.includes(name), `${name} is in ${names}`);
+  assert.ok(!names.includes('tiles'));
+  const sum = bake.stages.reduce((all, { milliseconds }) => all + milliseconds, 0);
+  assert.ok(sum > 0 && sum <= 1.001 * bake.milliseconds, `${sum} of ${bake.milliseconds} ms`);
+  assert.match(await viewer.page.locator('#times').getAttribute('aria-label'), /rasterize .*regions/);
+  await viewer.shot('tiles-times');
   await viewer.close();
 });
 

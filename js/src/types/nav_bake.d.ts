@@ -96,7 +96,10 @@ export interface NavBakeReport {
   tileCount: number;
   /** Bytes held at one time, at most. */
   peakBytes: number;
-  /** Milliseconds in each stage, over all tiles, in the order in which they began. */
+  /**
+   * Milliseconds in each stage, in the order in which they began. Of a bake in tiles 'tiles' alone: they run side by side,
+   * and tell no stages. `bakeStages` with `onProgress` times those of one.
+   */
   times: Record<string, number>;
 }
 

@@ -10,6 +10,7 @@ import { boxLayer, hullLayer, pairLayer, triangleLayer } from './geometry/level'
 import { linkLayer } from './geometry/links';
 import { floorLayer, spanLayer } from './geometry/voxels';
 import { climbAnswer, stepsAnswer } from './lessons';
+import { stageTimes } from './stage_times';
 import { pathAnswer, sightAnswer, walkAnswer, whyAnswer } from './answers';
 import type {
   AuditAnswer, BakeInfo, BakeSettings, ClimbAnswer, LayerData, LayerName, LayerOptions, LevelInfo, LevelMesh,
@@ -152,7 +153,7 @@ export class Engine {
     return {
       milliseconds,
       threads: threads(),
-      stages: Object.entries(report?.times ?? {}).map(([stage, time]) => ({ stage, milliseconds: time })),
+      ...stageTimes(report?.times ?? {}, this.needMesh(), navmesh.options, tiles),
       tilesX: grid.x,
       tilesZ: grid.z,
       tiles: tiles.length,
@@ -262,7 +263,7 @@ export class Engine {
     if (name === 'merging') {
       const triangles = this.forTiles((tileX, tileZ) =>
         bakeStages(this.needMesh(), { ...this.options(), maxVertsPerPoly: 3, tileX, tileZ }).polygons);
-      return polygonLayer(triangles, anchor, lift, 'triangles');
+      return polygonLayer(triangles, anchor, lift, 'triangle');
     }
     const stages = this.needStages();
     switch (name) {
@@ -271,7 +272,7 @@ export class Engine {
       case 'distance':
       case 'regions': return floorLayer(stages, anchor, name);
       case 'contours': return contourLayer(stages, anchor);
-      case 'polygons': return polygonLayer(stages.map((stage) => stage.polygons), anchor, lift, 'polygons');
+      case 'polygons': return polygonLayer(stages.map((stage) => stage.polygons), anchor, lift, 'polygon');
       case 'detail': return detailLayer(stages, anchor);
       default: throw new Error(`no layer is called '${name}'`);
     }

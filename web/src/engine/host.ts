@@ -35,21 +35,23 @@ interface Reply {
 /** Milliseconds after which a bake is long enough for the next spare worker to start beside it. */
 const SPARE_AFTER = 400;
 
-/** A worker with an engine in it. */
+/** A worker with an engine in it. It starts while the module is still being compiled. */
 class Runner {
   private worker = new EngineWorker();
+  private started: Promise<void>;
   private next = 1;
   private calls = new Map<number, { resolve: (value: never) => void; reject: (error: Error) => void }>();
   onProgress: (progress: Progress) => void = () => {};
   dead: Error | null = null;
 
-  constructor(wasm: WasmChoice) {
+  constructor(wasm: Promise<WasmChoice>) {
     this.worker.onmessage = (event: MessageEvent<Reply>) => this.take(event.data);
     this.worker.onerror = (event) => {
       event.preventDefault();
       this.end(new EngineError(event.message || 'the worker could not be started', null, null));
     };
-    this.worker.postMessage({ wasm });
+    this.started = wasm.then((choice) => this.worker.postMessage({ wasm: choice }));
+    this.started.catch((error: Error) => this.end(error));
   }
 
   private take(reply: Reply): void {
@@ -66,7 +68,7 @@ class Runner {
     return new Promise((resolve, reject) => {
       const id = this.next++;
       this.calls.set(id, { resolve, reject });
-      this.worker.postMessage({ id, method, args });
+      void this.started.then(() => this.worker.postMessage({ id, method, args }), () => {}); // else it has ended
     });
   }
 
@@ -84,7 +86,7 @@ export class EngineHost {
   private spare: Runner | null;
   onProgress: (progress: Progress) => void = () => {};
 
-  constructor(private wasm: WasmChoice) {
+  constructor(private wasm: Promise<WasmChoice>) {
     this.spare = new Runner(wasm);
   }
 

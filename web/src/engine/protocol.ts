@@ -68,6 +68,8 @@ export interface BakeInfo {
   /** That it ran on, and why on no more. */
   threads: { count: number; reason: string | null };
   stages: StageTime[];
+  /** How many tiles the stages were timed on; null: all. */
+  measuredTiles: number | null;
   tilesX: number;
   tilesZ: number;
   tiles: number;

@@ -32,7 +32,7 @@ export function fill(parent: HTMLElement, ...children: Child[]): void {
 export function metres(value: number): string {
   const size = Math.abs(value);
   if (!Number.isFinite(value)) return '∞';
-  return `${size >= 1000 ? Math.round(value) : Number(value.toPrecision(size >= 1 ? 5 : 3))} m`;
+  return `${size >= 1000 ? count(Math.round(value)) : Number(value.toPrecision(size >= 1 ? 5 : 3))} m`;
 }
 
 export function count(value: number): string {
@@ -41,7 +41,7 @@ export function count(value: number): string {
 
 export function milliseconds(value: number): string {
   if (value >= 10_000) return `${(value / 1000).toFixed(1)} s`;
-  if (value >= 100) return `${Math.round(value)} ms`;
+  if (value >= 100) return `${count(Math.round(value))} ms`;
   return `${value.toFixed(value >= 10 ? 1 : 2)} ms`;
 }
 

@@ -1,6 +1,7 @@
 // The line at the bottom: how a bake goes on, and then what it made and how long each stage took.
 
 import type { App } from '../app';
+import { plural } from '../plural';
 import { colourOfId, css, mix } from '../scene/palette';
 import { count, fill, h, milliseconds } from './dom';
 
@@ -22,17 +23,19 @@ export function footer(app: App, simd: boolean, oneThread: string | null): HTMLE
       stage.textContent = progress?.stage ?? working ?? 'starting';
     }
     numbers.textContent = level === null ? ''
-      : `${count(level.triangles)} triangles` + (bake === null ? '' :
-        ` · ${count(bake.polygons)} polygons in ${count(bake.tiles)} tile${bake.tiles === 1 ? '' : 's'}` +
+      : plural(level.triangles, 'triangle') + (bake === null ? '' :
+        ` · ${plural(bake.polygons, 'polygon')} in ${plural(bake.tiles, 'tile')}` +
         ` · ${Number(bake.area.toPrecision(5)).toLocaleString('en')} m²`);
     const sum = bake?.stages.reduce((all, one) => all + one.milliseconds, 0) ?? 0;
     times.hidden = sum === 0 || busy;
     if (bake && sum > 0) {
-      times.setAttribute('aria-label', 'Time of each stage: ' +
+      const measured = bake.measuredTiles === null || bake.measuredTiles === bake.tiles ? ''
+        : ` (by what ${count(bake.measuredTiles)} of ${plural(bake.tiles, 'tile')} take)`;
+      times.setAttribute('aria-label', `Time of each stage${measured}: ` +
         bake.stages.map((one) => `${one.stage} ${milliseconds(one.milliseconds)}`).join(', '));
       fill(times, ...bake.stages.map((one, i) => h('span', {
-        style: `flex: ${one.milliseconds}; background: ${css(mix(colourOfId(i + 3), 0xffffff, 0.45))}`,
-        title: `${one.stage}: ${milliseconds(one.milliseconds)}`,
+        style: `flex: ${(100 * one.milliseconds) / sum}; background: ${css(mix(colourOfId(i + 3), 0xffffff, 0.45))}`,
+        title: `${one.stage}: ${milliseconds(one.milliseconds)}${measured}`,
       }, `${one.stage} ${milliseconds(one.milliseconds)}`)));
     }
     const threads = bake?.threads.count ?? 1;

@@ -68,7 +68,7 @@ export class SightTool implements Tool {
     this.marks.dots([answer.eye], INK.sight, 16, 0, 'eye');
     const far = Math.max(...answer.rim.map((p) => Math.hypot(p[0] - answer.eye[0], p[2] - answer.eye[2])));
     fill(this.answerBox, facts([
-      ['Area in sight', `${Number(answer.area.toPrecision(4))} m²`], ['Farthest', metres(far)],
+      ['Area in sight', `${Number(answer.area.toPrecision(4)).toLocaleString('en')} m²`], ['Farthest', metres(far)],
       ['Rays', String(answer.rim.length)], ['Time', milliseconds(answer.milliseconds)],
     ]));
   }

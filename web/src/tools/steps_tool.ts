@@ -4,6 +4,7 @@ import type { App } from '../app';
 import { Latest } from '../engine/latest';
 import type { StepsAnswer, Vec3 } from '../engine/protocol';
 import { facts, fill, h } from '../panels/dom';
+import { plural } from '../plural';
 import { Marks } from '../scene/marks';
 import { colourOfId, INK, mix } from '../scene/palette';
 import { player } from './player';
@@ -91,7 +92,7 @@ export class StepsTool implements Tool {
     this.marks.dots(now.corners, INK.path, 9, lift);
     this.steps.say(now.kind === 'cut' && now.partitions.length === 0 ? 'Cut: what is left is a triangle.' : now.kind === 'cut'
       ? `Cut: of ${now.partitions.length / 2} possible partitions the shortest, red, cuts a triangle off.`
-      : `Merge: of ${now.partitions.length / 2} edges that could go, the longest, red, goes; the result stays convex.`);
+      : `Merge: of ${plural(now.partitions.length / 2, 'edge')} that could go, the longest, red, goes; the result stays convex.`);
   }
 }
 

@@ -2,10 +2,9 @@
 
 import type { Hull, Mesh, Soup } from 'talus';
 import type { LayerData, Vec3 } from '../protocol';
+import { plural } from '../../plural';
 import { colourOfId, INK, mix } from '../../scene/palette';
 import { Writer } from './writer';
-
-const plural = (n: number, word: string): string => `${n.toLocaleString('en')} ${word}${n === 1 ? '' : 's'}`;
 
 const FLAT = 0xdedad0;
 const STEEP = 0xc6c1b7;
@@ -34,8 +33,7 @@ export function triangleLayer(mesh: Mesh, anchor: Vec3, maxSlope: number): Layer
   return {
     anchor,
     triangles: writer.triangles(),
-    summary: `${plural(triangleCount, 'triangle')}, ${plural(triangleCount - steep, 'one')} less steep than ${maxSlope}°`
-      .replace('ones less', 'less').replace('one less', 'less'),
+    summary: `${plural(triangleCount, 'triangle')}, ${(triangleCount - steep).toLocaleString('en')} less steep than ${maxSlope}°`,
     legends: [{ colour: FLAT, text: 'less steep than the limit' }, { colour: STEEP, text: 'too steep' }],
   };
 }
@@ -82,7 +80,7 @@ export function boxLayer(soup: Soup, anchor: Vec3, depth: number): LayerData {
   return {
     anchor,
     lines: writer.lines(),
-    summary: `${plural(boxes.count, 'box').replace('boxs', 'boxes')} down to depth ${depth} of ${soup.stats().depth}`,
+    summary: `${plural(boxes.count, 'box', 'boxes')} down to depth ${depth} of ${soup.stats().depth}`,
     legends: [...used].sort((a, b) => a - b).slice(-6)
       .map((level) => ({ colour: DEPTHS[level % DEPTHS.length]!, text: `depth ${level}` })),
   };
@@ -101,8 +99,8 @@ export function hullLayer(hull: Hull, anchor: Vec3): LayerData {
     anchor,
     triangles: writer.triangles(),
     lines: writer.lines(),
-    summary: `${plural(hull.vertexCount, 'vertex').replace('vertexs', 'vertices')}, ${plural(hull.faceCount, 'face')}, ` +
-      `${plural(edges.length / 2, 'edge')}; ${Number(hull.mass().volume.toPrecision(4))} m³`,
+    summary: `${plural(hull.vertexCount, 'vertex', 'vertices')}, ${plural(hull.faceCount, 'face')}, ` +
+      `${plural(edges.length / 2, 'edge')}; ${Number(hull.mass().volume.toPrecision(4)).toLocaleString('en')} m³`,
     legends: [{ colour: 0x6a8caf, text: 'face' }, { colour: INK.wall, text: 'edge' }],
   };
 }

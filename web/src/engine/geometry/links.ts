@@ -3,6 +3,7 @@
 import { jumpLinkPoint, type JumpLink, type OffMeshLinkState } from 'talus';
 import type { LayerData, Vec3 } from '../protocol';
 import { INK } from '../../scene/palette';
+import { plural } from '../../plural';
 import { Writer } from './writer';
 
 const PIECES = 12;
@@ -40,7 +41,7 @@ export function linkLayer(found: readonly JumpLink[], placed: readonly OffMeshLi
     anchor,
     lines: writer.lines(),
     summary: found.length + placed.length === 0 ? 'none yet: place or find some with the link tool'
-      : `${counts.drop} drops, ${counts.jump} jumps, ${counts.climb} climbs, ${placed.length} placed` +
+      : `${plural(counts.drop, 'drop')}, ${plural(counts.jump, 'jump')}, ${plural(counts.climb, 'climb')}, ${placed.length} placed` +
         (loose > 0 ? `, ${loose} of them without floor at an end` : ''),
     legends: [
       { colour: INK.drop, text: 'drop' }, { colour: INK.jump, text: 'jump' }, { colour: INK.climb, text: 'climb' },

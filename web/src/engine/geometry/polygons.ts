@@ -3,6 +3,7 @@
 import type { BakeStages, NavPolygons, NavTileInfo, OutlineStage, PolygonStage } from 'talus';
 import type { LayerData, Vec3 } from '../protocol';
 import { colourOfArea, colourOfId, INK, mix } from '../../scene/palette';
+import { plural } from '../../plural';
 import { Writer } from './writer';
 
 const WALL = 0xffffffff;
@@ -71,7 +72,7 @@ export function polygonLayer(stages: readonly PolygonStage[], anchor: Vec3, lift
     anchor,
     triangles: writer.triangles(),
     lines: writer.lines(),
-    summary: `${count.toLocaleString('en')} ${what}, ${Math.floor(links / 2).toLocaleString('en')} links`,
+    summary: `${plural(count, what)}, ${plural(Math.floor(links / 2), 'link')}`,
     legends: [
       { colour: colourOfId(1), text: 'a hue each region' }, { colour: INK.wall, text: 'wall or ledge' },
       { colour: 0xc8c8c8, text: 'edge between neighbours' },
@@ -125,7 +126,7 @@ export function tileLayer(polygons: NavPolygons, tiles: readonly NavTileInfo[], 
     anchor,
     triangles: writer.triangles(),
     lines: writer.lines(),
-    summary: `${polygons.count.toLocaleString('en')} polygons in ${tiles.length} tile${tiles.length === 1 ? '' : 's'}, ` +
+    summary: `${plural(polygons.count, 'polygon')} in ${plural(tiles.length, 'tile')}, ` +
       `${Number(area.toPrecision(6)).toLocaleString('en')} m²`,
     legends: [
       ...[...used].sort((a, b) => a - b).slice(0, 8)
