@@ -35,6 +35,9 @@ function everything(talus, hash) {
     const rays = Float32Array.from({ length: 7 * 20000 }, (_, i) => (i % 7 === 6 ? 1000 : Math.fround(((i * 7919) % 1009) / 20 - (i % 7 > 2 ? 25 : 0))));
     const batch = soup.castRays(rays);
     add(`${name} rays`, ...Object.values(batch).map((array) => new Uint8Array(array.buffer)), soup.occludedRays(rays));
+    const segments = rays.subarray(0, 6 * 5001);
+    add(`${name} segments`, ...Object.values(soup.castSegments(segments)).map((array) => new Uint8Array(array.buffer)), soup.linesOfSight(segments));
+    for (const count of [0, 1, 255, 1025, 1281]) add(`${name} ${count} rays`, new Uint8Array(soup.castRays(rays.subarray(0, 7 * count)).t.buffer));
     add(`${name} rays of a filter`, new Uint8Array(soup.castRays(rays, { accept: (triangle) => triangle % 3 !== 0 }).t.buffer));
     const crowd = talus.Crowd.create(whole, { maxAgents: 300 });
     for (let i = 0; i < 300; i++) {
