@@ -3,9 +3,7 @@
 // talus crowd: a scenario of agents on a navmesh, as figures and as a film.
 
 #include "cli/crowd/crowd_film.h"
-#include "cli/crowd/crowd_run.h"
-#include "cli/crowd/crowd_scenario.h"
-#include "cli/level/open_input.h"
+#include "cli/crowd/crowd_play.h"
 #include "cli/options/output_check.h"
 #include "cli/shared/json_out.h"
 #include "io/files/atomic_write.h"
@@ -21,16 +19,15 @@ typedef struct crowd_settings {
     float every; // seconds between the film's frames
 } crowd_settings;
 
-static tl_exit write_film(tl_cli *cli, const char *output, const tl_crowd_film *film, const tl_crowd_scenario *scenario,
-                          const tl_navmesh *navmesh)
+static tl_exit write_film(tl_cli *cli, const char *output, const tl_crowd_play *play)
 {
     tl_text text;
     memset(&text, 0, sizeof(text));
     if (tl_has_ending(output, ".svg")) {
-        tl_crowd_film_add_svg(film, scenario, navmesh, &text);
+        tl_crowd_film_add_svg(&play->film, &play->scenario, play->navmesh, &text);
     } else {
         text.frame = cli->frame;
-        tl_crowd_film_add_lines(film, &text);
+        tl_crowd_film_add_lines(&play->film, &text);
     }
     tl_io_error error;
     memset(&error, 0, sizeof(error));
@@ -70,49 +67,19 @@ static tl_exit report_outcome(tl_cli *cli, const tl_crowd_scenario *scenario, co
     return TL_EXIT_OK;
 }
 
-static tl_exit run_on_stage(tl_cli *cli, const crowd_settings *settings, const tl_crowd_stage *stage)
+static tl_exit run_scenario(tl_cli *cli, const crowd_settings *settings, tl_input *input, tl_crowd_play *play)
 {
-    tl_crowd_film film;
-    tl_crowd_outcome outcome;
     tl_exit code = TL_EXIT_OK;
-    if (tl_crowd_run(cli, stage, settings->every, &film, &outcome, &code)) {
-        tl_progress_end(&cli->progress);
-        if (settings->output != NULL) {
-            code = write_film(cli, settings->output, &film, stage->scenario, stage->navmesh);
-        }
-        if (code == TL_EXIT_OK && (settings->output == NULL || strcmp(settings->output, "-") != 0)) {
-            code = report_outcome(cli, stage->scenario, &outcome);
-        }
-        if (code == TL_EXIT_OK && outcome.arrived < stage->scenario->agent_count) {
-            code = TL_EXIT_NEGATIVE;
-        }
-    }
-    tl_crowd_film_free(&film);
-    return code;
-}
-
-// With obstacles the level is baked in tiles that they change.
-static tl_exit run_scenario(tl_cli *cli, const crowd_settings *settings, tl_input *input,
-                            const tl_crowd_scenario *scenario)
-{
-    tl_crowd_stage stage = { NULL, NULL, scenario };
-    tl_exit code = TL_EXIT_OK;
-    if (scenario->obstacle_count == 0) {
-        if (tl_input_need_navmesh(cli, &settings->bake, input, &code)) {
-            stage.navmesh = input->navmesh;
-            code = run_on_stage(cli, settings, &stage);
-        }
+    if (!tl_crowd_play_run(cli, input, &settings->bake, settings->every, play, &code)) {
         return code;
     }
-    tl_crowd_obstacles obstacles;
-    if (tl_crowd_obstacles_make(cli, input, &settings->bake, scenario, &obstacles, &code) &&
-        tl_crowd_obstacles_set_time(cli, &obstacles, 0.0f, &code)) {
-        stage.navmesh = obstacles.navmesh;
-        stage.obstacles = &obstacles;
-        code = run_on_stage(cli, settings, &stage);
+    if (settings->output != NULL) {
+        code = write_film(cli, settings->output, play);
     }
-    tl_crowd_obstacles_free(&obstacles);
-    return code;
+    if (code == TL_EXIT_OK && (settings->output == NULL || strcmp(settings->output, "-") != 0)) {
+        code = report_outcome(cli, &play->scenario, &play->outcome);
+    }
+    return code == TL_EXIT_OK && play->outcome.arrived < play->scenario.agent_count ? TL_EXIT_NEGATIVE : code;
 }
 
 static tl_exit run_crowd(tl_cli *cli)
@@ -137,15 +104,11 @@ static tl_exit run_crowd(tl_cli *cli)
     }
     tl_input input;
     if (tl_input_open_level(cli, cli->arguments.words[0], &settings.bake, &input, &code)) {
-        tl_crowd_scenario scenario;
-        tl_io_error error;
-        memset(&error, 0, sizeof(error));
-        if (tl_crowd_scenario_read(cli->arguments.words[1], cli->frame, &scenario, &error) == TL_OK) {
-            code = run_scenario(cli, &settings, &input, &scenario);
-        } else {
-            code = tl_cli_fail_io(cli, &error);
+        tl_crowd_play play;
+        if (tl_crowd_play_read(cli, cli->arguments.words[1], &play, &code)) {
+            code = run_scenario(cli, &settings, &input, &play);
         }
-        tl_crowd_scenario_free(&scenario);
+        tl_crowd_play_free(&play);
     }
     tl_input_close(&input);
     return code;

@@ -20,7 +20,7 @@
 // The order is that of the pipeline.
 static const char *const STAGE_NAMES[] = { "soup",     "spans",         "areas",   "distance",  "regions",
                                            "contours", "triangulation", "merging", "triangles", "polygons",
-                                           "detail",   "navmesh",       "path" };
+                                           "detail",   "navmesh",       "path",    "crowd" };
 enum {
     STAGE_SOUP,
     STAGE_SPANS,
@@ -35,6 +35,7 @@ enum {
     STAGE_DETAIL,
     STAGE_NAVMESH,
     STAGE_PATH,
+    STAGE_CROWD,
     STAGE_COUNT
 };
 
@@ -45,7 +46,8 @@ typedef struct draw_settings {
     const char *output;
     const char *stages_text;
     const char *from_text, *to_text;
-    int view; // 0 both, 1 top, 2 oblique
+    const char *scenario; // of the crowd stage
+    int view;             // 0 both, 1 top, 2 oblique
     uint32_t size;
     uint32_t depth;
     uint32_t contour; // UINT32_MAX: one worth a look
@@ -79,16 +81,19 @@ static bool choose_stages(tl_cli *cli, draw_settings *settings, tl_exit *exit_ou
 {
     const char *text = settings->stages_text;
     if (text == NULL) {
-        text = settings->overview ? "all" : settings->has_ends ? "path" : "polygons";
+        text = settings->overview           ? "all"
+               : settings->scenario != NULL ? "crowd"
+               : settings->has_ends         ? "path"
+                                            : "polygons";
     }
     for (const char *word = text; *word != '\0';) {
         size_t length = strcspn(word, ",");
         if (!choose_stage(settings, word, length)) {
-            *exit_out =
-                tl_cli_fail(cli, TL_EXIT_USAGE,
-                            "--stage: there is no stage '%.*s'; there are soup, spans, areas, distance, regions, "
-                            "contours, triangulation, merging, triangles, polygons, detail, navmesh, path, and all",
-                            (int)length, word);
+            *exit_out = tl_cli_fail(
+                cli, TL_EXIT_USAGE,
+                "--stage: there is no stage '%.*s'; there are soup, spans, areas, distance, regions, "
+                "contours, triangulation, merging, triangles, polygons, detail, navmesh, path, crowd, and all",
+                (int)length, word);
             return false;
         }
         word += length + (word[length] == ',');
@@ -138,12 +143,13 @@ static bool output_path(const draw_settings *settings, int stage, char *path, si
     return length > 0 && (size_t)length < size;
 }
 
-// What can be drawn of a level or its soup; of contours alone; of a navmesh alone.
-static bool is_drawable(const draw_source *source, int stage)
+// What can be drawn of a level or its soup; of contours alone; of a navmesh alone. A crowd needs a scenario.
+static bool is_drawable(const draw_source *source, const draw_settings *settings, int stage)
 {
-    return source->is_contours ? stage >= STAGE_CONTOURS && stage <= STAGE_POLYGONS
-           : source->is_bare   ? stage == STAGE_POLYGONS || stage >= STAGE_NAVMESH
-                               : true;
+    return stage == STAGE_CROWD && settings->scenario == NULL ? false
+           : source->is_contours                              ? stage >= STAGE_CONTOURS && stage <= STAGE_POLYGONS
+           : source->is_bare                                  ? stage == STAGE_POLYGONS || stage >= STAGE_NAVMESH
+                                                              : true;
 }
 
 static bool add_navmesh(draw_source *source, draw_scene *scene, tl_exit *exit_out)
@@ -153,6 +159,22 @@ static bool add_navmesh(draw_source *source, draw_scene *scene, tl_exit *exit_ou
         draw_stage_navmesh(scene, source->input.navmesh);
     }
     return ready;
+}
+
+// A scenario is run, and drawn with the navmesh that it ran on.
+static bool add_crowd(draw_source *source, const draw_settings *settings, draw_scene *scene, tl_exit *exit_out)
+{
+    enum { FRAMES_A_SECOND = 8 };
+    tl_crowd_play play;
+    const bool done =
+        tl_crowd_play_read(source->cli, settings->scenario, &play, exit_out) &&
+        (play.scenario.obstacle_count > 0 || draw_need_walkable(source, exit_out)) &&
+        tl_crowd_play_run(source->cli, &source->input, &settings->bake, 1.0f / FRAMES_A_SECOND, &play, exit_out);
+    if (done) {
+        draw_stage_crowd(scene, &play);
+    }
+    tl_crowd_play_free(&play);
+    return done;
 }
 
 static bool add_polygons(draw_source *source, uint32_t max_verts_per_poly, const char *what, draw_scene *scene,
@@ -242,6 +264,9 @@ static bool make_stage_scene(draw_source *source, const draw_settings *settings,
     }
     if (stage == STAGE_PATH) {
         return draw_route_add(source, settings->has_ends ? &settings->ends : NULL, scene, exit_out);
+    }
+    if (stage == STAGE_CROWD) {
+        return add_crowd(source, settings, scene, exit_out);
     }
     if (source->is_bare || stage == STAGE_NAVMESH) {
         return add_navmesh(source, scene, exit_out);
@@ -347,7 +372,7 @@ static bool draw_all_in_one(draw_source *source, const draw_settings *settings, 
     bool going = true;
     for (int stage = 0; going && stage < STAGE_COUNT; stage++) {
         const bool steps = stage == STAGE_TRIANGULATION || stage == STAGE_MERGING;
-        if (settings->stages[stage] && !steps && is_drawable(source, stage)) {
+        if (settings->stages[stage] && !steps && is_drawable(source, settings, stage)) {
             going = add_to_overview(source, settings, stage, &overview, exit_out);
         }
     }
@@ -381,10 +406,10 @@ static tl_exit draw_stages(tl_cli *cli, const char *path, const draw_settings *s
         going = draw_all_in_one(&source, settings, list, &code);
     }
     for (int stage = 0; going && !settings->overview && stage < STAGE_COUNT; stage++) {
-        bool can = is_drawable(&source, stage);
+        bool can = is_drawable(&source, settings, stage);
         if (settings->stages[stage] && !can && !settings->all) {
             code = tl_cli_fail(cli, TL_EXIT_USAGE, "%s holds %s show%s", path,
-                               source.is_bare ? "a navmesh and no triangles: --stage polygons, navmesh and path"
+                               source.is_bare ? "a navmesh and no triangles: --stage polygons, navmesh, path and crowd"
                                               : "contours: --stage contours, triangulation, merging, triangles and "
                                                 "polygons",
                                source.is_bare ? " it" : " them");
@@ -460,6 +485,8 @@ static tl_exit run_draw(tl_cli *cli)
         { "from", 0, TL_OPTION_TEXT, &settings.from_text, "X,Y,Z", "path: where it starts", NULL, 0, 0, 0, 0 },
         { "to", 0, TL_OPTION_TEXT, &settings.to_text, "X,Y,Z",
           "path: where it ends (without --from and --to: across the level)", NULL, 0, 0, 0, 0 },
+        { "scenario", 0, TL_OPTION_INPUT, &settings.scenario, "FILE",
+          "crowd: who walks where, as 'talus crowd' takes it; their traces are drawn", NULL, 0, 0, 0, 0 },
         { "radius", 0, TL_OPTION_FLOAT, &settings.ends.radius, "M",
           "metres, path: the radius of an agent wider than the navmesh's own (0: its own)", NULL, 0, 1e6f, 0, 0 },
         TL_OPTION_TABLE_END,
@@ -478,6 +505,13 @@ static tl_exit run_draw(tl_cli *cli)
     if (settings.output == NULL) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "say where to write with -o FILE.png");
     }
+    if (settings.stages[STAGE_CROWD] != (settings.scenario != NULL) && !settings.all) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE,
+                           settings.scenario == NULL
+                               ? "--stage crowd: say who walks with --scenario FILE.json ('talus crowd --help' shows "
+                                 "what it holds)"
+                               : "--scenario says nothing of these stages: add crowd to --stage");
+    }
     return draw_large_world(cli, &settings, &code) ? code : draw_stages(cli, cli->arguments.words[0], &settings);
 }
 
@@ -488,9 +522,10 @@ const tl_command tl_draw_command = {
     "FILE -o OUT.png|OUT.svg [--stage NAME,...] [--view both|top|oblique]",
     "Draws a top view and an oblique view, both to scale. FILE is a level, a baked file, or contours\n"
     "('navcontours 1'). The stages, in the order of the pipeline: soup, spans, areas, distance, regions,\n"
-    "contours, triangulation, merging, triangles, polygons, detail, navmesh, path; or all. Several stages go\n"
-    "to several files: OUT-STAGE.png. What the level hides is drawn faintly. triangulation and merging show\n"
-    "step by step how one contour is divided. A merged world of more than 2048 tiles is drawn from above, tile\n"
+    "contours, triangulation, merging, triangles, polygons, detail, navmesh, path, crowd; or all. Several\n"
+    "stages go to several files: OUT-STAGE.png. What the level hides is drawn faintly. triangulation and merging\n"
+    "show step by step how one contour is divided. crowd runs the --scenario of 'talus crowd' and draws the way\n"
+    "that everybody took. A merged world of more than 2048 tiles is drawn from above, tile\n"
     "by tile, unless --view oblique or a path asks for all of it. Of the job of 'talus world' its tiles are drawn\n"
     "as maps: walkable, cost, time, missing; or all.",
     "talus sample courtyard -o courtyard.obj\n"
@@ -498,6 +533,8 @@ const tl_command tl_draw_command = {
     "talus draw courtyard.obj -o stages.png --stage soup,regions,polygons --size 400\n"
     "talus draw courtyard.obj -o overview.png --overview --size 400\n"
     "talus draw courtyard.talus -o way.svg --from 2,0,20 --to 38,0,20 --view top\n"
+    "echo '{\"groups\": [{\"count\": 9, \"at\": [2, 0, 20], \"goals\": [[20, 5, 20]]}]}' > guests.json\n"
+    "talus draw courtyard.talus -o guests.png --scenario guests.json\n"
     "talus draw courtyard.obj -o steps.png --stage triangulation,merging --contour 0",
     run_draw,
 };

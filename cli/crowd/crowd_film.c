@@ -10,14 +10,14 @@
 #include <math.h>
 #include <stdio.h>
 
-// Colours that the colour-blind tell apart (Okabe, Ito 2008), without black, which vehicles have.
-static const char *const group_colors[] = {
-    "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"
-};
-
 #define LEADER_RIM 0.5f // of its radius
 
-enum { GROUP_COLORS = sizeof(group_colors) / sizeof(group_colors[0]) };
+uint32_t tl_crowd_group_color(uint32_t group)
+{
+    // Colours that the colour-blind tell apart (Okabe, Ito 2008), without black, which vehicles have.
+    static const uint32_t colors[] = { 0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7, 0x56b4e9, 0xd55e00, 0xf0e442 };
+    return colors[group % (sizeof(colors) / sizeof(colors[0]))];
+}
 
 // Centimetres are enough for the eye. 0 is never "-0".
 static void add_number(tl_text *text, float value)
@@ -83,9 +83,10 @@ static void add_everybody(tl_text *text, const tl_crowd_film *film, const tl_cro
     for (uint32_t who = 0; who < film->who_count; ++who) {
         const uint32_t group = film->group_of[who];
         const bool is_vehicle = group == scenario->group_count;
-        tl_text_add(text, "<circle fill=\"");
-        tl_text_add(text, is_vehicle ? "#222222" : group_colors[group % GROUP_COLORS]);
-        tl_text_add(text, "\"");
+        char fill[32];
+        snprintf(fill, sizeof(fill), "<circle fill=\"#%06x\"",
+                 is_vehicle ? TL_CROWD_VEHICLE_COLOR : tl_crowd_group_color(group));
+        tl_text_add(text, fill);
         add_attribute(text, "r", film->radius[who]);
         add_attribute(text, "cx", film->places[who].x);
         add_attribute(text, "cy", film->places[who].z);

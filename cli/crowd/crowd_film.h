@@ -8,6 +8,10 @@
 #include "cli/crowd/crowd_run.h"
 #include "cli/shared/text_buffer.h"
 
+/// 0xRRGGBB, in pictures too.
+#define TL_CROWD_VEHICLE_COLOR 0x222222u
+uint32_t tl_crowd_group_color(uint32_t group);
+
 /// The navmesh seen from above, x to the right and z down, as it was baked; everybody as a circle of their radius, in
 /// the colour of their group; obstacles while they are there.
 void tl_crowd_film_add_svg(const tl_crowd_film *film, const tl_crowd_scenario *scenario, const tl_navmesh *navmesh,

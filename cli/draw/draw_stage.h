@@ -5,6 +5,7 @@
 #ifndef TALUS_CLI_DRAW_STAGE_H
 #define TALUS_CLI_DRAW_STAGE_H
 
+#include "cli/crowd/crowd_play.h"
 #include "cli/draw/draw_scene.h"
 
 #include <talus/nav_bake.h>
@@ -47,5 +48,8 @@ void draw_stage_links(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav
 /// A route over the navmesh: the polygons of the corridor, the straight path, start and goal.
 void draw_stage_route(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav_route *route,
                       const tl_nav_path_buffers *buffers);
+
+/// A scenario that was run: the navmesh, the way of everybody in the colour of their group, obstacles.
+void draw_stage_crowd(draw_scene *scene, const tl_crowd_play *play);
 
 #endif

@@ -67,24 +67,60 @@ static void test_goals_and_vehicles(void **state)
     cli_free(&lines);
 }
 
+static uint32_t count_parts(const char *text, const char *part)
+{
+    uint32_t count = 0;
+    for (const char *at = text; (at = strstr(at, part)) != NULL; ++at) {
+        ++count;
+    }
+    return count;
+}
+
 static void test_films(void **state)
 {
     (void)state;
     cli_do(0, "crowd floor.talus two.json -o film.svg");
     size_t size;
     char *svg = cli_read_file("film.svg", &size);
-    uint32_t circles = 0, motions = 0;
-    for (const char *at = svg; (at = strstr(at, "<circle")) != NULL; ++at) {
-        ++circles;
-    }
-    for (const char *at = svg; (at = strstr(at, "<animate ")) != NULL; ++at) {
-        ++motions;
-    }
-    TEST_CHECK(circles == 24 && motions == 48 && strstr(svg, "</svg>") != NULL);
+    TEST_CHECK(count_parts(svg, "<circle") == 24 && count_parts(svg, "<animate ") == 48 &&
+               strstr(svg, "</svg>") != NULL);
     TEST_CHECK(strstr(svg, "nan") == NULL && strstr(svg, "inf") == NULL);
     free(svg);
     cli_do(0, "crowd floor.talus two.json -o film.jsonl");
     TEST_CHECK(cli_exists("film.jsonl"));
+}
+
+// talus draw: traces in the colours of the groups, straight ones of few lines; obstacles need the level.
+static void test_traces(void **state)
+{
+    (void)state;
+    write_level();
+    cli_result drawn = cli_expect(0, "draw floor.talus -o traces.svg --scenario two.json --view top --size 300");
+    cli_check_part(drawn.out, "24 of 24 agents arrived, the last after ");
+    cli_free(&drawn);
+    char *svg = cli_read_file("traces.svg", NULL);
+    TEST_CHECK(count_parts(svg, "stroke:rgb(0%,44.70") >= 12 && count_parts(svg, "stroke:rgb(90.19") >= 12);
+    free(svg);
+    // One that walks straight for 8 s, 64 frames, is few lines.
+    cli_write_text("one.json", "{ \"groups\": [ { \"at\": [4, 0, 20], \"goals\": [[16, 0, 20]] } ] }");
+    cli_do(0, "draw floor.talus -o one.svg --scenario one.json --view top --size 300");
+    svg = cli_read_file("one.svg", NULL);
+    const uint32_t lines = count_parts(svg, "stroke:rgb(0%,44.70");
+    TEST_CHECK(lines >= 1 && lines <= 8);
+    free(svg);
+    // With an obstacle the level is baked in tiles; of a baked file that cannot be.
+    cli_write_text("crate.json", "{ \"groups\": [ { \"at\": [4, 0, 20], \"goals\": [[16, 0, 20]] } ],"
+                                 " \"obstacles\": [ { \"at\": [10, 0, 20], \"size\": [1, 4], \"turn\": 20 } ] }");
+    cli_do(0, "draw floor.obj -o crate.png --stage navmesh,crowd --scenario crate.json --size 200");
+    TEST_CHECK(cli_exists("crate-navmesh.png") && cli_exists("crate-crowd.png"));
+    json_t *all = cli_json(0, "draw floor.obj -o all.png --stage all --scenario two.json --size 200 --json");
+    TEST_CHECK(json_array_size(json_object_get(all, "pictures")) == 14);
+    json_decref(all);
+    cli_check_error(3, "draw floor.talus -o crate.png --scenario crate.json", "a baked file", "give the level itself");
+    cli_check_error(2, "draw floor.talus -o x.png --stage crowd", "--scenario FILE.json", "talus crowd --help");
+    cli_check_error(2, "draw floor.talus -o x.png --stage soup --scenario two.json", "--scenario", "add crowd");
+    cli_check_error(4, "draw floor.talus -o x.png --scenario no.json", "no.json", "check the path");
+    cli_check_error(3, "draw floor.talus -o x.png --scenario floor.obj", "floor.obj", "");
 }
 
 // A bar across the floor that goes after 20 s: nobody is past it before, all arrive later, and the film shows when it
@@ -264,15 +300,11 @@ static void test_faults(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_arrive),
-        cmocka_unit_test(test_goals_and_vehicles),
-        cmocka_unit_test(test_films),
-        cmocka_unit_test(test_obstacles),
-        cmocka_unit_test(test_leaning_obstacles),
-        cmocka_unit_test(test_examples),
-        cmocka_unit_test(test_not_all_arrive),
-        cmocka_unit_test(test_slots),
-        cmocka_unit_test(test_faults),
+        cmocka_unit_test(test_all_arrive), cmocka_unit_test(test_goals_and_vehicles),
+        cmocka_unit_test(test_films),      cmocka_unit_test(test_traces),
+        cmocka_unit_test(test_obstacles),  cmocka_unit_test(test_leaning_obstacles),
+        cmocka_unit_test(test_examples),   cmocka_unit_test(test_not_all_arrive),
+        cmocka_unit_test(test_slots),      cmocka_unit_test(test_faults),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }
