@@ -108,7 +108,8 @@ typedef enum tl_nav_agent_status {
     TL_NAV_AGENT_WALKING,     ///< to its goal
     TL_NAV_AGENT_ARRIVED,     ///< within its arrive_distance, or as near as those that stand there already let it come,
                               ///< or as walls let one come that is wider than the mesh was baked for
-    TL_NAV_AGENT_UNREACHABLE, ///< no path leads to the goal: it stands as near as a path leads
+    TL_NAV_AGENT_UNREACHABLE, ///< no path leads to the goal, or none as wide as the agent: it stands as near as a path
+                              ///< leads, or where the shortest one becomes too narrow
     TL_NAV_AGENT_QUEUED,      ///< at an off-mesh link that another one takes just now
     TL_NAV_AGENT_ON_LINK,     ///< on its way along an off-mesh link
     TL_NAV_AGENT_OFF_MESH,    ///< the navmesh under it was removed; it stands until there is one again

@@ -34,9 +34,16 @@ enum {
 /// within the agent's height.
 #define CROWD_RELOCATE_RADII 2.0f
 
-#define CROWD_NO_PLACE       UINT32_MAX
-#define CROWD_MAGIC          0x44574f52u ///< "ROWD"
-#define CROWD_VERSION        4u
+/// A wide agent that hardly comes forward for so long is kept off its goal by walls: no farther from it than so many
+/// times what it is wider than the mesh was baked for, it has arrived. In a corner of a right angle it is 1.4 times.
+#define CROWD_KEPT_OFF_AFTER 1.0f ///< seconds
+#define CROWD_KEPT_OFF_REACH 2.0f
+/// Elsewhere it is held before a gap that is too narrow.
+#define CROWD_HELD_AFTER 3.0f ///< seconds
+
+#define CROWD_NO_PLACE   UINT32_MAX
+#define CROWD_MAGIC      0x44574f52u ///< "ROWD"
+#define CROWD_VERSION    4u
 
 // Flags of an agent.
 #define CROWD_HAS_GOAL  1u
@@ -292,6 +299,8 @@ void tl_crowd_steer(const crowd_step *step, uint32_t i);
 void tl_crowd_look_for_walls(const crowd_step *step, uint32_t i, tl_nav_query *query);
 /// The velocity that an agent takes: it stands at `k` in the snapshot.
 void tl_crowd_avoid(const crowd_step *step, uint32_t k, float velocity_out[2]);
+/// Whether a wide agent has come as near to a wall as its clearance lets it.
+bool tl_crowd_touches_wall(const crowd_fields *a, uint32_t i);
 /// Moves an agent along the surface.
 void tl_crowd_move(const crowd_step *step, uint32_t i, const float velocity[2], tl_nav_query *query);
 
@@ -351,6 +360,12 @@ static inline float tl_crowd_distance_to_goal(const tl_nav_crowd *crowd, uint32_
     const tl_vec3 goal = tl_crowd_get3(crowd->a.goal, i);
     const float x = goal.x - crowd->a.x[i], z = goal.z - crowd->a.z[i];
     return sqrtf(x * x + z * z);
+}
+
+/// Metres from its goal within which a wide agent has arrived, when walls let it come no nearer.
+static inline float tl_crowd_kept_off_reach(const crowd_fields *a, uint32_t i)
+{
+    return a->arrive_distance[i] + CROWD_KEPT_OFF_REACH * a->clearance[i];
 }
 
 /// The group of an agent, or NULL.

@@ -20,6 +20,9 @@
 
 enum { MAX_CUTS = 6 };
 
+// An agent that pushes against walls comes that near to them, as a share of its radius.
+#define WALL_TOUCH_SHARE 0.1f
+
 static float distance_sq_to(const float segment[4], float x, float z)
 {
     float wx = segment[2] - segment[0], wz = segment[3] - segment[1];
@@ -28,6 +31,17 @@ static float distance_sq_to(const float segment[4], float x, float z)
     t = tl_clamp_f32(t, 0.0f, 1.0f);
     float dx = segment[0] + t * wx - x, dz = segment[1] + t * wz - z;
     return dx * dx + dz * dz;
+}
+
+bool tl_crowd_touches_wall(const crowd_fields *a, uint32_t i)
+{
+    const float near = a->clearance[i] + WALL_TOUCH_SHARE * a->radius[i];
+    bool touches = false;
+    for (uint32_t k = 0; k < a->wall_count[i]; k++) {
+        const float *wall = &a->walls[(size_t)i * 4 * CROWD_MAX_WALLS + 4 * k];
+        touches = touches || distance_sq_to(wall, a->x[i], a->z[i]) <= near * near;
+    }
+    return touches;
 }
 
 // Whether the step to a point keeps the clearance, or comes no nearer to the walls that it is too near to already. The

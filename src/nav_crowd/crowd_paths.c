@@ -11,6 +11,13 @@
 
 enum { MAX_WIDE_CORNERS = 64 };
 
+// A goal where a wide agent does not fit is moved to the nearest place where it does, at most so many radii.
+#define WIDE_PLACE_RADII 16.0f
+
+// A wide agent that has been told that its goal is unreachable, and asks again, shows within this time whether it gets
+// nearer than it stands.
+#define TRY_AGAIN 0.25f // seconds
+
 static tl_vec3 relocate_extents(const tl_nav_crowd *crowd, uint32_t i)
 {
     const float side = CROWD_RELOCATE_RADII * crowd->a.radius[i];
@@ -57,10 +64,8 @@ static void follow_lines(const crowd_step *step, uint32_t i, const tl_nav_corner
     }
 }
 
-// For an agent wider than the mesh's. TL_NOT_FOUND: it fits nowhere on the way, or stands where it does not fit: then
-// it takes the plain path, and its clearance holds it where that is too narrow.
-static tl_result find_wide_corridor(const crowd_step *step, uint32_t i, const tl_nav_location *goal,
-                                    tl_nav_query *query, tl_nav_corridor *corridor)
+static tl_nav_wide_status find_wide_corridor(const crowd_step *step, uint32_t i, const tl_nav_location *goal,
+                                             tl_nav_query *query, tl_nav_corridor *corridor)
 {
     const crowd_fields *a = &step->crowd->a;
     const tl_nav_path_request request = { &step->crowd->filters[a->filter[i]],
@@ -70,11 +75,65 @@ static tl_result find_wide_corridor(const crowd_step *step, uint32_t i, const tl
     tl_nav_wide_path path;
     tl_result result =
         tl_nav_query_find_wide_path(query, step->navmesh, &request, a->radius[i], corners, MAX_WIDE_CORNERS, &path);
-    if ((result != TL_OK && result != TL_INCOMPLETE) || path.status != TL_NAV_WIDE_COMPLETE) {
-        return TL_NOT_FOUND;
+    if (result != TL_OK && result != TL_INCOMPLETE) {
+        return TL_NAV_WIDE_START_BLOCKED; // links and filters: the plain path may lead on
     }
-    follow_lines(step, i, corners, tl_min_u32(path.corner_count, MAX_WIDE_CORNERS), corridor);
-    return TL_OK;
+    if (path.status == TL_NAV_WIDE_COMPLETE) {
+        follow_lines(step, i, corners, tl_min_u32(path.corner_count, MAX_WIDE_CORNERS), corridor);
+    }
+    return path.status;
+}
+
+// Ends a corridor that leads all the way somewhere else than to its goal. One that was cut off is searched on first.
+static tl_nav_path_status end_elsewhere(tl_nav_corridor *corridor)
+{
+    const bool is_whole = corridor->reaches;
+    corridor->reaches = false;
+    return is_whole ? TL_NAV_PATH_UNREACHABLE : TL_NAV_PATH_COMPLETE;
+}
+
+// UNREACHABLE: the corridor ends as near to the goal as a path leads. COMPLETE: it leads there, or is cut off before.
+static tl_result find_plain_path(const crowd_step *step, uint32_t i, const tl_nav_location *goal, tl_nav_query *query,
+                                 tl_nav_corridor *corridor, tl_nav_path_status *status_out)
+{
+    const tl_nav_crowd *crowd = step->crowd;
+    tl_nav_path path;
+    const tl_result result =
+        tl_nav_corridor_find(corridor, query, step->navmesh, &crowd->filters[crowd->a.filter[i]], goal, &path);
+    const bool is_cut = path.polygon_count > corridor->capacity && path.status == TL_NAV_PATH_UNREACHABLE;
+    *status_out = is_cut ? TL_NAV_PATH_COMPLETE : path.status;
+    return result;
+}
+
+// For an agent wider than the mesh's. Where it fits not near its goal, nowhere on the way, or not where it stands, it
+// takes the plain path, and its clearance holds it where that is too narrow (hold_at_wall).
+static tl_result find_wide_path(const crowd_step *step, uint32_t i, const tl_nav_location *goal, tl_nav_query *query,
+                                tl_nav_corridor *corridor, tl_nav_path_status *status_out)
+{
+    const tl_nav_crowd *crowd = step->crowd;
+    const crowd_fields *a = &crowd->a;
+    const tl_nav_around_request around = { &crowd->filters[a->filter[i]], *goal, WIDE_PLACE_RADII * a->radius[i] };
+    const bool is_held = a->stalled[i] > CROWD_HELD_AFTER;
+    tl_nav_location place = *goal;
+    tl_nav_wide_status status = find_wide_corridor(step, i, goal, query, corridor);
+    if (status == TL_NAV_WIDE_GOAL_BLOCKED &&
+        tl_nav_query_find_wide_place(query, step->navmesh, &around, a->radius[i], &place) == TL_OK) {
+        status = find_wide_corridor(step, i, &place, query, corridor);
+    }
+    if (status == TL_NAV_WIDE_COMPLETE) {
+        const float x = place.point.x - goal->point.x, z = place.point.z - goal->point.z;
+        const bool is_near = sqrtf(x * x + z * z) <= tl_crowd_kept_off_reach(a, i);
+        *status_out = is_near ? TL_NAV_PATH_COMPLETE : end_elsewhere(corridor);
+        return TL_OK;
+    }
+    const tl_result result = find_plain_path(step, i, goal, query, corridor, status_out);
+    if (*status_out == TL_NAV_PATH_COMPLETE && status == TL_NAV_WIDE_OUT_OF_NODES) {
+        *status_out = TL_NAV_PATH_OUT_OF_NODES;
+    } else if (*status_out == TL_NAV_PATH_COMPLETE && (corridor->reaches || is_held)) {
+        corridor->reaches = corridor->reaches && status == TL_NAV_WIDE_START_BLOCKED;
+        *status_out = TL_NAV_PATH_UNREACHABLE;
+    }
+    return result;
 }
 
 // A goal on an island that the agent is not on: the point nearest to it on its own.
@@ -119,7 +178,6 @@ void tl_crowd_search_path(const crowd_step *step, uint32_t i, tl_nav_query *quer
 {
     tl_nav_crowd *crowd = step->crowd;
     crowd_fields *a = &crowd->a;
-    const tl_nav_filter *filter = &crowd->filters[a->filter[i]];
     tl_nav_location goal;
     a->flags[i] &= ~(CROWD_PARTIAL | CROWD_GAVE_UP | CROWD_NEED_PATH | CROWD_ASK_LATER);
     if (!find_goal(step, i, &goal)) {
@@ -131,26 +189,24 @@ void tl_crowd_search_path(const crowd_step *step, uint32_t i, tl_nav_query *quer
         return;
     }
     const bool is_elsewhere = find_nearest_reachable(step, i, &goal);
+    const bool is_wide = a->clearance[i] > 0.0f, was_unreachable = a->status[i] == TL_NAV_AGENT_UNREACHABLE;
     tl_nav_corridor corridor = tl_crowd_corridor(crowd, i);
-    tl_nav_path path;
-    memset(&path, 0, sizeof path);
-    tl_result result = TL_NOT_FOUND;
-    if (a->clearance[i] > 0.0f) {
-        result = find_wide_corridor(step, i, &goal, query, &corridor);
-        path.status = TL_NAV_PATH_COMPLETE;
-    }
-    if (result != TL_OK) {
-        result = tl_nav_corridor_find(&corridor, query, step->navmesh, filter, &goal, &path);
-    }
-    if (result != TL_OK) {
+    tl_nav_path_status status = TL_NAV_PATH_NONE;
+    if ((is_wide ? find_wide_path : find_plain_path)(step, i, &goal, query, &corridor, &status) != TL_OK) {
         // Its own polygon is stale, which the next check finds, or the filter's function refuses costs.
         a->flags[i] |= CROWD_PARTIAL;
         a->status[i] = TL_NAV_AGENT_UNREACHABLE;
         return;
     }
-    corridor.reaches = corridor.reaches && !is_elsewhere;
-    const bool is_partial = path.status == TL_NAV_PATH_UNREACHABLE || is_elsewhere;
-    tl_crowd_begin_path(crowd, i, &corridor, is_partial, path.status != TL_NAV_PATH_COMPLETE);
+    if (is_elsewhere) {
+        status = status == TL_NAV_PATH_COMPLETE ? end_elsewhere(&corridor) : status;
+        corridor.reaches = false;
+    }
+    const bool is_partial = status == TL_NAV_PATH_UNREACHABLE;
+    tl_crowd_begin_path(crowd, i, &corridor, is_partial, status != TL_NAV_PATH_COMPLETE);
+    if (is_wide && is_partial && was_unreachable) {
+        a->stalled[i] = CROWD_HELD_AFTER - TRY_AGAIN;
+    }
 }
 
 // What is left of a corridor from which an edit took polygons: the agent walks on along it until its search's turn
@@ -167,7 +223,8 @@ static void cut_corridor(const crowd_step *step, uint32_t i, uint32_t left)
     }
 }
 
-// Whether no path led to the goal before an edit, and none does now: there is no goal, or it is on another island.
+// Whether no path led to the goal before an edit, and none does now: there is no goal, or it is on another island. For
+// a wide agent only a search tells: it is taken for shut off until its turn comes.
 static bool is_still_shut_off(const crowd_step *step, uint32_t i)
 {
     const tl_nav_crowd *crowd = step->crowd;
@@ -176,7 +233,7 @@ static bool is_still_shut_off(const crowd_step *step, uint32_t i)
         return false;
     }
     tl_nav_location goal;
-    if (!find_goal(step, i, &goal)) {
+    if (a->clearance[i] > 0.0f || !find_goal(step, i, &goal)) {
         return true;
     }
     uint32_t from = 0, to = 0;

@@ -15,11 +15,6 @@
 // An agent takes a link once it is so near to it, as a share of its radius.
 #define LINK_SHARE 1.0f
 
-// A wide agent that hardly comes forward for so long, no farther from its goal than so many times what it is wider than
-// the mesh was baked for, is kept off by walls, and has arrived. In a corner of a right angle it is 1.4 times.
-#define KEPT_OFF_AFTER 1.0f // seconds
-#define KEPT_OFF_REACH 2.0f
-
 // Below this share of its top speed towards its corner an agent is held up; it is not any more when it has walked a
 // third of that time.
 #define PROGRESS_SHARE 0.25f
@@ -52,8 +47,7 @@ static void pass_corner(float x, float z, float side, float room, float toward_o
 
 static bool is_kept_off(const crowd_fields *a, uint32_t i, float distance)
 {
-    return a->clearance[i] > 0.0f && a->stalled[i] > KEPT_OFF_AFTER &&
-           distance <= a->arrive_distance[i] + KEPT_OFF_REACH * a->clearance[i];
+    return a->clearance[i] > 0.0f && a->stalled[i] > CROWD_KEPT_OFF_AFTER && distance <= tl_crowd_kept_off_reach(a, i);
 }
 
 // The wanted velocity: `speed` towards a direction.
@@ -91,6 +85,27 @@ static void arrive(const crowd_step *step, uint32_t i)
         a->status[i] = TL_NAV_AGENT_WAITING;
     }
     tl_crowd_want_to_stand(step, i);
+}
+
+// A wide agent before a gap that is too narrow: where its path is known to lead through such gaps it stands there from
+// now on; where that is not known it asks. False: it may walk on.
+static bool hold_at_wall(const crowd_step *step, uint32_t i)
+{
+    crowd_fields *a = &step->crowd->a;
+    const uint32_t flags = a->flags[i];
+    if (!(a->clearance[i] > 0.0f) || !(a->stalled[i] > CROWD_HELD_AFTER) || !tl_crowd_touches_wall(a, i)) {
+        return false;
+    }
+    if ((flags & (CROWD_PARTIAL | CROWD_GAVE_UP)) == 0) {
+        a->flags[i] |= (flags & CROWD_REACHES) == 0 ? CROWD_NEED_PATH : 0;
+        return false;
+    }
+    // A path that reaches the goal began where the agent did not fit: here it may, and find a wider one.
+    a->flags[i] |= (flags & CROWD_REACHES) != 0 ? CROWD_ASK_LATER : 0;
+    a->status[i] = (flags & CROWD_PARTIAL) != 0 ? TL_NAV_AGENT_UNREACHABLE : TL_NAV_AGENT_GAVE_UP;
+    a->stalled[i] = 0.0f;
+    tl_crowd_want_to_stand(step, i);
+    return true;
 }
 
 // A group's leader walks as its followers can.
@@ -234,6 +249,9 @@ void tl_crowd_walk(const crowd_step *step, uint32_t i)
         }
         speed = tl_min_f32(speed, sqrtf(BRAKE_SHARE * a->max_acceleration[i] * distance));
         speed = tl_min_f32(speed, distance / step->dt);
+    }
+    if (hold_at_wall(step, i)) {
+        return;
     }
     keep_corner(a, i, next, count >= 3 && !links_here ? &corners[2] : next);
     head_for(step, i, x, z, speed);
