@@ -5,8 +5,7 @@
 //
 //   right    whoever meets others that come the other way keeps to the right, so that flows divide into lanes
 //   yield    where that is not enough, whoever is held up by one that still gets on goes back until those have passed:
-//   a
-//            flow keeps a door as long as it moves through it. Where neither gets on, the flow goes back whose travel
+//            a flow keeps a door as long as it moves through it. Where neither gets on, the flow goes back whose travel
 //            is farther from a common direction, which turns by the golden angle: nobody needs to know who is in which
 //   aside    whoever stands in the way of one that is held up steps aside, and returns later
 //   settle   whoever is held up by those that have arrived at its goal has arrived too
