@@ -55,6 +55,13 @@ static inline bool tl_cpu_has(uint32_t bit)
     return (tl_cpu_features() & bit) != 0;
 }
 
+// Whether an earlier question has found it. Never asks: a function whose last calls are all it does needs no frame
+// then.
+static inline bool tl_cpu_was_found(uint32_t bit)
+{
+    return (__atomic_load_n(&tl_cpu_found, __ATOMIC_RELAXED) & bit) != 0;
+}
+
 static inline bool tl_cpu_has_vec128(void)
 {
     return tl_cpu_has(TL_CPU_VEC128);

@@ -32,7 +32,7 @@ typedef enum direction_kind {
     DIRECTION_KINDS
 } direction_kind;
 
-typedef enum hint_kind { HINT_NONE, HINT_LAST, HINT_WILD, HINT_KINDS } hint_kind;
+typedef enum hint_kind { HINT_NONE, HINT_LAST, HINT_BESIDE, HINT_WILD, HINT_KINDS } hint_kind;
 
 typedef struct coverage {
     uint64_t queries, wrong, ties, good_hints, scanned;
@@ -99,12 +99,22 @@ static tl_vec3 make_direction(const tl_hull *hull, test_random *random, directio
     }
 }
 
+// A vertex one edge away.
+static uint32_t neighbour_of(const tl_hull *hull, uint32_t vertex, test_random *random)
+{
+    uint32_t edge = tl_hull_vertex_edge(hull, vertex);
+    for (uint32_t turns = test_random_below(random, 8); turns > 0; turns--) {
+        edge = tl_hull_edge_next(hull, tl_hull_edge_twin(hull, edge));
+    }
+    return tl_hull_edge_origin(hull, tl_hull_edge_next(hull, edge));
+}
+
 // One question by one instruction set or, with TL_SUPPORT_ISA_COUNT, by the public function.
 static uint32_t ask(const tl_hull *hull, tl_vec3 d, uint32_t hint, uint32_t isa)
 {
     tl_support_kernel kernel;
     if (isa < TL_SUPPORT_ISA_COUNT && tl_support_kernel_for((tl_support_isa)isa, &kernel)) {
-        return kernel.support(hull, d, hint);
+        return kernel.support(hull, d.x, d.y, d.z, hint);
     }
     return tl_hull_support(hull, d, hint);
 }
@@ -118,11 +128,12 @@ static void query(const tl_hull *hull, test_random *random, uint64_t count, cove
         hint_kind hint_is = (hint_kind)test_random_below(random, HINT_KINDS);
         uint32_t isa = test_random_below(random, TL_SUPPORT_ISA_COUNT + 1);
         tl_vec3 d = make_direction(hull, random, kind, last);
-        uint32_t hint = hint_is == HINT_NONE   ? TL_NO_VERTEX
-                        : hint_is == HINT_LAST ? answer
-                                               : (uint32_t)test_random_u64(random);
         bool tied;
         uint32_t expected = scan(hull, d, &tied);
+        uint32_t hint = hint_is == HINT_NONE     ? TL_NO_VERTEX
+                        : hint_is == HINT_LAST   ? answer
+                        : hint_is == HINT_BESIDE ? neighbour_of(hull, expected, random)
+                                                 : (uint32_t)test_random_u64(random);
         answer = ask(hull, d, hint, isa);
         seen->wrong += answer != expected;
         seen->queries++;
@@ -210,7 +221,7 @@ static void print_coverage(const coverage *seen)
                                                          "capsule", "cluster", "real data" };
     static const char *const directions[DIRECTION_KINDS] = { "any",  "turned a degree", "face normal", "across edge",
                                                              "axis", "extreme" };
-    static const char *const hints[HINT_KINDS] = { "none", "the last answer", "any number" };
+    static const char *const hints[HINT_KINDS] = { "none", "the last answer", "beside the answer", "any number" };
     static const char *const isas[TL_SUPPORT_ISA_COUNT + 1] = { "scalar", "SSE4.2", "AVX2", "the machine's best" };
     print_message("%llu queries, %llu wrong; %u hulls of %u to %u vertices\n", (unsigned long long)seen->queries,
                   (unsigned long long)seen->wrong, seen->hulls, seen->min_vertices, seen->max_vertices);

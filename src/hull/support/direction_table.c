@@ -104,7 +104,7 @@ static uint32_t fill_stretch(const table_row *row, const tl_support_kernel *kern
             vertex = row->table[tl_cell_in_ring(hull, row->rings[vertex],
                                                 d)]; // many wedges may lie between this cell and the last
         }
-        vertex = kernel->climb(hull, d, vertex);
+        vertex = kernel->climb(hull, d.x, d.y, d.z, vertex);
         begin += kernel->march(hull, d, step, end - begin, vertex, cells + begin);
         vertex = cells[begin - 1];
     }

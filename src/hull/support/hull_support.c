@@ -7,6 +7,7 @@
 #include "hull/support/hull_support.h"
 
 #include "base/assert.h"
+#include "base/compiler.h"
 #include "base/min_max.h"
 
 #include <string.h>
@@ -37,19 +38,26 @@ tl_support_kernel tl_support_kernel_best(void)
     return kernel;
 }
 
-uint32_t tl_hull_support(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
+#if TL_CPU_LEVELS >= 2
+// The first query of all, and every one where there is no AVX2.
+static TL_NOINLINE uint32_t support_by_look(const tl_hull *hull, float x, float y, float z, uint32_t hint)
+{
+    return tl_cpu_has_avx2()     ? tl_hull_support_avx2(hull, x, y, z, hint)
+           : tl_cpu_has_vec128() ? tl_hull_support_vec128(hull, x, y, z, hint)
+                                 : tl_hull_support_scalar(hull, x, y, z, hint);
+}
+#endif
+
+uint32_t tl_hull_support(const tl_hull *hull, tl_vec3 d, uint32_t hint)
 {
     TL_ASSERT(hull != NULL);
 #if TL_CPU_LEVELS >= 2
-    if (tl_cpu_has_avx2()) {
-        return tl_hull_support_avx2(hull, direction, hint);
-    }
-    return tl_cpu_has_vec128() ? tl_hull_support_vec128(hull, direction, hint)
-                               : tl_hull_support_scalar(hull, direction, hint);
+    return tl_cpu_was_found(TL_CPU_AVX2) ? tl_hull_support_avx2(hull, d.x, d.y, d.z, hint)
+                                         : support_by_look(hull, d.x, d.y, d.z, hint);
 #elif TL_CPU_LEVELS == 1
-    return tl_hull_support_vec128(hull, direction, hint);
+    return tl_hull_support_vec128(hull, d.x, d.y, d.z, hint);
 #else
-    return tl_hull_support_scalar(hull, direction, hint);
+    return tl_hull_support_scalar(hull, d.x, d.y, d.z, hint);
 #endif
 }
 
@@ -65,8 +73,9 @@ static double reciprocal_power(float size)
     return result;
 }
 
-uint32_t tl_hull_support_unusual(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
+uint32_t tl_hull_support_unusual(const tl_hull *hull, float dx, float dy, float dz, uint32_t hint)
 {
+    const tl_vec3 direction = { dx, dy, dz };
     tl_vec3 size = tl_abs(direction);
     float largest = tl_maxf(size.x, tl_maxf(size.y, size.z));
     if (!(largest > 0.0f) || !tl_is_finite(direction)) {

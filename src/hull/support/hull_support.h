@@ -121,7 +121,7 @@ typedef enum tl_support_isa {
 
 // Once per instruction set (support_query.inl): the whole query; the climb alone, from a vertex and for a direction in
 // the range above, which needs no table; and the march along a row of the table (support_march.inl).
-typedef uint32_t tl_hull_support_fn(const tl_hull *hull, tl_vec3 direction, uint32_t hint);
+typedef uint32_t tl_hull_support_fn(const tl_hull *hull, float x, float y, float z, uint32_t hint);
 typedef uint32_t tl_hull_march_fn(const tl_hull *hull, tl_vec3 from, tl_vec3 step, uint32_t count, uint32_t vertex,
                                   uint32_t *cells);
 
@@ -147,13 +147,13 @@ bool tl_support_kernel_for(tl_support_isa isa, tl_support_kernel *kernel_out);
 tl_support_kernel tl_support_kernel_best(void);
 
 // The query for directions out of the range above.
-uint32_t tl_hull_support_unusual(const tl_hull *hull, tl_vec3 direction, uint32_t hint);
+uint32_t tl_hull_support_unusual(const tl_hull *hull, float x, float y, float z, uint32_t hint);
 
 // support_exact.c, for any direction.
 // Climbs on the half-edges; where faces are merged, on the blocks.
 uint32_t tl_hull_climb_exact(const tl_hull *hull, tl_vec3 direction, uint32_t vertex);
 // The lowest of the farthest vertices among those whose bits are set; one is.
-uint32_t tl_hull_decide_exact(const tl_hull *hull, tl_vec3 direction, uint64_t candidates);
+uint32_t tl_hull_decide_exact(const tl_hull *hull, float x, float y, float z, uint64_t candidates);
 
 // direction_table.c; the look-up is in direction_table.h.
 // Cells along a side for a hull of so many vertices.

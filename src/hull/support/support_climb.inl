@@ -26,15 +26,15 @@ typedef struct tl_climber {
     tl_f32x8 x, y, z;
 } tl_climber;
 
-static inline tl_climber tl_climber_make(tl_vec3 d)
+static inline tl_climber tl_climber_make(float x, float y, float z)
 {
-    tl_climber c = { tl_f32x8_all(d.x), tl_f32x8_all(d.y), tl_f32x8_all(d.z) };
+    tl_climber c = { tl_f32x8_all(x), tl_f32x8_all(y), tl_f32x8_all(z) };
     return c;
 }
 
-// direction . each neighbour's vector, and how wrong it may be.
+// direction . each neighbour's vector, and the sum of the three products' sizes, which bounds how wrong it may be.
 typedef struct tl_climb_gains {
-    tl_f32x8 gain, error;
+    tl_f32x8 gain, size;
 } tl_climb_gains;
 
 static inline tl_climb_gains tl_climber_gains_at(const tl_climber *c, const tl_climb_block *block)
@@ -42,17 +42,16 @@ static inline tl_climb_gains tl_climber_gains_at(const tl_climber *c, const tl_c
     tl_f32x8 x = tl_f32x8_mul(c->x, tl_f32x8_load(block->x));
     tl_f32x8 y = tl_f32x8_mul(c->y, tl_f32x8_load(block->y));
     tl_f32x8 z = tl_f32x8_mul(c->z, tl_f32x8_load(block->z));
-    tl_f32x8 size = tl_f32x8_add(tl_f32x8_add(tl_f32x8_abs(x), tl_f32x8_abs(y)), tl_f32x8_abs(z));
     tl_climb_gains g = { tl_f32x8_add(tl_f32x8_add(x, y), z),
-                         tl_f32x8_add(tl_f32x8_mul(size, tl_f32x8_all(TL_CLIMB_ERROR)),
-                                      tl_f32x8_all(TL_SUPPORT_UNDERFLOW)) };
+                         tl_f32x8_add(tl_f32x8_add(tl_f32x8_abs(x), tl_f32x8_abs(y)), tl_f32x8_abs(z)) };
     return g;
 }
 
 // Bit i: neighbour i may be as far as the vertex itself, or farther.
 static inline uint32_t tl_climber_open(tl_climb_gains g)
 {
-    return tl_f32x8_not_less(tl_f32x8_add(g.gain, g.error), tl_f32x8_all(0.0f));
+    return tl_f32x8_not_less(tl_f32x8_mul_add(g.size, tl_f32x8_all(TL_CLIMB_ERROR), g.gain),
+                             tl_f32x8_all(-TL_SUPPORT_UNDERFLOW));
 }
 
 // The block that goes on with the neighbours of the same vertex, TL_NO_VERTEX when there is none.
@@ -62,16 +61,30 @@ static inline uint32_t tl_climb_block_after(const tl_climb_block *block)
     return (link & TL_CLIMB_MORE) != 0 ? link & ~TL_CLIMB_MORE : TL_NO_VERTEX;
 }
 
-// Whether a vertex is proven to be the only farthest one.
-static inline bool tl_hull_is_farthest(const tl_hull *hull, const tl_climber *c, uint32_t vertex)
+// What the first blocks of a vertex and of one neighbour tell.
+typedef enum tl_climb_look {
+    TL_LOOK_PROVEN, // the vertex is the only farthest one
+    TL_LOOK_HUB,    // none in its first block is farther; it has more of them
+    TL_LOOK_FAR     // neither
+} tl_climb_look;
+
+// Looks whether a vertex is the farthest, or else the only neighbour of it that may be farther: `vertex` is that then.
+// A direction that has turned a little leaves a vertex over one of its edges; one that has nothing to do with it has
+// half of the neighbours farther, and there is no use in going on from here. Five lanes tell, for the last ones often
+// repeat the first neighbour; what they miss costs time only.
+static inline tl_climb_look tl_climber_look(const tl_climber *c, const tl_climb_block *blocks, uint32_t *vertex)
 {
-    const tl_climb_block *blocks = tl_hull_blocks(hull);
-    for (uint32_t at = vertex; at != TL_NO_VERTEX; at = tl_climb_block_after(&blocks[at])) {
-        if (tl_climber_open(tl_climber_gains_at(c, &blocks[at])) != 0) {
-            return false;
+    const tl_climb_block *block = &blocks[*vertex];
+    uint32_t open = tl_climber_open(tl_climber_gains_at(c, block));
+    if (open != 0) {
+        if ((open & (open - 1) & 0x1fu) != 0) {
+            return TL_LOOK_FAR;
         }
+        *vertex = block->link[tl_lowest_bit(open)];
+        block = &blocks[*vertex];
+        open = tl_climber_open(tl_climber_gains_at(c, block));
     }
-    return true;
+    return open != 0 ? TL_LOOK_FAR : tl_climb_block_after(block) == TL_NO_VERTEX ? TL_LOOK_PROVEN : TL_LOOK_HUB;
 }
 
 // Climbs from a vertex to the farthest one. False when rounding leaves the end open: `vertex` is where then.
@@ -80,7 +93,7 @@ static inline bool tl_hull_climb_blocks(const tl_hull *hull, const tl_climber *c
     const tl_climb_block *blocks = tl_hull_blocks(hull);
     for (;;) {
         uint32_t next = *vertex;
-        float min_gain = 0.0f;
+        float min_gain = TL_SUPPORT_UNDERFLOW;
         bool open = false;
         for (uint32_t at = *vertex; at != TL_NO_VERTEX; at = tl_climb_block_after(&blocks[at])) {
             tl_climb_gains g = tl_climber_gains_at(c, &blocks[at]);
@@ -88,7 +101,8 @@ static inline bool tl_hull_climb_blocks(const tl_hull *hull, const tl_climber *c
                 continue;
             }
             open = true;
-            tl_f32x8 certain = tl_f32x8_sub(g.gain, g.error), best = tl_f32x8_largest(certain);
+            tl_f32x8 certain = tl_f32x8_mul_sub_from(g.size, tl_f32x8_all(TL_CLIMB_ERROR), g.gain);
+            tl_f32x8 best = tl_f32x8_largest(certain);
             if (tl_f32x8_first(best) > min_gain) {
                 min_gain = tl_f32x8_first(best);
                 next = blocks[at].link[tl_lowest_bit(tl_f32x8_not_less(certain, best))];

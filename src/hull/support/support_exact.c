@@ -87,8 +87,9 @@ uint32_t tl_hull_climb_exact(const tl_hull *hull, tl_vec3 direction, uint32_t ve
     }
 }
 
-uint32_t tl_hull_decide_exact(const tl_hull *hull, tl_vec3 direction, uint64_t candidates)
+uint32_t tl_hull_decide_exact(const tl_hull *hull, float x, float y, float z, uint64_t candidates)
 {
+    const tl_vec3 direction = { x, y, z };
     const tl_vec3 *vertices = tl_hull_vertices(hull);
     uint32_t vertex = tl_lowest_bit(candidates);
     for (uint64_t left = candidates & (candidates - 1); left != 0; left &= left - 1) {

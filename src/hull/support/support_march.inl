@@ -27,7 +27,7 @@ static inline uint32_t tl_hull_march_blocks(const tl_hull *hull, tl_vec3 from, t
                                             uint32_t vertex, uint32_t *cells)
 {
     const tl_climb_block *blocks = tl_hull_blocks(hull);
-    tl_climber here = tl_climber_make(from), onward = tl_climber_make(step);
+    tl_climber here = tl_climber_make(from.x, from.y, from.z), onward = tl_climber_make(step.x, step.y, step.z);
     tl_f32x8 never = tl_f32x8_all(-INFINITY), zero = tl_f32x8_all(0.0f);
     uint32_t filled = 0;
     cells[filled++] = vertex;

@@ -5,10 +5,14 @@
 //
 // First the caller's hint, which a scan of very few vertices tests by the way. Then a scan of a small hull, or a start
 // from the direction table. The start is right nearly always, so the processor goes on with it while its neighbours are
-// still being tested: the proof costs arithmetic, but no waiting.
+// still being tested: the proof costs arithmetic, but no waiting. A hint or a start that is one edge off is seen at
+// once.
 //
 // Float arithmetic decides whenever its error bound allows; what it leaves open is settled exactly. So the answer is a
 // true maximiser, and does not depend on the hint, on the way it was found, or on the instruction set.
+//
+// The query has no frame: a direction goes around as three floats, for a struct has a place in memory; and what needs
+// one is not inlined. A frame of 32-byte registers is aligned first, which would be a fifth of a short query.
 
 #include "hull/support/direction_table.h"
 #include "hull/support/support_climb.inl"
@@ -43,9 +47,10 @@ static inline climb_end settle(const tl_hull *hull, tl_vec3 direction, const tl_
 }
 
 // Not inlined, so that the query itself needs little stack.
-TL_NOINLINE uint32_t TL_SUPPORT_CLIMB(const tl_hull *hull, tl_vec3 direction, uint32_t vertex)
+TL_NOINLINE uint32_t TL_SUPPORT_CLIMB(const tl_hull *hull, float x, float y, float z, uint32_t vertex)
 {
-    tl_climber climber = tl_climber_make(direction);
+    const tl_vec3 direction = { x, y, z };
+    tl_climber climber = tl_climber_make(x, y, z);
     for (;;) {
         if (tl_hull_climb_blocks(hull, &climber, &vertex)) {
             return vertex;
@@ -63,25 +68,27 @@ uint32_t TL_SUPPORT_MARCH(const tl_hull *hull, tl_vec3 from, tl_vec3 step, uint3
     return tl_hull_march_blocks(hull, from, step, count, vertex, cells);
 }
 
-uint32_t TL_SUPPORT_QUERY(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
+uint32_t TL_SUPPORT_QUERY(const tl_hull *hull, float x, float y, float z, uint32_t hint)
 {
-    tl_climber climber = tl_climber_make(direction);
-    float size = fabsf(direction.x) + fabsf(direction.y) + fabsf(direction.z);
+    const tl_climber climber = tl_climber_make(x, y, z);
+    const float size = fabsf(x) + fabsf(y) + fabsf(z);
     if (!(size >= TL_SUPPORT_DIRECTION_MIN && size <= TL_SUPPORT_DIRECTION_MAX)) {
-        return tl_hull_support_unusual(hull, direction, hint);
+        return tl_hull_support_unusual(hull, x, y, z, hint);
     }
     if (hull->vertex_count <= TL_HULL_FEW) {
-        return tl_hull_scan_few(hull, direction, &climber, size, hint);
+        return tl_hull_scan_few(hull, x, y, z, &climber, size, hint);
     }
-    if (hint < hull->vertex_count && tl_hull_is_farthest(hull, &climber, hint)) {
-        return hint;
+    const tl_climb_block *blocks = tl_hull_blocks(hull);
+    if (hint < hull->vertex_count) {
+        const tl_climb_look look = tl_climber_look(&climber, blocks, &hint);
+        if (look != TL_LOOK_FAR) {
+            return look == TL_LOOK_PROVEN ? hint : TL_SUPPORT_CLIMB(hull, x, y, z, hint);
+        }
     }
     if (hull->vertex_count <= TL_HULL_SCAN_LIMIT) {
-        return tl_hull_scan(hull, direction, &climber, size);
+        return tl_hull_scan(hull, x, y, z, size);
     }
-    uint32_t start = tl_hull_table_start(hull, direction);
-    if (tl_hull_is_farthest(hull, &climber, start)) {
-        return start;
-    }
-    return TL_SUPPORT_CLIMB(hull, direction, start);
+    uint32_t start = tl_hull_table_start(hull, tl_vec3_make(x, y, z));
+    const tl_climb_look look = tl_climber_look(&climber, blocks, &start);
+    return look == TL_LOOK_PROVEN ? start : TL_SUPPORT_CLIMB(hull, x, y, z, start);
 }

@@ -9,6 +9,7 @@
 #ifndef TALUS_SRC_HULL_SUPPORT_SCAN_H
 #define TALUS_SRC_HULL_SUPPORT_SCAN_H
 
+#include "base/compiler.h"
 #include "hull/support/support_climb.inl"
 
 static inline tl_f32x8 scan_dot(const tl_climber *c, const float *x, uint32_t count)
@@ -53,39 +54,41 @@ static inline tl_f32x8 scan_slack(const tl_hull *hull, float size)
     return tl_f32x8_all(2.0f * (hull->scan_error * size + TL_SUPPORT_UNDERFLOW));
 }
 
-static inline uint32_t scan_decide(const tl_hull *hull, tl_vec3 direction, uint64_t mask)
+static inline uint32_t scan_decide(const tl_hull *hull, float x, float y, float z, uint64_t mask)
 {
-    return (mask & (mask - 1)) == 0 ? tl_lowest_bit(mask) : tl_hull_decide_exact(hull, direction, mask);
+    return (mask & (mask - 1)) == 0 ? tl_lowest_bit(mask) : tl_hull_decide_exact(hull, x, y, z, mask);
 }
 
-static inline uint32_t tl_hull_scan(const tl_hull *hull, tl_vec3 direction, const tl_climber *c, float size)
+// Not inlined: its rows' products need a frame that no other way through the query should pay for.
+static TL_NOINLINE uint32_t tl_hull_scan(const tl_hull *hull, float x, float y, float z, float size)
 {
+    const tl_climber c = tl_climber_make(x, y, z);
     const float *rows = tl_hull_scan_rows(hull);
-    return scan_decide(hull, direction, scan_pairs(c, rows, tl_hull_scan_count(hull), scan_slack(hull, size)));
+    return scan_decide(hull, x, y, z, scan_pairs(&c, rows, tl_hull_scan_count(hull), scan_slack(hull, size)));
 }
 
 // One vertex's dot product: the bits of its lane.
-static inline tl_f32x8 scan_dot_of(tl_vec3 d, const float *rows, uint32_t count, uint32_t vertex)
+static inline tl_f32x8 scan_dot_of(float x, float y, float z, const float *rows, uint32_t count, uint32_t vertex)
 {
-    return tl_f32x8_all(d.x * rows[vertex] + d.y * rows[count + vertex] + d.z * rows[2 * count + vertex]);
+    return tl_f32x8_all(x * rows[vertex] + y * rows[count + vertex] + z * rows[2 * count + vertex]);
 }
 
 // Of up to eight vertices, whose products need not leave the registers. A hint is right when all the others are less
 // for certain: the processor goes on with it while they are compared.
-static inline uint32_t scan_eight(const tl_hull *hull, tl_vec3 direction, const tl_climber *c, float size,
+static inline uint32_t scan_eight(const tl_hull *hull, float x, float y, float z, const tl_climber *c, float size,
                                   uint32_t hint)
 {
     const float *rows = (const float *)(hull + 1);
     tl_f32x8 dot = scan_dot(c, rows, TL_CLIMB_LANES), raised = tl_f32x8_add(dot, scan_slack(hull, size));
     if (hint < hull->vertex_count &&
-        tl_f32x8_not_less(raised, scan_dot_of(direction, rows, TL_CLIMB_LANES, hint)) == 1u << hint) {
+        tl_f32x8_not_less(raised, scan_dot_of(x, y, z, rows, TL_CLIMB_LANES, hint)) == 1u << hint) {
         return hint;
     }
-    return scan_decide(hull, direction, tl_f32x8_not_less(raised, tl_f32x8_largest(dot)));
+    return scan_decide(hull, x, y, z, tl_f32x8_not_less(raised, tl_f32x8_largest(dot)));
 }
 
 // Of up to sixteen.
-static inline uint32_t scan_sixteen(const tl_hull *hull, tl_vec3 direction, const tl_climber *c, float size,
+static inline uint32_t scan_sixteen(const tl_hull *hull, float x, float y, float z, const tl_climber *c, float size,
                                     uint32_t hint)
 {
     const float *rows = (const float *)(hull + 1);
@@ -93,23 +96,23 @@ static inline uint32_t scan_sixteen(const tl_hull *hull, tl_vec3 direction, cons
     tl_f32x8 low = scan_dot(c, rows, TL_SCAN_PAIR), high = scan_dot(c, rows + TL_CLIMB_LANES, TL_SCAN_PAIR);
     tl_f32x8 low_raised = tl_f32x8_add(low, slack), high_raised = tl_f32x8_add(high, slack);
     if (hint < hull->vertex_count) {
-        tl_f32x8 best = scan_dot_of(direction, rows, TL_SCAN_PAIR, hint);
+        tl_f32x8 best = scan_dot_of(x, y, z, rows, TL_SCAN_PAIR, hint);
         if ((tl_f32x8_not_less(low_raised, best) | tl_f32x8_not_less(high_raised, best) << TL_CLIMB_LANES) ==
             1u << hint) {
             return hint;
         }
     }
     tl_f32x8 best = tl_f32x8_largest(tl_f32x8_max(low, high));
-    return scan_decide(hull, direction,
+    return scan_decide(hull, x, y, z,
                        tl_f32x8_not_less(low_raised, best) | tl_f32x8_not_less(high_raised, best) << TL_CLIMB_LANES);
 }
 
 // Of up to TL_HULL_FEW, which have no blocks to test a hint by.
-static inline uint32_t tl_hull_scan_few(const tl_hull *hull, tl_vec3 direction, const tl_climber *c, float size,
+static inline uint32_t tl_hull_scan_few(const tl_hull *hull, float x, float y, float z, const tl_climber *c, float size,
                                         uint32_t hint)
 {
-    return hull->vertex_count <= TL_CLIMB_LANES ? scan_eight(hull, direction, c, size, hint)
-                                                : scan_sixteen(hull, direction, c, size, hint);
+    return hull->vertex_count <= TL_CLIMB_LANES ? scan_eight(hull, x, y, z, c, size, hint)
+                                                : scan_sixteen(hull, x, y, z, c, size, hint);
 }
 
 #endif
