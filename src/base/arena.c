@@ -193,10 +193,24 @@ void tl_arena_init(tl_arena *arena, const tl_allocator *allocator)
     arena->allocator = tl_allocator_or_default(allocator);
 }
 
+void tl_arena_init_with(tl_arena *arena, const tl_allocator *allocator, void *memory, size_t bytes)
+{
+    tl_arena_init(arena, allocator);
+    TL_ASSERT((uintptr_t)memory % ARENA_ALIGNMENT == 0 && bytes > ARENA_ALIGNMENT);
+    arena->newest = arena->lent = (tl_arena_block *)memory;
+    arena->lent->older = NULL;
+    arena->lent->size = bytes;
+    arena->lent->used = round_up_to(sizeof(tl_arena_block), ARENA_ALIGNMENT);
+}
+
 static void free_newest(tl_arena *arena)
 {
     tl_arena_block *block = arena->newest;
     arena->newest = block->older;
+    if (block == arena->lent) {
+        arena->lent = NULL;
+        return;
+    }
     arena->live_bytes -= block->size;
     arena->allocator.release(block, block->size, arena->allocator.user);
 }

@@ -15,8 +15,9 @@ typedef struct tl_arena_block tl_arena_block;
 typedef struct tl_arena {
     tl_allocator allocator;
     tl_arena_block *newest;
-    uint64_t live_bytes; ///< taken from the allocator now
-    uint64_t peak_bytes; ///< the most it ever was
+    tl_arena_block *lent; ///< the block that is not the allocator's, or NULL
+    uint64_t live_bytes;  ///< taken from the allocator now
+    uint64_t peak_bytes;  ///< the most it ever was
 } tl_arena;
 
 /// A place in the arena to which it can be rolled back.
@@ -57,6 +58,9 @@ void tl_blob_hand_over(void *blob, const tl_allocator *allocator);
 
 /// NULL allocator: malloc. Takes no memory yet.
 void tl_arena_init(tl_arena *arena, const tl_allocator *allocator);
+/// The same, but what fits into `bytes` of memory that the caller lends, and that outlives the arena, costs the
+/// allocator nothing: of small builds most time would be its. `memory` is aligned to 64.
+void tl_arena_init_with(tl_arena *arena, const tl_allocator *allocator, void *memory, size_t bytes);
 void tl_arena_free(tl_arena *arena);
 
 /// count * size bytes, uninitialized, aligned to 64 when that is at least 64 bytes, else to 16. NULL when memory is

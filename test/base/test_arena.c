@@ -54,6 +54,29 @@ static void rollback_gives_back_blocks(void **state)
     tl_arena_free(&arena);
 }
 
+static void lent_memory_comes_first_and_is_not_freed(void **state)
+{
+    (void)state;
+    test_allocator test;
+    test_allocator_init(&test, 0);
+    _Alignas(64) char memory[1024];
+    tl_arena arena;
+    tl_arena_init_with(&arena, &test.allocator, memory, sizeof memory);
+    tl_arena_mark mark = tl_arena_get_mark(&arena);
+    char *first = TL_PUSH(&arena, char, 400), *second = TL_PUSH(&arena, char, 400);
+    TEST_CHECK(first > memory && first + 400 <= second && second + 400 <= memory + sizeof memory);
+    TEST_CHECK((uintptr_t)first % 64 == 0 && (uintptr_t)second % 64 == 0);
+    TEST_CHECK(test.live_blocks == 0 && arena.peak_bytes == 0);
+    char *third = TL_PUSH(&arena, char, 400);
+    TEST_CHECK(third != NULL && (third + 400 <= memory || third >= memory + sizeof memory));
+    TEST_CHECK(test.live_blocks == 1 && arena.live_bytes > 400);
+    tl_arena_rollback(&arena, mark);
+    TEST_CHECK(test.live_blocks == 0 && TL_PUSH(&arena, char, 400) == first);
+    TEST_CHECK(TL_PUSH(&arena, char, 2000) != NULL && test.live_blocks == 1);
+    tl_arena_free(&arena);
+    TEST_CHECK(test.live_blocks == 0 && arena.live_bytes == 0);
+}
+
 static void what_is_reserved_costs_one_block(void **state)
 {
     (void)state;
@@ -153,9 +176,13 @@ static void arrays_of_blobs_are_freed_whole(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pushes_are_aligned_and_apart),     cmocka_unit_test(rollback_gives_back_blocks),
-        cmocka_unit_test(what_is_reserved_costs_one_block), cmocka_unit_test(impossible_sizes_are_refused),
-        cmocka_unit_test(blobs_are_zeroed_and_counted),     cmocka_unit_test(growing_arrays_keep_their_items),
+        cmocka_unit_test(pushes_are_aligned_and_apart),
+        cmocka_unit_test(rollback_gives_back_blocks),
+        cmocka_unit_test(lent_memory_comes_first_and_is_not_freed),
+        cmocka_unit_test(what_is_reserved_costs_one_block),
+        cmocka_unit_test(impossible_sizes_are_refused),
+        cmocka_unit_test(blobs_are_zeroed_and_counted),
+        cmocka_unit_test(growing_arrays_keep_their_items),
         cmocka_unit_test(arrays_of_blobs_are_freed_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -57,9 +57,6 @@ static uint32_t next_border(const merge_state *m, uint32_t half_edge)
 static inline uint32_t next_straight_edge(const merge_state *m, uint32_t half_edge, uint32_t *last_out)
 {
     *last_out = half_edge;
-    if (!m->has_flat_edges) {
-        return tl_half_edge_next(half_edge);
-    }
     uint32_t next = next_border(m, half_edge);
     while (m->degree[origin(m, next)] < 3) {
         *last_out = next;
@@ -164,6 +161,34 @@ static tl_result number_strict_corners(merge_state *m, tl_hull_polygons *out)
     return TL_OK;
 }
 
+// Writes the loop of a group from edge `count` on, its twins still in the triangles' numbers; the count behind it.
+static uint32_t number_group(const merge_state *m, uint32_t group, uint32_t count, tl_hull_half_edge *half_edges)
+{
+    const uint32_t start = m->groups[group].value;
+    uint32_t edge = start, last;
+    do {
+        const uint32_t next = next_straight_edge(m, edge, &last);
+        const tl_hull_half_edge half_edge = { m->number[origin(m, edge)], triangle_twin(m, last), count + 1, group };
+        m->mark[edge] = count;
+        half_edges[count++] = half_edge;
+        edge = next;
+    } while (edge != start);
+    return count;
+}
+
+// The same where each group is a triangle.
+static uint32_t number_triangle(const merge_state *m, uint32_t group, uint32_t count, tl_hull_half_edge *half_edges)
+{
+    const uint32_t start = m->groups[group].value, first = start & ~3u;
+    const tl_quickhull_face *face = &m->hull->faces[tl_half_edge_face(start)];
+    for (uint32_t i = 0, k = start - first; i < 3; i++, k = k == 2 ? 0 : k + 1) {
+        const tl_hull_half_edge half_edge = { m->number[face->vertex[k]], face->across[k], count + 1, group };
+        m->mark[first + k] = count;
+        half_edges[count++] = half_edge;
+    }
+    return count;
+}
+
 // Faces in the order of (lowest vertex, vertex after it), each starting there: the same for any order of insertion.
 static tl_result number_polygons(merge_state *m, tl_hull_polygons *out)
 {
@@ -176,22 +201,17 @@ static tl_result number_polygons(merge_state *m, tl_hull_polygons *out)
     TL_TRY(tl_radix_sort_in_stage(m->groups, scratch, m->group_count, m->hull->stage));
     uint32_t count = 0;
     for (uint32_t f = 0; f < m->group_count; f++) {
-        uint32_t first = count, edge = m->groups[f].value;
-        do {
-            uint32_t last, next = next_straight_edge(m, edge, &last);
-            tl_hull_half_edge half_edge = { m->number[origin(m, edge)], triangle_twin(m, last), count + 1, f };
-            m->mark[edge] = count;
-            out->half_edges[count++] = half_edge;
-            edge = next;
-            TL_TRY(tl_quickhull_count_work(m->hull, 1));
-        } while (edge != m->groups[f].value);
+        const uint32_t first = count;
+        count = m->has_flat_edges ? number_group(m, f, first, out->half_edges)
+                                  : number_triangle(m, f, first, out->half_edges);
         out->half_edges[count - 1].next = first;
         out->faces[f].first = first;
         out->faces[f].count = count - first;
+        TL_TRY(tl_quickhull_count_work(m->hull, count - first));
     }
     for (uint32_t e = 0; e < count; e++) {
-        TL_TRY(tl_quickhull_count_work(m->hull, 1));
         out->half_edges[e].twin = m->mark[out->half_edges[e].twin];
+        TL_TRY(tl_stage_tick(m->hull->stage, e));
     }
     out->face_count = m->group_count;
     out->half_edge_count = count;

@@ -24,9 +24,15 @@ typedef struct hull_encoder {
     tl_stage *stage;
 } hull_encoder;
 
-static tl_result count_blocks(const hull_encoder *e, uint32_t *blocks_out)
+// Of a hull that is climbed.
+static tl_result count_blocks(hull_encoder *e, uint32_t *blocks_out)
 {
     const tl_hull_polygons *polygons = e->exact;
+    e->degrees = TL_PUSH_ZERO(e->arena, uint32_t, polygons->vertex_count);
+    e->edges = TL_PUSH(e->arena, uint32_t, polygons->vertex_count);
+    if (e->degrees == NULL || e->edges == NULL) {
+        return TL_ERR_MEMORY;
+    }
     *blocks_out = 0;
     for (uint32_t h = polygons->half_edge_count; h-- > 0;) {
         TL_TRY(tl_stage_tick(e->stage, h));
@@ -204,7 +210,7 @@ static tl_result write_hull(tl_hull *hull, const tl_hull_climb *climb, const hul
 }
 
 // The counts that the layout follows from; the size of the whole.
-static tl_result lay_out(const hull_encoder *e, tl_hull *head, tl_hull_climb *climb, uint64_t *size_out)
+static tl_result lay_out(hull_encoder *e, tl_hull *head, tl_hull_climb *climb, uint64_t *size_out)
 {
     const tl_hull_polygons *polygons = e->polygons;
     memset(head, 0, sizeof *head); // padding too: blobs are the same byte for byte
@@ -214,8 +220,10 @@ static tl_result lay_out(const hull_encoder *e, tl_hull *head, tl_hull_climb *cl
     head->half_edge_count = polygons->half_edge_count;
     head->merge_distance = polygons->merge_distance;
     head->flags = least_source_bytes(e);
-    TL_TRY(count_blocks(e, &climb->block_count));
-    for (uint32_t f = 0; f < polygons->face_count; f++) {
+    if (polygons->vertex_count > TL_HULL_FEW) {
+        TL_TRY(count_blocks(e, &climb->block_count));
+    }
+    for (uint32_t f = 0; f < polygons->face_count && polygons->vertex_count > TL_HULL_SCAN_LIMIT; f++) {
         tl_hull_count_ring(polygons->vertex_count, polygons->faces[f].count, climb);
     }
     *size_out = tl_hull_lay_out(head, climb);
@@ -228,11 +236,6 @@ tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points
     hull_encoder e = { .polygons = polygons, .points = points, .named = named, .copies = copies, .arena = arena };
     e.exact = polygons->exact != NULL ? polygons->exact : polygons;
     e.stage = stage;
-    e.degrees = TL_PUSH_ZERO(arena, uint32_t, polygons->vertex_count);
-    e.edges = TL_PUSH(arena, uint32_t, polygons->vertex_count);
-    if (e.degrees == NULL || e.edges == NULL) {
-        return TL_ERR_MEMORY;
-    }
     tl_hull head;
     tl_hull_climb climb;
     uint64_t size;

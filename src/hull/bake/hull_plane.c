@@ -50,7 +50,7 @@ static uint32_t largest_of_fan(const tl_hull_loop *loop)
     const tl_vec3d a = tl_vec3d_from(loop_corner(loop, 0));
     uint32_t best = 1;
     double best_area = 0.0;
-    for (uint32_t k = 1; k + 1 < loop->count && loop->count > 3; k++) {
+    for (uint32_t k = 1; k + 1 < loop->count; k++) {
         tl_vec3d u = tl_vec3d_sub(tl_vec3d_from(loop_corner(loop, k)), a);
         tl_vec3d v = tl_vec3d_sub(tl_vec3d_from(loop_corner(loop, k + 1)), a);
         tl_vec3d normal = tl_vec3d_cross(u, v);
@@ -65,12 +65,14 @@ static uint32_t largest_of_fan(const tl_hull_loop *loop)
 
 tl_hull_plane tl_hull_fit_plane(tl_hull_loop loop)
 {
-    const uint32_t best = largest_of_fan(&loop);
-    tl_vec3d n = normal_of(loop_corner(&loop, 0), loop_corner(&loop, best), loop_corner(&loop, best + 1));
+    const bool is_triangle = loop.count == 3;
+    const uint32_t best = is_triangle ? 1 : largest_of_fan(&loop);
+    const tl_vec3 three[3] = { loop_corner(&loop, 0), loop_corner(&loop, best), loop_corner(&loop, best + 1) };
+    tl_vec3d n = normal_of(three[0], three[1], three[2]);
     double length = tl_vec3d_length(n);
     tl_hull_plane plane = { { n.x / length, n.y / length, n.z / length }, -(double)INFINITY };
     for (uint32_t k = 0; k < loop.count; k++) {
-        tl_vec3 p = loop_corner(&loop, k);
+        tl_vec3 p = is_triangle ? three[k] : loop_corner(&loop, k);
         double offset = plane.normal[0] * (double)p.x + plane.normal[1] * (double)p.y + plane.normal[2] * (double)p.z;
         plane.offset = offset > plane.offset ? offset : plane.offset;
     }

@@ -22,6 +22,9 @@
 #define FACES_A_STEP 64u
 #define FACE_GROWTH  8u
 
+// On the stack: enough for the hull of a dozen points.
+enum { MEMORY_BYTES = 8 * 1024 };
+
 tl_hull_def tl_default_hull_def(void)
 {
     tl_hull_def def;
@@ -182,15 +185,10 @@ static tl_result make_tetrahedron(tl_quickhull *hull, const uint32_t seed[4])
     tl_quickhull_new_face(hull, a, d, b);
     tl_quickhull_new_face(hull, b, d, c);
     tl_quickhull_new_face(hull, c, d, a);
-    // Loops of 3: half-edge i % 3 of face i / 3.
-    for (uint32_t i = 0; i < 12; i++) {
-        uint32_t from = hull->faces[i / 3].vertex[i % 3];
-        uint32_t to = hull->faces[i / 3].vertex[(i + 1) % 3];
-        for (uint32_t j = 0; j < 12; j++) {
-            if (hull->faces[j / 3].vertex[j % 3] == to && hull->faces[j / 3].vertex[(j + 1) % 3] == from) {
-                hull->faces[i / 3].across[i % 3] = 4 * (j / 3) + j % 3;
-            }
-        }
+    // The twins of a b, b c, c a and so on, in the order above.
+    static const uint32_t across[4][3] = { { 6, 10, 14 }, { 13, 8, 0 }, { 5, 12, 1 }, { 9, 4, 2 } };
+    for (uint32_t f = 0; f < 4; f++) {
+        memcpy(hull->faces[f].across, across[f], sizeof across[f]);
     }
     return TL_OK;
 }
@@ -370,7 +368,8 @@ tl_result tl_hull_bake_named(const tl_vec3 *points, uint32_t count, const tl_hul
     TL_TRY(check_hull_def(def, base));
     TL_TRY(check_points(points, count, base));
     tl_arena arena;
-    tl_arena_init(&arena, def->host.allocator);
+    _Alignas(64) char memory[MEMORY_BYTES];
+    tl_arena_init_with(&arena, def->host.allocator, memory, sizeof memory);
     tl_quickhull hull;
     tl_stage stage;
     tl_quickhull_init(&hull, points, count, &arena, &stage);
