@@ -6,6 +6,7 @@ import type { StageTime } from './protocol';
 
 const SHARE = 0.15; // of the bake's own time: what measuring may take
 const LEAST = 10; // milliseconds: clocks of pages that are not isolated tell a tenth of one
+const LONG = 250; // milliseconds: a tile that takes longer, and longer than the share, is not baked again for this
 const STRIDE = 0.618; // of the list, from one tile that is measured to the next: spread evenly wherever it ends
 
 export interface StageTimes {
@@ -17,21 +18,32 @@ export interface StageTimes {
 /** `times`: what the bake itself told, by stage. */
 export function stageTimes(times: Record<string, number>, mesh: Mesh, options: Required<NavOptions>, tiles: readonly NavTileInfo[]): StageTimes {
   const told = Object.entries(times).map(([stage, milliseconds]) => ({ stage, milliseconds }));
-  if (times.tiles === undefined || tiles.length === 0) return { stages: told, measuredTiles: null };
+  const all = times.tiles ?? 0;
+  if (all === 0 || tiles.length === 0 || all / tiles.length > Math.max(LONG, SHARE * all)) return { stages: told, measuredTiles: null };
+  try {
+    const { count, sum, measured } = measureTiles(mesh, options, tiles, SHARE * all);
+    const scale = all / sum;
+    const shares = Object.entries(measured).map(([stage, milliseconds]) => ({ stage, milliseconds: milliseconds * scale }));
+    if (sum > 0) return { stages: told.flatMap((one) => (one.stage === 'tiles' ? shares : [one])), measuredTiles: count };
+  } catch {
+    // A tile in one piece, with the data of all stages, may need more than the bake had. That went well all the same.
+  }
+  return { stages: told, measuredTiles: null };
+}
+
+function measureTiles(
+  mesh: Mesh, options: Required<NavOptions>, tiles: readonly NavTileInfo[], room: number,
+): { count: number; sum: number; measured: Record<string, number> } {
   // Memory grows for what a bake alone frees at once: not in a time that counts.
   timeTile(mesh, options, tiles[0]!, {});
   const measured: Record<string, number> = {};
-  const end = performance.now() + Math.max(LEAST, SHARE * times.tiles);
+  const end = performance.now() + Math.max(LEAST, room);
   let count = 0;
   do {
     timeTile(mesh, options, tiles[Math.floor(((count * STRIDE) % 1) * tiles.length)]!, measured);
     count++;
   } while (count < tiles.length && performance.now() < end);
-  const sum = Object.values(measured).reduce((all, one) => all + one, 0);
-  if (sum === 0) return { stages: told, measuredTiles: null };
-  const scale = times.tiles / sum;
-  const shares = Object.entries(measured).map(([stage, milliseconds]) => ({ stage, milliseconds: milliseconds * scale }));
-  return { stages: told.flatMap((one) => (one.stage === 'tiles' ? shares : [one])), measuredTiles: count };
+  return { count, sum: Object.values(measured).reduce((sum, one) => sum + one, 0), measured };
 }
 
 function timeTile(mesh: Mesh, options: Required<NavOptions>, { x, z }: NavTileInfo, times: Record<string, number>): void {
