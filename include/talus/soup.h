@@ -220,7 +220,7 @@ typedef struct tl_segment {
 /// The closest hits of many rays: for each what tl_soup_cast_ray gives, bit for bit; triangle TL_NO_TRIANGLE and t
 /// INFINITY for a ray that hits nothing. `filter` and `host` may be NULL.
 ///
-/// Runs on the host's tasks, 4,096 rays each. Rays that follow each other in the array and run nearly alike, as those
+/// Runs on the host's tasks, 512 rays each. Rays that follow each other in the array and run nearly alike, as those
 /// of a camera's row or tile, a lidar's fan, or shadow rays of neighbouring points do, are found and traced sixteen at
 /// once, for 1 / 3 to 1 / 5 of the time of single calls. Of others a thread has several under way, so that one
 /// continues while another waits for memory or a missed branch: 1 to 1 / 1.6, and where any hit will do 1 / 1.2

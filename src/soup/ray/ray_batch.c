@@ -13,7 +13,9 @@
 #include "soup/ray/ray_filter.h"
 #include "soup/ray/ray_job.h"
 
-enum { SLICE_RAYS = 1 << 12 };
+// Some 50 to 100 us of one thread: a batch of a few thousand still has work for all, and the last slice is not waited
+// for.
+enum { SLICE_RAYS = 1 << 9 };
 
 // A packet numbers children by node * 16 + lane, in 32 bits.
 #define PACKET_MAX_NODES (1u << 28)
