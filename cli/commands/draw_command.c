@@ -169,7 +169,7 @@ static bool add_crowd(draw_source *source, const draw_settings *settings, draw_s
     const bool done =
         tl_crowd_play_read(source->cli, settings->scenario, &play, exit_out) &&
         (play.scenario.obstacle_count > 0 || draw_need_walkable(source, exit_out)) &&
-        tl_crowd_play_run(source->cli, &source->input, &settings->bake, 1.0f / FRAMES_A_SECOND, &play, exit_out);
+        tl_crowd_play_run(source->cli, &source->input, &settings->bake, 1.0f / (float)FRAMES_A_SECOND, &play, exit_out);
     if (done) {
         draw_stage_crowd(scene, &play);
     }
