@@ -16,7 +16,6 @@ enum { RING_CORNERS = 16 };
 
 #define TRACE_LIFT   0.1f  // metres above the surface
 #define TRACE_MISSES 0.03f // metres that a line may pass a frame's place by
-#define PI           3.14159265358979323846
 
 static tl_vec3 traced_place(const tl_crowd_film *film, uint32_t who, uint32_t frame)
 {
@@ -60,7 +59,7 @@ static void add_trace(draw_scene *scene, const tl_crowd_film *film, uint32_t who
 static tl_vec3 obstacle_corner(const tl_crowd_obstacle *it, uint32_t corner, bool top)
 {
     if (it->radius > 0.0f) {
-        const double angle = 2.0 * PI * (double)corner / (double)RING_CORNERS;
+        const double angle = TL_CROWD_DEGREE * 360.0 * (double)corner / (double)RING_CORNERS;
         const tl_vec3 at = it->is_capsule && top ? it->to : it->at;
         const float lift = !it->is_capsule && top ? it->height : 0.0f;
         return tl_vec3_make(at.x + it->radius * (float)cos(angle), at.y + lift, at.z + it->radius * (float)sin(angle));

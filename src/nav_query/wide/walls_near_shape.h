@@ -60,13 +60,12 @@ static inline double tl_nav_shape_distance_sq(const tl_nav_shape *reach, tl_nav_
 /// Whether a wall is nearer than `distance` to all of a convex outline: what it forbids is convex, so the corners tell.
 static inline bool tl_nav_wall_covers(tl_nav_segment wall, const tl_nav_spot *corners, uint32_t count, double distance)
 {
-    tl_nav_spot nearest;
-    for (uint32_t i = 0; i < count; i++) {
-        if (!(tl_nav_nearest_of_segment(wall, corners[i], &nearest) < distance * distance)) {
-            return false;
-        }
+    bool covers = distance > 0.0;
+    for (uint32_t i = 0; covers && i < count; i++) {
+        tl_nav_spot nearest;
+        covers = tl_nav_nearest_of_segment(wall, corners[i], &nearest) < distance * distance;
     }
-    return distance > 0.0;
+    return covers;
 }
 
 /// Begins a list of walls in the scratch memory.
