@@ -119,12 +119,12 @@ static void test_edits(void **state)
     test_random random = { 41 };
     tl_nav_query *query = make_query();
     tl_nav_wide_def def = tl_default_nav_wide_def();
-    def.max_radius = MAX_RADIUS;
     coverage seen = { 0 };
     uint32_t kept = 0, made_locally = 0;
     for (uint32_t round = 0; round < 24; round++) {
         fixture_level level = fixture_random(&random, round % 6, 9);
         level.tile_cells = round % 4 == 0 ? 0 : 1 + round % 2;
+        def.max_radius = round % 3 == 2 ? 1000.0f : MAX_RADIUS; // or as far as can be seen
         level.shake = round % 6 == 5 ? 0 : level.shake;
         tl_navmesh *navmeshes[2] = { fixture_build(&level, NULL), fixture_build(&level, NULL) };
         for (uint32_t edit = 0; edit < 6; edit++) {
@@ -156,6 +156,37 @@ static void test_edits(void **state)
     TEST_CHECK(seen.complete > 400 && seen.bent > 200 && seen.unreachable > 200 && seen.blocked > 10);
     TEST_CHECK(seen.moved > 300 && seen.beyond > 40 && seen.filtered > 100 && made_locally > 20);
     tl_nav_query_destroy(query);
+}
+
+// No wall counts that is farther than one that forbids all of a polygon: so a reach beyond the level costs no more than
+// one as long as its polygons are.
+static void test_reach_without_end(void **state)
+{
+    (void)state;
+    test_random random = { 43 };
+    uint32_t lesser = 0;
+    for (uint32_t round = 0; round < 6; round++) {
+        fixture_level level = fixture_random(&random, round, 24);
+        level.tile_cells = 0;
+        tl_navmesh *navmesh = fixture_build(&level, NULL);
+        uint64_t walls[3];
+        for (int i = 0; i < 3; i++) {
+            const float radii[3] = { 1.0f, 1e2f, 1e3f };
+            tl_nav_wide_def def = tl_default_nav_wide_def();
+            tl_nav_wide_report report;
+            def.max_radius = radii[i];
+            TEST_RESULT(tl_navmesh_prepare_wide(navmesh, &def, &report), TL_OK);
+            walls[i] = report.wall_count;
+        }
+        TEST_CHECK(walls[2] >= walls[1] && walls[1] >= walls[0]);
+        fixture_refs all = fixture_all_refs(navmesh);
+        TEST_CHECK(walls[2] <= 32 * (uint64_t)all.count);
+        print_message("%u polygons: %u walls in 1 m, %u in all\n", all.count, (uint32_t)walls[0], (uint32_t)walls[2]);
+        free(all.refs);
+        lesser += walls[0] < walls[1];
+        tl_navmesh_destroy(navmesh);
+    }
+    TEST_CHECK(lesser > 3);
 }
 
 // Places that are divided into layers, which come and go one by one.
@@ -288,9 +319,8 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edits),
-        cmocka_unit_test(test_layers),
-        cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_edits),  cmocka_unit_test(test_reach_without_end),
+        cmocka_unit_test(test_layers), cmocka_unit_test(test_arguments),
         cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

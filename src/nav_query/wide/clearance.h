@@ -28,6 +28,7 @@ typedef struct tl_nav_clearance {
     double slack;                ///< metres: what rounding may do to a place
     double touch;                ///< metres, squared: what lies no farther apart touches
     double cover; ///< metres: once a wall is nearer than that to all of a polygon, no others need be found; 0: all are
+    bool is_enough;         ///< of walls beyond a distance at which one forbids all of a polygon, none need be found
     tl_nav_scratch scratch; ///< what is left of the query's memory
     bool is_full;           ///< it was not enough
 } tl_nav_clearance;
@@ -73,6 +74,8 @@ typedef struct tl_nav_near_walls {
     tl_nav_met *met; ///< met[-i]: they grow downwards
     uint32_t met_count;
     bool is_covered; ///< a wall is nearer than `cover` to all of the shape; others may be missing
+    double
+        within; ///< metres: no wall nearer than that is missing; less than asked for only where `is_enough` allows it
 } tl_nav_near_walls;
 
 /// Finds the walls that can be walked to straight, within `distance`, from some spot of a convex shape (1 corner: a

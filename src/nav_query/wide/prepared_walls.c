@@ -5,7 +5,9 @@
 // A polygon's walls, sorted by the distance that a search must cover to see them, serve every shorter reach by their
 // first ones (visible_walls.c). Each side of the polygon has the list of walls that come near to it, sorted too, so
 // that a cut visits those few alone; and the pairs of walls that may meet inside, which are rare. What is left to the
-// query depends on the radius: the intervals themselves. Answers are the same bits as those of walls gathered anew.
+// query depends on the radius: the intervals themselves. Looking ends where one wall forbids all of the polygon, as no
+// wider agent asks for more there: so a reach beyond the level costs no more than polygons are wide. Answers are the
+// same bits as those of walls gathered anew.
 //
 // Why not intervals for all radii: their ends are roots, and move from wall to wall as the radius grows; a list of such
 // events is longer than the list of walls. Why not in the tile: a third of all walls lie across seams, so a tile alone
@@ -21,6 +23,7 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "base/min_max.h"
 
 #include <string.h>
 
@@ -161,6 +164,7 @@ static tl_result gather_walls(wall_baker *b, uint32_t slot, uint32_t polygon, tl
         tl_nav_clearance clearance;
         tl_nav_clearance_begin(b->query, b->navmesh, NULL, b->reach, &clearance);
         clearance.filter = NULL;
+        clearance.is_enough = true;
         if (tl_nav_gather_cell(&clearance, slot, polygon, b->reach, cell)) {
             return TL_OK;
         }
@@ -177,6 +181,7 @@ static tl_result add_cell(wall_baker *b, uint32_t slot, uint32_t polygon)
     TL_TRY(gather_walls(b, slot, polygon, &cell));
     b->cells[polygon].wall = (uint32_t)b->walls.count;
     b->cells[polygon].pair = (uint32_t)b->pairs.count;
+    b->cells[polygon].within = cell.near.within < b->reach ? (float)cell.near.within : INFINITY;
     const uint32_t *first_corner =
         tl_nav_tile_at(b->navmesh->slots[slot].tile, b->navmesh->slots[slot].tile->first_corner);
     for (uint32_t side = 0; side < cell.count; side++) {
@@ -429,6 +434,7 @@ bool tl_nav_wall_cell_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t po
     cell_out->near.walls = kept->walls + cell[0].wall;
     cell_out->near.wall_count = tl_nav_count_within(cell_out->near.walls, cell[1].wall - cell[0].wall, distance);
     cell_out->near.is_covered = is_covered(cell_out, clearance->cover);
+    cell_out->near.within = tl_min_f64((double)cell->within, distance);
     cell_out->side_first = kept->side_first + first_corner[polygon];
     cell_out->hits = kept->hits;
     cell_out->pairs = kept->pairs + cell[0].pair;

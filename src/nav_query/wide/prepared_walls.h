@@ -12,6 +12,7 @@
 /// Where a polygon's walls and pairs begin; they end where the next one's do.
 typedef struct tl_nav_kept_cell {
     uint32_t wall, pair;
+    float within; ///< metres: at more, a wall forbids all of the polygon, and others may be missing
 } tl_nav_kept_cell;
 
 /// Of all polygons of a slot.

@@ -110,7 +110,8 @@ typedef struct beam {
 // Where a walk over beams keeps what it has found. Walls grow upwards in the scratch memory, open beams downwards.
 typedef struct wall_walk {
     tl_nav_clearance *clearance;
-    const tl_nav_shape *reach;
+    tl_nav_shape *reach;
+    double distance; // of `reach`, metres
     tl_nav_near_wall *walls;
     uint32_t count;
     beam *top; // of the beams that wait
@@ -203,6 +204,27 @@ static bool add_beam(wall_walk *walk, const beam *before, beam next)
     return true;
 }
 
+// Agents that keep a distance from a wall at which it forbids all of the shape, and see it, need no others: nothing
+// farther counts. `distance_sq` is how far they must look to see it.
+static void end_reach_at_cover(wall_walk *walk, tl_nav_segment wall, float distance_sq)
+{
+    const tl_nav_shape *reach = walk->reach;
+    double farthest_sq = 0.0;
+    for (uint32_t i = 0; i < reach->count; i++) {
+        tl_nav_spot nearest;
+        farthest_sq = tl_max_f64(tl_nav_nearest_of_segment(wall, reach->corners[i], &nearest), farthest_sq);
+    }
+    // What is forbidden lies within CHORD_SHARE of the distance, less what rounding may do to places.
+    const double slack = 4.0 * walk->clearance->slack;
+    const double covers_from = (sqrt(farthest_sq) + slack) / CHORD_SHARE + slack;
+    const double distance =
+        (double)(float)(tl_max_f64(sqrt((double)distance_sq), covers_from) * (1.0 + 0x1p-20)); // kept as a float
+    if (distance < walk->distance) {
+        walk->distance = distance;
+        *walk->reach = tl_nav_shape_make(reach->corners, reach->count, distance, walk->clearance->slack);
+    }
+}
+
 // A wall is known by its place in its tile's rings. Each is taken once, at the least distance by which a beam sees it.
 static bool add_wall(wall_walk *walk, uint32_t slot, const tl_nav_ring_edge *edge, tl_nav_segment wall, bool is_end,
                      float distance_sq)
@@ -222,6 +244,9 @@ static bool add_wall(wall_walk *walk, uint32_t slot, const tl_nav_ring_edge *edg
         walk->is_covered = walk->is_covered ||
                            tl_nav_wall_covers(wall, walk->reach->corners, walk->reach->count, walk->clearance->cover);
         tl_nav_near_wall fresh = { distance_sq, (float)wall.a.x, (float)wall.a.z, (float)wall.b.x, (float)wall.b.z };
+        if (walk->clearance->is_enough) {
+            end_reach_at_cover(walk, wall, distance_sq);
+        }
         known->stop = walk->count;
         walk->walls[walk->count++] = fresh;
     } else if (distance_sq < walk->walls[known->stop].distance_sq) {
@@ -333,14 +358,15 @@ bool tl_nav_add_visible_walls(tl_nav_clearance *clearance, tl_nav_met at, const 
 {
     tl_nav_shape reach = tl_nav_shape_make(shape, count, distance, clearance->slack);
     beam *bottom = (beam *)(void *)clearance->scratch.high;
-    wall_walk walk = { clearance,        &reach, (tl_nav_near_wall *)(void *)clearance->scratch.low,
+    wall_walk walk = { clearance,        &reach, distance, (tl_nav_near_wall *)(void *)clearance->scratch.low,
                        near->wall_count, bottom, false };
     bool fits = cast_beams(&walk, at, NULL);
     while (fits && !walk.is_covered && walk.top < bottom) {
         const beam next = *walk.top++;
-        fits = cast_beams(&walk, next.at, &next);
+        fits = !((double)next.distance_sq < reach.distance_sq) || cast_beams(&walk, next.at, &next);
     }
     near->wall_count = walk.count;
+    near->within = walk.distance;
     near->is_covered = near->is_covered || walk.is_covered;
     clearance->is_full = clearance->is_full || !fits;
     return fits;
@@ -392,6 +418,7 @@ bool tl_nav_find_visible_walls(tl_nav_clearance *clearance, uint32_t slot, uint3
     tl_nav_begin_walls(clearance, near_out);
     bool fits = tl_nav_add_visible_walls(clearance, at, corners, count, distance, near_out);
     tl_nav_end_walls(clearance, near_out);
+    near_out->wall_count = tl_nav_count_within(near_out->walls, near_out->wall_count, near_out->within);
     return fits;
 }
 

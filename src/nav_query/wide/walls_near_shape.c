@@ -206,6 +206,15 @@ static bool is_near_shape(const tl_nav_shape *reach, const side_lines *lines, do
     return reach->count > 2 && outline_holds(reach->corners, reach->count, segment.a);
 }
 
+// All walls around a polygon, kept or gathered. What lies beyond a wall that forbids all of the polygon is not kept,
+// but may be near to the shape's parts in other polygons.
+static bool find_all_walls(tl_nav_clearance *clearance, tl_nav_met at, tl_nav_wall_cell *cell_out)
+{
+    const double reach = clearance->reach;
+    return tl_nav_wall_cell_of(clearance, at.slot, at.polygon, reach, cell_out) &&
+           (cell_out->near.within >= reach || tl_nav_gather_cell(clearance, at.slot, at.polygon, reach, cell_out));
+}
+
 bool tl_nav_find_kept_walls_near_shape(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon,
                                        const tl_nav_spot *shape, uint32_t count, tl_nav_near_walls *near_out)
 {
@@ -221,7 +230,7 @@ bool tl_nav_find_kept_walls_near_shape(tl_nav_clearance *clearance, uint32_t slo
         tl_nav_scratch scratch = clearance->scratch;
         tl_nav_wall_cell cell;
         fits = tl_nav_take_scratch(clearance, near_out->wall_count, sizeof *walls) != NULL &&
-               tl_nav_wall_cell_of(clearance, at.slot, at.polygon, clearance->reach, &cell);
+               find_all_walls(clearance, at, &cell);
         clearance->scratch = scratch;
         for (uint32_t k = 0; fits && k < cell.near.wall_count; k++) {
             // What was gathered lies behind the list, and moves to its end.
