@@ -39,15 +39,14 @@ static bool leads_on(const tl_navmesh *navmesh, const all_polygons *all, tl_nav_
     is_met[all->first[twin.slot] + twin.polygon] = true;
     for (uint32_t i = 0; i < count; i++) {
         const tl_nav_ring_seam at = queue[i];
-        uint32_t edges = 0;
-        const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, at.slot, at.polygon, &edges);
-        for (uint32_t k = 0; k < edges; k++) {
+        const tl_nav_ring ring = tl_nav_ring_at(navmesh, at.slot, at.polygon);
+        for (uint32_t k = 0; k < ring.count; k++) {
             const bool is_edge = at.slot == edge.slot && at.polygon == edge.polygon && k == edge.edge;
             const bool is_twin = at.slot == twin.slot && at.polygon == twin.polygon && k == twin.edge;
-            if (!tl_nav_ring_is_open(&ring[k]) || is_edge || is_twin) {
+            if (!tl_nav_ring_is_open(&ring.edges[k]) || is_edge || is_twin) {
                 continue;
             }
-            const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, at.slot, ring[k].to);
+            const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, at.slot, ring.edges[k].to);
             bool *met = &is_met[all->first[to.slot] + to.polygon];
             if (!*met) {
                 *met = true;
@@ -65,16 +64,16 @@ static bool leads_on(const tl_navmesh *navmesh, const all_polygons *all, tl_nav_
 static uint32_t check_steps(const tl_navmesh *navmesh, const all_polygons *all, tl_nav_ring_seam from,
                             tl_nav_ring_seam goal)
 {
-    uint32_t count = 0, astray = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, from.slot, from.polygon, &count);
-    for (uint32_t k = 0; k < count; k++) {
-        if (!tl_nav_ring_is_open(&ring[k])) {
+    uint32_t astray = 0;
+    const tl_nav_ring ring = tl_nav_ring_at(navmesh, from.slot, from.polygon);
+    for (uint32_t k = 0; k < ring.count; k++) {
+        if (!tl_nav_ring_is_open(&ring.edges[k])) {
             continue;
         }
         const tl_nav_ring_place edge = { from.slot, from.polygon, k };
-        const tl_nav_ring_place twin = tl_nav_ring_twin(navmesh, from.slot, from.polygon, ring, count, k);
+        const tl_nav_ring_place twin = tl_nav_ring_twin(navmesh, from.slot, from.polygon, &ring, k);
         const bool is_astray =
-            tl_nav_leads_astray(navmesh, from, tl_nav_ring_across(navmesh, from.slot, ring[k].to), goal);
+            tl_nav_leads_astray(navmesh, from, tl_nav_ring_across(navmesh, from.slot, ring.edges[k].to), goal);
         const bool is_on = leads_on(navmesh, all, edge, twin, goal);
         TEST_CHECK(!(is_astray && is_on));
         TEST_CHECK(navmesh->tile_count > 1 || is_astray || is_on);

@@ -27,12 +27,11 @@ static void seams_know_their_twins(void **state)
         for (uint32_t slot = 0; slot < 2; slot++) {
             const tl_nav_rings *rings = &navmesh->slots[slot].rings;
             for (uint32_t p = 0; p < rings->polygon_count; p++) {
-                uint32_t count = 0;
-                const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, p, &count);
-                for (uint32_t k = 0; k < count; k++) {
-                    if (tl_nav_ring_is_seam(&ring[k])) {
-                        const tl_nav_ring_place twin = tl_nav_ring_twin(navmesh, slot, p, ring, count, k);
-                        TEST_CHECK(tl_nav_ring_twin_hint(&ring[k]) == twin.edge);
+                const tl_nav_ring ring = tl_nav_ring_of(rings, p);
+                for (uint32_t k = 0; k < ring.count; k++) {
+                    if (tl_nav_ring_is_seam(&ring.edges[k])) {
+                        const tl_nav_ring_place twin = tl_nav_ring_twin(navmesh, slot, p, &ring, k);
+                        TEST_CHECK(tl_nav_ring_twin_hint(&ring.edges[k]) == twin.edge);
                         seams += twin.edge > 0;
                     }
                 }
@@ -43,11 +42,23 @@ static void seams_know_their_twins(void **state)
     TEST_CHECK(seams > 50);
 }
 
+// How many points of its own a ring has: all of them where one is no corner of its polygon, else none.
+static uint32_t own_points_of(const tl_nav_tile *tile, const tl_nav_rings *rings, uint32_t polygon)
+{
+    uint32_t corner_count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &corner_count);
+    const tl_nav_ring ring = tl_nav_ring_of(rings, polygon);
+    const bool are_corners =
+        ring.count == corner_count && memcmp(ring.points, corners, corner_count * sizeof *corners) == 0;
+    TEST_CHECK((ring.points == corners) == are_corners);
+    return are_corners ? 0 : ring.count;
+}
+
 static void rings_have_no_room_to_spare(void **state)
 {
     (void)state;
     test_random random = { 3 };
-    uint64_t seams_in_all = 0, edges_in_all = 0, walls_in_all = 0;
+    uint64_t seams_in_all = 0, points_in_all = 0, edges_in_all = 0, walls_in_all = 0;
     for (uint32_t kind = 0; kind < 6; kind++) {
         fixture_level level = fixture_random(&random, kind, 16);
         level.tile_cells = 4;
@@ -55,23 +66,28 @@ static void rings_have_no_room_to_spare(void **state)
         for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
             const tl_nav_rings *rings = &navmesh->slots[slot].rings;
             const uint64_t edges = rings->cells[rings->polygon_count].first, polygons = rings->polygon_count;
-            uint64_t seams = 0;
+            uint64_t seams = 0, points = 0;
             for (uint64_t k = 0; k < edges; k++) {
                 seams += tl_nav_ring_is_seam(&rings->edges[k]);
                 const uint32_t walls = rings->edges[k].mark >> TL_NAV_RING_TWIN_BITS;
                 TEST_CHECK(walls < rings->walls_count && (rings->edges[k].turn == 0 || walls >= TL_NAV_WALLS_FIRST));
             }
+            for (uint32_t p = 0; p < polygons; p++) {
+                points += own_points_of(navmesh->slots[slot].tile, rings, p);
+            }
             seams_in_all += seams;
+            points_in_all += points;
             edges_in_all += edges;
             walls_in_all += rings->walls_count - TL_NAV_WALLS_FIRST;
             TEST_CHECK(tl_nav_rings_size(rings) ==
-                       edges * sizeof *rings->edges + seams * sizeof *rings->seams +
+                       edges * sizeof *rings->edges + points * sizeof(tl_vec3) + seams * sizeof *rings->seams +
                            (polygons + 1) * sizeof *rings->cells +
                            (2 * polygons + navmesh->slots[slot].tile->node_count) * sizeof(uint16_t));
         }
         tl_navmesh_destroy(navmesh);
     }
     TEST_CHECK(seams_in_all > 200);
+    TEST_CHECK(points_in_all > 100 && points_in_all < edges_in_all / 2);
     TEST_CHECK(3 * walls_in_all < 2 * edges_in_all); // all edges of a fan have theirs in common
 }
 
@@ -81,29 +97,33 @@ static void far_twins_are_found(void **state)
     (void)state;
     enum { CORNERS = 150 };
     tl_nav_ring_edge edges[3 + CORNERS];
+    tl_vec3 points[3 + CORNERS];
     memset(edges, 0, sizeof edges);
+    memset(points, 0, sizeof points);
     for (uint32_t k = 0; k < 3 + CORNERS; k++) {
-        edges[k].x = (float)k;
+        points[k].x = (float)k;
         edges[k].to = TL_NAV_RING_WALL;
     }
-    tl_nav_ring_cell cells[3] = { { 0, 0 }, { 3, 0 }, { 3 + CORNERS, 0 } };
+    tl_nav_ring_cell cells[3] = { { 0, 0, 0 }, { 3, 3, 0 }, { 3 + CORNERS, 0, 0 } };
     tl_nav_slot slot;
     memset(&slot, 0, sizeof slot);
     slot.rings.cells = cells;
     slot.rings.edges = edges;
+    slot.rings.corners = points;
     slot.rings.polygon_count = 2;
     tl_navmesh navmesh;
     memset(&navmesh, 0, sizeof navmesh);
     navmesh.slots = &slot;
     for (uint32_t twin = 0; twin < CORNERS; twin++) {
+        const tl_nav_ring ring = tl_nav_ring_of(&slot.rings, 0);
         edges[1].to = 1;
         tl_nav_set_ring_twin(&edges[1], twin);
         edges[3 + twin].to = 0;
-        edges[3 + twin].x = edges[2].x; // where the edge ends
-        TEST_CHECK(tl_nav_ring_twin(&navmesh, 0, 0, edges, 3, 1).edge == twin);
+        points[3 + twin].x = points[2].x; // where the edge ends
+        TEST_CHECK(tl_nav_ring_twin(&navmesh, 0, 0, &ring, 1).edge == twin);
         TEST_CHECK(tl_nav_inner_twin(&slot.rings, 0, 1) == twin);
         edges[3 + twin].to = TL_NAV_RING_WALL;
-        edges[3 + twin].x = (float)(3 + twin);
+        points[3 + twin].x = (float)(3 + twin);
     }
 }
 
@@ -120,7 +140,7 @@ static void seam_twins_are_near(void **state)
             tl_nav_rings rings;
             memset(&rings, 0, sizeof rings);
             rings.seams = &seam;
-            tl_nav_ring_edge edge = { 0, 0, 0, TL_NAV_RING_SEAM, 0, 77u << TL_NAV_RING_TWIN_BITS };
+            tl_nav_ring_edge edge = { TL_NAV_RING_SEAM, 0, 77u << TL_NAV_RING_TWIN_BITS };
             const uint32_t twin = i == 0 ? COUNTS[c] - 1 : test_random_below(&random, COUNTS[c]);
             tl_nav_set_seam_twin(&rings, &edge, 0, COUNTS[c]);
             tl_nav_set_seam_twin(&rings, &edge, twin, COUNTS[c]);
@@ -149,15 +169,14 @@ static void strips_know_their_place_in_a_hub(void **state)
             TL_OK);
         const tl_nav_rings *rings = &navmesh->slots[1 - hub].rings;
         uint32_t seams = 0, hub_edges = 0;
-        tl_nav_ring_at(navmesh, hub, 0, &hub_edges);
+        hub_edges = tl_nav_ring_at(navmesh, hub, 0).count;
         TEST_CHECK(rings->polygon_count == HUB_STRIPS && hub_edges == HUB_STRIPS + 3);
         for (uint32_t p = 0; p < HUB_STRIPS; p++) {
-            uint32_t count = 0;
-            const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, p, &count);
-            for (uint32_t k = 0; k < count; k++) {
-                if (tl_nav_ring_is_open(&ring[k])) {
-                    const tl_nav_ring_place twin = tl_nav_ring_twin(navmesh, 1 - hub, p, ring, count, k);
-                    TEST_CHECK(tl_nav_seam_twin_hint(rings, &ring[k], hub_edges) == twin.edge);
+            const tl_nav_ring ring = tl_nav_ring_of(rings, p);
+            for (uint32_t k = 0; k < ring.count; k++) {
+                if (tl_nav_ring_is_open(&ring.edges[k])) {
+                    const tl_nav_ring_place twin = tl_nav_ring_twin(navmesh, 1 - hub, p, &ring, k);
+                    TEST_CHECK(tl_nav_seam_twin_hint(rings, &ring.edges[k], hub_edges) == twin.edge);
                     seams++;
                 }
             }
@@ -397,16 +416,14 @@ static void collapsed_vertices_have_walls(void **state)
         TEST_RESULT(tl_navmesh_add_tile(navmesh, make_bent_squares(&random, origin), TL_NAV_TILE_OWNED), TL_OK);
         const tl_nav_rings *rings = &navmesh->slots[0].rings;
         for (uint32_t p = 0; p < SIDE * SIDE; p++) {
-            uint32_t count = 0;
-            const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, p, &count);
-            for (uint32_t k = 0; k < count; k++) {
-                TEST_CHECK(ring[k].mark >> TL_NAV_RING_TWIN_BITS < rings->walls_count);
-                if (tl_nav_ring_is_open(&ring[k])) {
+            const tl_nav_ring ring = tl_nav_ring_of(rings, p);
+            for (uint32_t k = 0; k < ring.count; k++) {
+                TEST_CHECK(ring.edges[k].mark >> TL_NAV_RING_TWIN_BITS < rings->walls_count);
+                if (tl_nav_ring_is_open(&ring.edges[k])) {
                     const uint32_t twin = tl_nav_inner_twin(rings, p, k);
-                    uint32_t across_count = 0;
-                    const tl_nav_ring_edge *across = tl_nav_ring_of(rings, ring[k].to, &across_count);
-                    TEST_CHECK(twin < across_count);
-                    astray += across[twin].to != p || tl_nav_inner_twin(rings, ring[k].to, twin) != k;
+                    const tl_nav_ring across = tl_nav_ring_of(rings, ring.edges[k].to);
+                    TEST_CHECK(twin < across.count);
+                    astray += across.edges[twin].to != p || tl_nav_inner_twin(rings, ring.edges[k].to, twin) != k;
                 }
             }
         }

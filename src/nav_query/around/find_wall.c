@@ -23,8 +23,8 @@ typedef struct wall_search {
     double x, z;
     double best_sq;
     double best_t;
-    const tl_nav_ring_edge *start, *end; // of the nearest wall; NULL: none yet
-    uint32_t slot, polygon;              // that it belongs to
+    const tl_vec3 *start, *end; // of the nearest wall; NULL: none yet
+    uint32_t slot, polygon;     // that it belongs to
     bool full;
     bool all_pass;   // the filter refuses nothing
     double rounding; // metres in the plane by which two edges over one place may differ
@@ -60,16 +60,16 @@ static void look_for_wall(wall_search *search, uint32_t node)
     uint32_t polygon = search->query->local_nodes[node].polygon;
     double entry = sqrt(search->query->local_nodes[node].cost) - search->rounding;
     double min_sq = entry > 0.0 ? entry * entry : 0.0;
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(search->navmesh, slot, polygon, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-        tl_nav_plan_point nearest = tl_nav_nearest_on_edge(&ring[i], end, search->x, search->z);
-        if (nearest.distance_sq >= search->best_sq || nearest.distance_sq < min_sq || ring[i].to == TL_NAV_RING_BACK) {
+    const tl_nav_ring ring = tl_nav_ring_at(search->navmesh, slot, polygon);
+    for (uint32_t i = 0; i < ring.count; i++) {
+        const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
+        tl_nav_plan_point nearest = tl_nav_nearest_on_edge(&ring.points[i], end, search->x, search->z);
+        if (nearest.distance_sq >= search->best_sq || nearest.distance_sq < min_sq ||
+            ring.edges[i].to == TL_NAV_RING_BACK) {
             continue;
         }
-        if (ring[i].to != TL_NAV_RING_WALL) {
-            tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, ring[i].to);
+        if (ring.edges[i].to != TL_NAV_RING_WALL) {
+            tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, ring.edges[i].to);
             if (search->all_pass || tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
                 offer_polygon(search, to, nearest.distance_sq);
                 continue;
@@ -77,7 +77,7 @@ static void look_for_wall(wall_search *search, uint32_t node)
         }
         search->best_sq = nearest.distance_sq;
         search->best_t = nearest.t;
-        search->start = &ring[i];
+        search->start = &ring.points[i];
         search->end = end;
         search->slot = slot;
         search->polygon = polygon;

@@ -63,29 +63,28 @@ static void expand_polygon(tl_nav_flood *flood, uint32_t index)
 {
     const tl_nav_node node = flood->query->nodes[index];
     const tl_nav_node *parent = node.parent != TL_NAV_NO_NODE ? &flood->query->nodes[node.parent] : NULL;
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(flood->navmesh, node.slot, node.polygon, &count);
+    const tl_nav_ring ring = tl_nav_ring_at(flood->navmesh, node.slot, node.polygon);
     const bool all_pass = flood->all_pass;
     if (flood->navmesh->slots[node.slot].anchor_count > 0) {
         enter_by_links(flood, &node, index);
     }
-    for (uint32_t i = 0; i < count; i++) {
-        if (!tl_nav_ring_is_open(&ring[i])) {
+    for (uint32_t i = 0; i < ring.count; i++) {
+        if (!tl_nav_ring_is_open(&ring.edges[i])) {
             continue;
         }
-        tl_nav_ring_seam to = tl_nav_ring_across(flood->navmesh, node.slot, ring[i].to);
+        tl_nav_ring_seam to = tl_nav_ring_across(flood->navmesh, node.slot, ring.edges[i].to);
         if (parent != NULL && to.polygon == parent->polygon && to.slot == parent->slot) {
             continue; // closed already
         }
-        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-        tl_vec3 right = { ring[i].x, ring[i].y, ring[i].z };
-        tl_vec3 left = { end->x, end->y, end->z };
+        const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
+        const tl_vec3 right = ring.points[i];
+        const tl_vec3 left = *end;
         if ((flood->zone != NULL && !tl_nav_zone_meets_segment(flood->zone, right, left)) ||
             (!all_pass && !tl_nav_passes(flood->filter, flood->navmesh->slots[to.slot].tile, to.polygon))) {
             continue;
         }
-        double t = tl_nav_nearest_on_edge(&ring[i], end, (double)node.point.x, (double)node.point.z).t;
-        tl_vec3 point = tl_nav_point_on_edge(&ring[i], end, t);
+        double t = tl_nav_nearest_on_edge(&ring.points[i], end, (double)node.point.x, (double)node.point.z).t;
+        tl_vec3 point = tl_nav_point_on_edge(&ring.points[i], end, t);
         float cost = cost_between(flood, &node, point);
         enter_polygon(flood, to.slot, to.polygon, point, node.cost + cost, index, TL_NAV_NO_END);
     }

@@ -154,9 +154,9 @@ tl_vec3 tl_nav_goal_funnel_cross(const tl_nav_goal_funnel *funnel, const tl_nav_
     return tl_lerp(portal->left, portal->right, (float)meet_portal(portal, from, head, 0.5));
 }
 
-tl_nav_goal_portal tl_nav_goal_portal_of(const tl_nav_ring_edge *ring, uint32_t count, uint32_t i)
+tl_nav_goal_portal tl_nav_goal_portal_of(const tl_nav_ring *ring, uint32_t i)
 {
-    const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-    const tl_nav_goal_portal portal = { { end->x, end->y, end->z }, { ring[i].x, ring[i].y, ring[i].z } };
+    const tl_vec3 *end = &ring->points[i + 1 < ring->count ? i + 1 : 0];
+    const tl_nav_goal_portal portal = { *end, ring->points[i] };
     return portal;
 }

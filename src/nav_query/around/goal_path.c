@@ -119,20 +119,19 @@ static goal_way over_link(const goal_walk *walk)
 static goal_way choose_way(const goal_walk *walk)
 {
     goal_way best = over_link(walk);
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(walk->navmesh, walk->slot, walk->polygon, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        if (!tl_nav_ring_is_open(&ring[i])) {
+    const tl_nav_ring ring = tl_nav_ring_at(walk->navmesh, walk->slot, walk->polygon);
+    for (uint32_t i = 0; i < ring.count; i++) {
+        if (!tl_nav_ring_is_open(&ring.edges[i])) {
             continue;
         }
-        const tl_nav_ring_seam to = tl_nav_ring_across(walk->navmesh, walk->slot, ring[i].to);
+        const tl_nav_ring_seam to = tl_nav_ring_across(walk->navmesh, walk->slot, ring.edges[i].to);
         const uint32_t entry = find_entry(walk->tree, tl_nav_make_ref(walk->navmesh, to.slot, to.polygon), walk->entry);
         // Where the tree of the one across leads through this polygon, it is no way out.
         if (entry == UINT32_MAX || walk->tree->entries[entry].parent == walk->entry || entry == walk->before ||
             (!walk->all_pass && !tl_nav_passes(walk->filter, walk->navmesh->slots[to.slot].tile, to.polygon))) {
             continue;
         }
-        const tl_nav_goal_portal out = tl_nav_goal_portal_of(ring, count, i);
+        const tl_nav_goal_portal out = tl_nav_goal_portal_of(&ring, i);
         const tl_nav_goal_portal portal = { out.right, out.left }; // from across it
         const goal_way way = over_edge(walk, entry, to, &portal);
         if (best.entry == UINT32_MAX || way.rest < best.rest || (way.rest == best.rest && way.entry < best.entry)) {

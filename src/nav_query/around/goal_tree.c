@@ -104,21 +104,20 @@ static void leave_polygon(tl_nav_goal_search *search, uint32_t index)
 {
     const tl_nav_node node = search->query->nodes[index];
     const tl_navmesh *navmesh = search->navmesh;
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, node.slot, node.polygon, &count);
+    const tl_nav_ring ring = tl_nav_ring_at(navmesh, node.slot, node.polygon);
     const tl_nav_goal_funnel before = tl_nav_goal_funnel_of(&search->tree->entries[index]);
     if (navmesh->slots[node.slot].anchor_count > 0) {
         leave_by_links(search, &node, index);
     }
-    for (uint32_t i = 0; i < count; i++) {
-        if (!tl_nav_ring_is_open(&ring[i])) {
+    for (uint32_t i = 0; i < ring.count; i++) {
+        if (!tl_nav_ring_is_open(&ring.edges[i])) {
             continue;
         }
-        const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, node.slot, ring[i].to);
+        const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, node.slot, ring.edges[i].to);
         if (!search->all_pass && !tl_nav_passes(search->filter, navmesh->slots[to.slot].tile, to.polygon)) {
             continue;
         }
-        const tl_nav_goal_portal portal = tl_nav_goal_portal_of(ring, count, i);
+        const tl_nav_goal_portal portal = tl_nav_goal_portal_of(&ring, i);
         const tl_nav_goal_funnel funnel = search->is_uniform ? tl_nav_goal_funnel_pass(&before, &portal, search->unit)
                                                              : bend_at(search, &node, &before, &portal);
         // Seen edge-on a portal may seem to lie nearer than the one before it.

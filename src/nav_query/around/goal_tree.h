@@ -45,7 +45,7 @@ float tl_nav_goal_portal_cost(const tl_nav_goal_funnel *funnel, const tl_nav_goa
 tl_vec3 tl_nav_goal_funnel_cross(const tl_nav_goal_funnel *funnel, const tl_nav_goal_portal *portal,
                                  const float from[2]);
 /// The edge `i` of a ring, from within.
-tl_nav_goal_portal tl_nav_goal_portal_of(const tl_nav_ring_edge *ring, uint32_t count, uint32_t i);
+tl_nav_goal_portal tl_nav_goal_portal_of(const tl_nav_ring *ring, uint32_t i);
 /// What a metre costs for a filter. TL_ERR_ARGUMENT: it is none.
 tl_result tl_nav_goal_begin(const tl_nav_filter *filter, float *unit_out, bool *is_uniform_out);
 

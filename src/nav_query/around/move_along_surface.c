@@ -24,20 +24,20 @@ typedef struct move_search {
     double reach_sq;           // of the circle around it
     double best_sq;
     double best_t;
-    const tl_nav_ring_edge *start, *end; // of the nearest wall
-    uint32_t best;                       // node
+    const tl_vec3 *start, *end; // of the nearest wall
+    uint32_t best;              // node
     bool full;
     bool all_pass; // the filter refuses nothing
 } move_search;
 
 // Whether the target lies over a ring, its outline included.
-static bool ring_holds(const tl_nav_ring_edge *ring, uint32_t count, double x, double z)
+static bool ring_holds(const tl_nav_ring *ring, double x, double z)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-        double p = ((double)end->x - (double)ring[i].x) * (z - (double)ring[i].z);
-        double q = ((double)end->z - (double)ring[i].z) * (x - (double)ring[i].x);
-        if (p - q > TL_CROSS_ERROR * (fabs(p) + fabs(q)) && ring[i].to != TL_NAV_RING_BACK) {
+    for (uint32_t i = 0; i < ring->count; i++) {
+        const tl_vec3 *end = &ring->points[i + 1 < ring->count ? i + 1 : 0];
+        double p = ((double)end->x - (double)ring->points[i].x) * (z - (double)ring->points[i].z);
+        double q = ((double)end->z - (double)ring->points[i].z) * (x - (double)ring->points[i].x);
+        if (p - q > TL_CROSS_ERROR * (fabs(p) + fabs(q)) && ring->edges[i].to != TL_NAV_RING_BACK) {
             return false;
         }
     }
@@ -49,33 +49,32 @@ static bool look_for_target(move_search *search, uint32_t node)
 {
     uint32_t slot = search->query->local_nodes[node].slot;
     uint32_t polygon = search->query->local_nodes[node].polygon;
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(search->navmesh, slot, polygon, &count);
-    if (ring_holds(ring, count, search->x, search->z)) {
+    const tl_nav_ring ring = tl_nav_ring_at(search->navmesh, slot, polygon);
+    if (ring_holds(&ring, search->x, search->z)) {
         search->start = NULL;
         search->best = node;
         return true;
     }
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-        if (ring[i].to == TL_NAV_RING_BACK) {
+    for (uint32_t i = 0; i < ring.count; i++) {
+        const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
+        if (ring.edges[i].to == TL_NAV_RING_BACK) {
             continue;
         }
-        if (ring[i].to != TL_NAV_RING_WALL) {
-            tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, ring[i].to);
+        if (ring.edges[i].to != TL_NAV_RING_WALL) {
+            tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, ring.edges[i].to);
             if (search->all_pass || tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
-                if (tl_nav_nearest_on_edge(&ring[i], end, search->middle_x, search->middle_z).distance_sq <=
+                if (tl_nav_nearest_on_edge(&ring.points[i], end, search->middle_x, search->middle_z).distance_sq <=
                     search->reach_sq) {
                     tl_nav_local_add(search->query, to.slot, to.polygon, node, &search->full);
                 }
                 continue;
             }
         }
-        tl_nav_plan_point nearest = tl_nav_nearest_on_edge(&ring[i], end, search->x, search->z);
+        tl_nav_plan_point nearest = tl_nav_nearest_on_edge(&ring.points[i], end, search->x, search->z);
         if (nearest.distance_sq < search->best_sq) {
             search->best_sq = nearest.distance_sq;
             search->best_t = nearest.t;
-            search->start = &ring[i];
+            search->start = &ring.points[i];
             search->end = end;
             search->best = node;
         }

@@ -349,13 +349,13 @@ static bool touches_ahead(surface_ray *ray, const ray_walk *walk)
 // one look at the vertices between the edge of entry and that of exit. Its answers are those of the walk above.
 
 // Whether the walk's begin lies inside a ring by more than rounding, and which edge the ray leaves it by.
-static bool find_clean_exit(const surface_ray *ray, const tl_nav_ring_edge *ring, uint32_t count, uint32_t *edge_out)
+static bool find_clean_exit(const surface_ray *ray, const tl_nav_ring *ring, uint32_t *edge_out)
 {
     bool found = false;
-    tl_vec3 a = tl_vec3_make(ring[0].x, 0.0f, ring[0].z);
+    tl_vec3 a = tl_vec3_make(ring->points[0].x, 0.0f, ring->points[0].z);
     double side = tl_nav_turn(ray->start, ray->end, a);
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_nav_ring_edge *next = &ring[i + 1 < count ? i + 1 : 0];
+    for (uint32_t i = 0; i < ring->count; i++) {
+        const tl_vec3 *next = &ring->points[i + 1 < ring->count ? i + 1 : 0];
         tl_vec3 b = tl_vec3_make(next->x, 0.0f, next->z);
         double next_side = tl_nav_turn(ray->start, ray->end, b);
         double size = fabs((double)b.x - (double)a.x) + fabs((double)b.z - (double)a.z);
@@ -373,13 +373,12 @@ static bool find_clean_exit(const surface_ray *ray, const tl_nav_ring_edge *ring
 }
 
 // The edge that the ray leaves a ring by, from the edge of entry on; false when it touches a vertex on the way.
-static bool find_next_exit(const surface_ray *ray, const tl_nav_ring_edge *ring, uint32_t count, uint32_t entry,
-                           uint32_t *edge_out)
+static bool find_next_exit(const surface_ray *ray, const tl_nav_ring *ring, uint32_t entry, uint32_t *edge_out)
 {
-    uint32_t i = entry + 1 < count ? entry + 1 : 0; // where the edge of entry ends: right of the ray
-    for (uint32_t k = 1; k < count; k++) {
-        uint32_t next = i + 1 < count ? i + 1 : 0;
-        double side = tl_nav_turn(ray->start, ray->end, tl_vec3_make(ring[next].x, 0.0f, ring[next].z));
+    uint32_t i = entry + 1 < ring->count ? entry + 1 : 0; // where the edge of entry ends: right of the ray
+    for (uint32_t k = 1; k < ring->count; k++) {
+        uint32_t next = i + 1 < ring->count ? i + 1 : 0;
+        double side = tl_nav_turn(ray->start, ray->end, tl_vec3_make(ring->points[next].x, 0.0f, ring->points[next].z));
         if (fabs(side) <= ray->grazing) {
             return false;
         }
@@ -393,13 +392,13 @@ static bool find_next_exit(const surface_ray *ray, const tl_nav_ring_edge *ring,
 }
 
 // The polygon's own number of a ring's edge, which may be a piece of it.
-static uint32_t edge_of_piece(const tl_nav_tile *tile, uint32_t polygon, const tl_nav_ring_edge *ring, uint32_t piece)
+static uint32_t edge_of_piece(const tl_nav_tile *tile, uint32_t polygon, const tl_vec3 *points, uint32_t piece)
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
     uint32_t edge = 0;
     for (uint32_t i = 1; i <= piece && edge + 1 < count; i++) {
-        edge += ring[i].x == corners[edge + 1].x && ring[i].z == corners[edge + 1].z ? 1 : 0;
+        edge += points[i].x == corners[edge + 1].x && points[i].z == corners[edge + 1].z ? 1 : 0;
     }
     return edge;
 }
@@ -409,13 +408,12 @@ static bool walk_clean(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
 {
     const bool all_pass = tl_nav_all_pass(ray->navmesh, ray->filter);
     ray_walk at = *walk;
-    uint32_t count = 0;
     uint32_t edge = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(ray->navmesh, at.slot, at.polygon, &count);
-    bool is_clean = find_clean_exit(ray, ring, count, &edge);
+    tl_nav_ring ring = tl_nav_ring_at(ray->navmesh, at.slot, at.polygon);
+    bool is_clean = find_clean_exit(ray, &ring, &edge);
     for (uint64_t steps = ray->steps_left; is_clean && steps > 0; steps--) {
-        const tl_nav_ring_edge *next = &ring[edge + 1 < count ? edge + 1 : 0];
-        tl_vec3 a = tl_vec3_make(ring[edge].x, 0.0f, ring[edge].z);
+        const tl_vec3 *next = &ring.points[edge + 1 < ring.count ? edge + 1 : 0];
+        tl_vec3 a = tl_vec3_make(ring.points[edge].x, 0.0f, ring.points[edge].z);
         tl_vec3 b = tl_vec3_make(next->x, 0.0f, next->z);
         if (!ends_beyond(ray, a, b)) {
             at.t = 1.0;
@@ -427,10 +425,10 @@ static bool walk_clean(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
         if (ray->navmesh->slots[at.slot].rings.has_back) {
             return false;
         }
-        bool is_way = ring[edge].to != TL_NAV_RING_WALL;
+        bool is_way = ring.edges[edge].to != TL_NAV_RING_WALL;
         tl_nav_ring_place twin = { at.slot, at.polygon, 0 };
         if (is_way) {
-            twin = tl_nav_ring_twin(ray->navmesh, at.slot, at.polygon, ring, count, edge);
+            twin = tl_nav_ring_twin(ray->navmesh, at.slot, at.polygon, &ring, edge);
             is_way = all_pass || tl_nav_passes(ray->filter, ray->navmesh->slots[twin.slot].tile, twin.polygon);
         }
         if (!is_way) {
@@ -442,7 +440,7 @@ static bool walk_clean(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
             if (tl_nav_side_of(a, b, at.point) > 0) {
                 at.point = tl_nav_closest_on_edge(a, b, at.point);
             }
-            at.edge = edge_of_piece(ray->navmesh->slots[at.slot].tile, at.polygon, ring, edge);
+            at.edge = edge_of_piece(ray->navmesh->slots[at.slot].tile, at.polygon, ring.points, edge);
             *walk = at;
             return true;
         }
@@ -450,8 +448,8 @@ static bool walk_clean(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
         at.polygon = twin.polygon;
         at.polygon_count++;
         record_polygon(ray, &at, trace);
-        ring = tl_nav_ring_at(ray->navmesh, at.slot, at.polygon, &count);
-        is_clean = find_next_exit(ray, ring, count, twin.edge, &edge);
+        ring = tl_nav_ring_at(ray->navmesh, at.slot, at.polygon);
+        is_clean = find_next_exit(ray, &ring, twin.edge, &edge);
     }
     return false;
 }

@@ -26,15 +26,11 @@ static bool is_wall(const tl_navmesh *navmesh, const tl_nav_filter *filter, uint
     return !tl_nav_passes(filter, navmesh->slots[to_out->slot].tile, to_out->polygon);
 }
 
-static tl_nav_wall_segment make_segment(const tl_navmesh *navmesh, const tl_nav_ring_edge *start,
-                                        const tl_nav_ring_edge *end, tl_nav_ref polygon, tl_nav_ring_seam to,
-                                        bool has_polygon)
+static tl_nav_wall_segment make_segment(const tl_navmesh *navmesh, tl_vec3 start, tl_vec3 end, tl_nav_ref polygon,
+                                        tl_nav_ring_seam to, bool has_polygon)
 {
-    tl_nav_wall_segment segment = { { start->x, start->y, start->z },
-                                    { end->x, end->y, end->z },
-                                    polygon,
-                                    has_polygon ? tl_nav_make_ref(navmesh, to.slot, to.polygon) : TL_NAV_NO_REF,
-                                    0.0f };
+    tl_nav_wall_segment segment = { start, end, polygon,
+                                    has_polygon ? tl_nav_make_ref(navmesh, to.slot, to.polygon) : TL_NAV_NO_REF, 0.0f };
     return segment;
 }
 
@@ -51,15 +47,14 @@ tl_result tl_navmesh_polygon_walls(const tl_navmesh *navmesh, const tl_nav_filte
     if (!tl_nav_split_ref(navmesh, polygon, &slot, &local)) {
         return TL_ERR_STALE;
     }
-    uint32_t edge_count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, slot, local, &edge_count);
-    for (uint32_t i = 0; i < edge_count; i++) {
-        const tl_nav_ring_edge *end = &ring[i + 1 < edge_count ? i + 1 : 0];
+    const tl_nav_ring ring = tl_nav_ring_at(navmesh, slot, local);
+    for (uint32_t i = 0; i < ring.count; i++) {
+        const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
         tl_nav_ring_seam to = { 0, 0 };
         bool has_polygon = false;
-        if (is_wall(navmesh, filter, slot, &ring[i], &to, &has_polygon)) {
+        if (is_wall(navmesh, filter, slot, &ring.edges[i], &to, &has_polygon)) {
             if (*count_out < capacity) {
-                segments_out[*count_out] = make_segment(navmesh, &ring[i], end, polygon, to, has_polygon);
+                segments_out[*count_out] = make_segment(navmesh, ring.points[i], *end, polygon, to, has_polygon);
             }
             ++*count_out;
         }
@@ -96,18 +91,17 @@ static void gather_polygon_walls(wall_gathering *walls, uint32_t node)
 {
     uint32_t slot = walls->query->local_nodes[node].slot;
     uint32_t polygon = walls->query->local_nodes[node].polygon;
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(walls->navmesh, slot, polygon, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-        double distance_sq = tl_nav_nearest_on_edge(&ring[i], end, walls->x, walls->z).distance_sq;
+    const tl_nav_ring ring = tl_nav_ring_at(walls->navmesh, slot, polygon);
+    for (uint32_t i = 0; i < ring.count; i++) {
+        const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
+        double distance_sq = tl_nav_nearest_on_edge(&ring.points[i], end, walls->x, walls->z).distance_sq;
         if (distance_sq > walls->radius_sq) {
             continue;
         }
         tl_nav_ring_seam to = { 0, 0 };
         bool has_polygon = false;
-        if (is_wall(walls->navmesh, walls->filter, slot, &ring[i], &to, &has_polygon)) {
-            tl_nav_wall_segment segment = make_segment(walls->navmesh, &ring[i], end,
+        if (is_wall(walls->navmesh, walls->filter, slot, &ring.edges[i], &to, &has_polygon)) {
+            tl_nav_wall_segment segment = make_segment(walls->navmesh, ring.points[i], *end,
                                                        tl_nav_make_ref(walls->navmesh, slot, polygon), to, has_polygon);
             segment.distance = (float)sqrt(distance_sq);
             insert(walls, &segment);

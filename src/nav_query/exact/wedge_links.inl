@@ -31,9 +31,8 @@ static inline wedge_way way_to(const wedge_search *s, const tl_nav_wedge *wedge,
     if (!is_left_of && !(wedge_cross(wedge->right, point) > right_slack)) {
         return way;
     }
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(s->navmesh, wedge->slot, wedge->polygon, &count);
-    const tl_nav_ring_edge *vertex = &ring[is_left_of ? wedge->edge : wedge->edge + 1 < count ? wedge->edge + 1 : 0];
+    const tl_nav_ring ring = tl_nav_ring_at(s->navmesh, wedge->slot, wedge->polygon);
+    const tl_vec3 *vertex = &ring.points[is_left_of ? wedge->edge : wedge->edge + 1 < ring.count ? wedge->edge + 1 : 0];
     tl_nav_direction limit = is_left_of ? wedge->left : wedge->right;
     tl_nav_direction rest = { x - (double)vertex->x, z - (double)vertex->z };
     way.reaches =

@@ -18,14 +18,13 @@ static bool turns(const tl_nav_wedge *wedge, const tl_nav_wedge *parent)
 static tl_vec3 root_point(const tl_navmesh *navmesh, const tl_nav_wedge *wedge, const tl_nav_wedge *parent,
                           bool *is_left_out)
 {
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, parent->slot, parent->polygon, &count);
+    const tl_nav_ring ring = tl_nav_ring_at(navmesh, parent->slot, parent->polygon);
     uint32_t i = 0;
-    while (i + 1 < count && (ring[i].x != wedge->root_x || ring[i].z != wedge->root_z)) {
+    while (i + 1 < ring.count && (ring.points[i].x != wedge->root_x || ring.points[i].z != wedge->root_z)) {
         i++;
     }
     *is_left_out = i == parent->edge;
-    return tl_vec3_make(wedge->root_x, ring[i].y, wedge->root_z);
+    return tl_vec3_make(wedge->root_x, ring.points[i].y, wedge->root_z);
 }
 
 static double distance_in_plane(tl_vec3 a, tl_vec3 b)

@@ -124,7 +124,7 @@ static inline wedge_view make_view(const tl_nav_wedge *wedge)
     return view;
 }
 
-static inline seen_vertex look_at(const wedge_view *view, const tl_nav_ring_edge *vertex)
+static inline seen_vertex look_at(const wedge_view *view, const tl_vec3 *vertex)
 {
     seen_vertex seen;
     seen.at.x = (double)vertex->x - view->root_x;

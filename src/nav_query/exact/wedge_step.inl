@@ -15,13 +15,15 @@ typedef struct step_from {
     uint32_t slot, polygon;
     const tl_nav_rings *rings; // of the slot
     const tl_nav_ring_edge *ring;
+    const tl_vec3 *points; // where its edges start
     uint32_t count;
 } step_from;
 
 static inline step_from step_from_polygon(const wedge_search *s, uint32_t wedge, uint32_t slot, uint32_t polygon)
 {
-    step_from from = { wedge, slot, polygon, &s->navmesh->slots[slot].rings, NULL, 0 };
-    from.ring = tl_nav_ring_of(from.rings, polygon, &from.count);
+    const tl_nav_rings *rings = &s->navmesh->slots[slot].rings;
+    const tl_nav_ring ring = tl_nav_ring_of(rings, polygon);
+    const step_from from = { wedge, slot, polygon, rings, ring.edges, ring.points, ring.count };
     return from;
 }
 
@@ -64,7 +66,8 @@ static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i,
     if (!may_go(s, here, tl_nav_ring_across(s->navmesh, from->slot, from->ring[i].to))) {
         return;
     }
-    tl_nav_ring_place twin = tl_nav_ring_twin(s->navmesh, from->slot, from->polygon, from->ring, from->count, i);
+    const tl_nav_ring ring = { from->ring, from->points, from->count };
+    tl_nav_ring_place twin = tl_nav_ring_twin(s->navmesh, from->slot, from->polygon, &ring, i);
     uint32_t index = new_wedge(s);
     if (index == TL_NAV_NO_NODE) {
         return;
@@ -93,8 +96,8 @@ static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i,
 
 static inline seen_edge see_edge(const step_from *from, uint32_t i, float root_x, float root_z)
 {
-    const tl_nav_ring_edge *a = &from->ring[i];
-    const tl_nav_ring_edge *b = &from->ring[i + 1 < from->count ? i + 1 : 0];
+    const tl_vec3 *a = &from->points[i];
+    const tl_vec3 *b = &from->points[i + 1 < from->count ? i + 1 : 0];
     seen_edge edge = { { (double)a->x - (double)root_x, (double)a->z - (double)root_z },
                        { (double)b->x - (double)root_x, (double)b->z - (double)root_z } };
     return edge;
@@ -154,7 +157,7 @@ static inline bool may_turn_on(wedge_search *s, const step_from *from, uint32_t 
 static inline void note_corner(const wedge_search *s, const step_from *from, uint32_t vertex, uint64_t turn,
                                tl_nav_direction to_vertex)
 {
-    const double x = (double)from->ring[vertex].x, z = (double)from->ring[vertex].z;
+    const double x = (double)from->points[vertex].x, z = (double)from->points[vertex].z;
     const tl_nav_direction to_root = { x - to_vertex.x - (double)s->in->start.x,
                                        z - to_vertex.z - (double)s->in->start.z };
     const double size = fabs(to_root.x) + fabs(to_root.z) + fabs(to_vertex.x) + fabs(to_vertex.z);
@@ -182,7 +185,7 @@ static inline bool is_repeated(wedge_search *s, const step_from *from, uint32_t 
     if (root == NULL) {
         return false;
     }
-    double x = (double)from->ring[vertex].x, z = (double)from->ring[vertex].z;
+    double x = (double)from->points[vertex].x, z = (double)from->points[vertex].z;
     tl_nav_direction known = { x - (double)root->from_x, z - (double)root->from_z };
     tl_nav_direction limit = { x - (double)from_x, z - (double)from_z };
     double known_cost = (double)root->cost + (double)root->cost_rest;
@@ -211,7 +214,7 @@ static inline void turn_into(wedge_search *s, const step_from *from, uint32_t i,
     cost += length_of(to_vertex);
     if (turn != 0 && rank_root(s, turn, cost) != TL_NAV_ROOT_WORSE &&
         (!from->rings->has_back || may_turn_on(s, from, i, vertex, cost))) {
-        const wedge_origin root = { from->ring[vertex].x, from->ring[vertex].z, cost };
+        const wedge_origin root = { from->points[vertex].x, from->points[vertex].z, cost };
         seen_edge edge = see_edge(from, i, root.x, root.z);
         add_wedge(s, from, i, root, &edge, open, open);
     }
@@ -275,9 +278,8 @@ static inline const tl_nav_wedge *first_with_limit(const wedge_search *s, const 
 static TL_NOINLINE bool is_wall_beside(const wedge_search *s, const tl_nav_wedge *first, const tl_nav_wedge *wedge,
                                        int hand)
 {
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(s->navmesh, first->slot, first->polygon, &count);
-    const tl_nav_ring_place way = tl_nav_ring_twin(s->navmesh, first->slot, first->polygon, ring, count, first->edge);
+    const tl_nav_ring ring = tl_nav_ring_at(s->navmesh, first->slot, first->polygon);
+    const tl_nav_ring_place way = tl_nav_ring_twin(s->navmesh, first->slot, first->polygon, &ring, first->edge);
     const step_from holder = step_from_polygon(s, first->parent, way.slot, way.polygon);
     const uint32_t before = way.edge > 0 ? way.edge - 1 : holder.count - 1;
     const uint32_t beside = hand > 0 ? vertex_behind(way.edge, holder.count) : before;
@@ -325,8 +327,8 @@ static TL_ALWAYS_INLINE void turn_at_limit(wedge_search *s, const step_from *fro
         note_corner(s, from, vertex, turn, limit);
         return;
     }
-    float x = from->ring[vertex].x;
-    float z = from->ring[vertex].z;
+    float x = from->points[vertex].x;
+    float z = from->points[vertex].z;
     double cost = wedge->cost + length_of(limit); // the limit leads to the vertex
     const wedge_origin root = { x, z, cost };
     bool is_new = true;
@@ -371,21 +373,21 @@ static TL_ALWAYS_INLINE void turn_at_limit(wedge_search *s, const step_from *fro
 
 // The ends of the edge by which a wedge entered its polygon. Looking in, the edge starts at its left end.
 typedef struct entry_ends {
-    const tl_nav_ring_edge *left, *right;
+    uint32_t left_turn, right_turn;
     seen_edge at;               // from the root
     bool sees_left, sees_right; // the wedge reaches to that end
 } entry_ends;
 
 static inline entry_ends ends_of_entry(const step_from *from, const tl_nav_wedge *wedge)
 {
-    const tl_nav_ring_edge *left = &from->ring[wedge->edge];
-    const tl_nav_ring_edge *right = &from->ring[vertex_behind(wedge->edge, from->count)];
+    const uint32_t behind = vertex_behind(wedge->edge, from->count);
+    const tl_vec3 *left = &from->points[wedge->edge], *right = &from->points[behind];
     const double x = (double)wedge->root_x, z = (double)wedge->root_z;
     const seen_edge at = { { (double)right->x - x, (double)right->z - z },
                            { (double)left->x - x, (double)left->z - z } };
     const bool left_is_end = (wedge->left.x == at.left.x) & (wedge->left.z == at.left.z);
     const bool right_is_end = (wedge->right.x == at.right.x) & (wedge->right.z == at.right.z);
-    const entry_ends ends = { left, right, at, left_is_end, right_is_end };
+    const entry_ends ends = { from->ring[wedge->edge].turn, from->ring[behind].turn, at, left_is_end, right_is_end };
     return ends;
 }
 
@@ -410,8 +412,8 @@ static inline bool is_outrun(const wedge_search *s, const tl_nav_wedge *wedge, c
 {
     const tl_nav_direction left = ends->at.left, right = ends->at.right;
     const double none = (double)INFINITY;
-    const double by_left = ends->left->turn != 0 ? tl_nav_known_root_cost(s->query, ends->left->turn) : none;
-    const double by_right = ends->right->turn != 0 ? tl_nav_known_root_cost(s->query, ends->right->turn) : none;
+    const double by_left = ends->left_turn != 0 ? tl_nav_known_root_cost(s->query, ends->left_turn) : none;
+    const double by_right = ends->right_turn != 0 ? tl_nav_known_root_cost(s->query, ends->right_turn) : none;
     // No end helps that the root is as near to in a straight line.
     if (by_left < none && by_left < wedge->cost + length_of(left) &&
         is_outrun_from(wedge, by_left, left, ends->sees_right ? right : meet_edge_line(wedge->right, right, left))) {
@@ -429,7 +431,7 @@ static TL_NOINLINE void turn_within_entry(wedge_search *s, const step_from *from
     for (uint32_t i = 0; i < from->count; i++) {
         const uint32_t ends[2] = { i, vertex_behind(i, from->count) };
         for (uint32_t k = 0; k < 2 && i != wedge->edge && tl_nav_ring_is_open(&from->ring[i]); k++) {
-            const tl_nav_ring_edge *vertex = &from->ring[ends[k]];
+            const tl_vec3 *vertex = &from->points[ends[k]];
             const seen_vertex seen = look_at(view, vertex);
             const seen_edge entry = see_edge(from, wedge->edge, vertex->x, vertex->z);
             const bool is_within = entry.right.x * entry.left.x + entry.right.z * entry.left.z < 0.0;
@@ -469,14 +471,14 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
             continue;
         }
         const uint32_t next = vertex_behind(i, from.count);
-        right = left_is == i ? left : look_at(&view, &from.ring[i]);
+        right = left_is == i ? left : look_at(&view, &from.points[i]);
         if ((right.left_of & LEFT_LIMIT) != 0) {
             if (in_order) {
                 break; // and so are all that follow
             }
             continue;
         }
-        left = look_at(&view, &from.ring[next]);
+        left = look_at(&view, &from.points[next]);
         left_is = next;
         if ((left.right_of & RIGHT_LIMIT) != 0) {
             continue;

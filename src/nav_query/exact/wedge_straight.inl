@@ -28,34 +28,35 @@ static inline goal_line line_to_goal(const wedge_search *s, float x, float z, ui
 }
 
 // How far a vertex lies to the right of the line, times its length.
-static inline double right_of_goal_line(const goal_line *line, const tl_nav_ring_edge *vertex)
+static inline double right_of_goal_line(const goal_line *line, const tl_vec3 *vertex)
 {
     return line->on_x * ((double)vertex->z - line->z) - line->on_z * ((double)vertex->x - line->x);
 }
 
-// The edge by which the line leaves the polygon that it is in; `count`: none is clearly the one.
-static inline uint32_t clear_exit(const goal_line *line, const tl_nav_ring_edge *ring, uint32_t count)
+// The edge by which the line leaves the polygon that it is in; `ring->count`: none is clearly the one.
+static inline uint32_t clear_exit(const goal_line *line, const tl_nav_ring *ring)
 {
-    const uint32_t begin = line->at.edge == UINT32_MAX ? count - 1 : line->at.edge + 1 < count ? line->at.edge + 1 : 0;
-    bool was_right = line->at.edge != UINT32_MAX || right_of_goal_line(line, &ring[begin]) > line->slack;
-    for (uint32_t edge = begin, k = 0; k < count; k++) {
-        const uint32_t next = edge + 1 < count ? edge + 1 : 0;
-        const double right = right_of_goal_line(line, &ring[next]);
+    const uint32_t begin = line->at.edge == UINT32_MAX       ? ring->count - 1
+                           : line->at.edge + 1 < ring->count ? line->at.edge + 1
+                                                             : 0;
+    bool was_right = line->at.edge != UINT32_MAX || right_of_goal_line(line, &ring->points[begin]) > line->slack;
+    for (uint32_t edge = begin, k = 0; k < ring->count; k++) {
+        const uint32_t next = edge + 1 < ring->count ? edge + 1 : 0;
+        const double right = right_of_goal_line(line, &ring->points[next]);
         if (right < -line->slack && was_right) {
             return edge;
         }
         if (!(fabs(right) > line->slack)) {
-            return count;
+            return ring->count;
         }
         was_right = right > 0.0;
         edge = next;
     }
-    return count;
+    return ring->count;
 }
 
 // Whether the goal lies clearly beyond an edge, and the root clearly before it.
-static inline bool parts_line(const goal_line *line, const tl_nav_ring_edge *a, const tl_nav_ring_edge *b,
-                              double rounding)
+static inline bool parts_line(const goal_line *line, const tl_vec3 *a, const tl_vec3 *b, double rounding)
 {
     const double along_x = (double)b->x - (double)a->x, along_z = (double)b->z - (double)a->z;
     const double root = along_x * (line->z - (double)a->z) - along_z * (line->x - (double)a->x);
@@ -65,14 +66,13 @@ static inline bool parts_line(const goal_line *line, const tl_nav_ring_edge *a, 
 }
 
 // Takes the line on over an edge: into a wedge of its own. False: it ends there.
-static inline bool follow_line(wedge_search *s, goal_line *line, uint32_t edge, const tl_nav_ring_edge *ring,
-                               uint32_t count)
+static inline bool follow_line(wedge_search *s, goal_line *line, uint32_t edge, const tl_nav_ring *ring)
 {
-    if (!tl_nav_ring_is_open(&ring[edge]) ||
-        !parts_line(line, &ring[edge], &ring[edge + 1 < count ? edge + 1 : 0], s->rounding)) {
+    if (!tl_nav_ring_is_open(&ring->edges[edge]) ||
+        !parts_line(line, &ring->points[edge], &ring->points[edge + 1 < ring->count ? edge + 1 : 0], s->rounding)) {
         return false;
     }
-    line->at = tl_nav_ring_twin(s->navmesh, line->at.slot, line->at.polygon, ring, count, edge);
+    line->at = tl_nav_ring_twin(s->navmesh, line->at.slot, line->at.polygon, ring, edge);
     return s->in->filter == NULL ||
            tl_nav_passes(s->in->filter, s->navmesh->slots[line->at.slot].tile, line->at.polygon);
 }
@@ -97,10 +97,9 @@ static inline uint32_t add_line_to_goal(wedge_search *s, goal_line *line, const 
         if (wedge->polygon == s->in->goal_polygon && wedge->slot == s->in->goal_slot) {
             return index;
         }
-        uint32_t count = 0;
-        const tl_nav_ring_edge *ring = tl_nav_ring_at(s->navmesh, line->at.slot, line->at.polygon, &count);
-        const uint32_t edge = clear_exit(line, ring, count);
-        if (edge == count || !follow_line(s, line, edge, ring, count)) {
+        const tl_nav_ring ring = tl_nav_ring_at(s->navmesh, line->at.slot, line->at.polygon);
+        const uint32_t edge = clear_exit(line, &ring);
+        if (edge == ring.count || !follow_line(s, line, edge, &ring)) {
             break;
         }
         parent = index;
@@ -114,14 +113,13 @@ static inline uint32_t find_line_from_start(wedge_search *s, uint32_t start)
 {
     const tl_nav_wedge first = s->query->wedges[start];
     goal_line line = line_to_goal(s, first.root_x, first.root_z, first.slot, first.polygon);
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(s->navmesh, first.slot, first.polygon, &count);
+    const tl_nav_ring ring = tl_nav_ring_at(s->navmesh, first.slot, first.polygon);
     if (s->detour != (double)INFINITY || (first.slot == s->in->goal_slot && first.polygon == s->in->goal_polygon)) {
         return TL_NAV_NO_NODE;
     }
-    const uint32_t edge = clear_exit(&line, ring, count);
-    return edge < count && follow_line(s, &line, edge, ring, count) ? add_line_to_goal(s, &line, &first, start)
-                                                                    : TL_NAV_NO_NODE;
+    const uint32_t edge = clear_exit(&line, &ring);
+    return edge < ring.count && follow_line(s, &line, edge, &ring) ? add_line_to_goal(s, &line, &first, start)
+                                                                   : TL_NAV_NO_NODE;
 }
 
 #endif

@@ -31,12 +31,12 @@ typedef struct vertex_fan {
     bool is_odd; // walls do not tell on which hand to turn: ways fork, or go more than once around, or too many
 } vertex_fan;
 
-static tl_nav_ring_edge *ring_at(tl_navmesh *navmesh, tl_nav_ring_place place, uint32_t *count_out)
+// To be written.
+static tl_nav_ring_edge *edge_at(tl_navmesh *navmesh, tl_nav_ring_place place)
 {
-    tl_nav_rings *rings = &navmesh->slots[place.slot].rings;
+    const tl_nav_rings *rings = &navmesh->slots[place.slot].rings;
     TL_ASSERT(!tl_nav_is_shared(navmesh->history, rings->edges));
-    tl_nav_ring_of(rings, place.polygon, count_out);
-    return rings->edges + rings->cells[place.polygon].first;
+    return &rings->edges[rings->cells[place.polygon].first + place.edge];
 }
 
 static tl_nav_ring_walls *own_walls(const tl_nav_rings *rings, const tl_nav_ring_edge *edge)
@@ -45,7 +45,7 @@ static tl_nav_ring_walls *own_walls(const tl_nav_rings *rings, const tl_nav_ring
     return walls >= TL_NAV_WALLS_FIRST ? &rings->walls[walls] : NULL;
 }
 
-static void begin_fan(vertex_fan *f, const tl_nav_ring_edge *first, const tl_nav_ring_edge *first_end)
+static void begin_fan(vertex_fan *f, const tl_vec3 *first, const tl_vec3 *first_end)
 {
     f->count = 0;
     f->x = (double)first->x;
@@ -59,7 +59,7 @@ static void begin_fan(vertex_fan *f, const tl_nav_ring_edge *first, const tl_nav
 
 // A fan turns left from its first edge: while it is no wider than a half plane nothing lies on the right. Around the
 // end of a slit nothing need lie there either: the fan comes back to where it began.
-static void widen_fan(vertex_fan *f, const tl_nav_ring_edge *end)
+static void widen_fan(vertex_fan *f, const tl_vec3 *end)
 {
     double dx = (double)end->x - f->x;
     double dz = (double)end->z - f->z;
@@ -78,13 +78,13 @@ static void widen_fan(vertex_fan *f, const tl_nav_ring_edge *end)
 }
 
 // Whether a ring runs back at a vertex: links lie over one another there.
-static bool forks_at(const tl_nav_rings *rings, const tl_nav_ring_edge *ring, uint32_t count, double x, double z)
+static bool forks_at(const tl_nav_rings *rings, const tl_nav_ring *ring, double x, double z)
 {
-    for (uint32_t i = 0; i < count && rings->has_back; i++) {
-        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-        bool touches =
-            ((double)ring[i].x == x && (double)ring[i].z == z) || ((double)end->x == x && (double)end->z == z);
-        if (ring[i].to == TL_NAV_RING_BACK && touches) {
+    for (uint32_t i = 0; i < ring->count && rings->has_back; i++) {
+        const tl_vec3 *end = &ring->points[i + 1 < ring->count ? i + 1 : 0];
+        bool touches = ((double)ring->points[i].x == x && (double)ring->points[i].z == z) ||
+                       ((double)end->x == x && (double)end->z == z);
+        if (ring->edges[i].to == TL_NAV_RING_BACK && touches) {
             return true;
         }
     }
@@ -94,27 +94,25 @@ static bool forks_at(const tl_nav_rings *rings, const tl_nav_ring_edge *ring, ui
 // Gathers the fan that begins with the edge at `begin`, over the edges that end in its vertex; false when it is closed.
 static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, vertex_fan *f)
 {
-    uint32_t count = 0;
-    tl_nav_ring_edge *ring = ring_at(navmesh, begin, &count);
-    const tl_nav_ring_edge *first_end = &ring[begin.edge + 1 < count ? begin.edge + 1 : 0];
-    begin_fan(f, &ring[begin.edge], first_end);
+    tl_nav_ring ring = tl_nav_ring_at(navmesh, begin.slot, begin.polygon);
+    begin_fan(f, &ring.points[begin.edge], &ring.points[begin.edge + 1 < ring.count ? begin.edge + 1 : 0]);
     tl_nav_ring_place at = begin;
     for (;;) {
         tl_nav_note_edit(navmesh, at.slot);
-        f->members[f->count] = &ring[at.edge];
-        f->walls[f->count++] = own_walls(&navmesh->slots[at.slot].rings, &ring[at.edge]);
-        uint32_t before = at.edge > 0 ? at.edge - 1 : count - 1;
-        widen_fan(f, &ring[before]);
-        f->is_odd = f->is_odd || f->count == TL_NAV_MAX_FAN ||
-                    forks_at(&navmesh->slots[at.slot].rings, ring, count, f->x, f->z);
-        if (f->count == TL_NAV_MAX_FAN || !tl_nav_ring_is_open(&ring[before])) {
+        f->members[f->count] = edge_at(navmesh, at);
+        f->walls[f->count++] = own_walls(&navmesh->slots[at.slot].rings, &ring.edges[at.edge]);
+        uint32_t before = at.edge > 0 ? at.edge - 1 : ring.count - 1;
+        widen_fan(f, &ring.points[before]);
+        f->is_odd =
+            f->is_odd || f->count == TL_NAV_MAX_FAN || forks_at(&navmesh->slots[at.slot].rings, &ring, f->x, f->z);
+        if (f->count == TL_NAV_MAX_FAN || !tl_nav_ring_is_open(&ring.edges[before])) {
             return true;
         }
-        at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, ring, count, before);
+        at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, &ring, before);
         if (at.slot == begin.slot && at.polygon == begin.polygon && at.edge == begin.edge) {
             return false;
         }
-        ring = ring_at(navmesh, at, &count);
+        ring = tl_nav_ring_at(navmesh, at.slot, at.polygon);
     }
 }
 
@@ -123,21 +121,20 @@ static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, vertex_fan 
 
 // An edge of a tile's rings, and the ring.
 typedef struct tile_place {
-    const tl_nav_ring_edge *ring;
-    uint32_t count, polygon, edge;
+    tl_nav_ring ring;
+    uint32_t polygon, edge;
 } tile_place;
 
 static tile_place tile_place_at(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge)
 {
-    tile_place place = { NULL, 0, polygon, edge };
-    place.ring = tl_nav_ring_of(rings, polygon, &place.count);
+    const tile_place place = { tl_nav_ring_of(rings, polygon), polygon, edge };
     return place;
 }
 
 // The same edge as the polygon across has it. False: that is none of the tile.
 static bool cross_in_tile(const tl_nav_rings *rings, tile_place *at)
 {
-    const uint32_t to = at->ring[at->edge].to;
+    const uint32_t to = at->ring.edges[at->edge].to;
     if (to >= TL_NAV_RING_SEAM) {
         return false;
     }
@@ -155,10 +152,10 @@ static bool is_ring_portal(const tl_nav_ring_edge *edge)
 // going around one need not come back.
 static bool goes_around(const tl_nav_rings *rings, tile_place *at)
 {
-    const tl_nav_ring_edge *from = &at->ring[at->edge];
+    const tl_nav_ring_edge *from = &at->ring.edges[at->edge];
     for (uint32_t i = 1; i < TL_NAV_MAX_FAN && cross_in_tile(rings, at); i++) {
-        at->edge = at->edge + 1 < at->count ? at->edge + 1 : 0;
-        if (&at->ring[at->edge] == from) {
+        at->edge = at->edge + 1 < at->ring.count ? at->edge + 1 : 0;
+        if (&at->ring.edges[at->edge] == from) {
             return true;
         }
     }
@@ -172,27 +169,28 @@ static bool assign_walls(const tl_nav_rings *rings, tile_place from, uint32_t ow
     tile_place at = from;
     const bool is_closed = goes_around(rings, &at);
     const tile_place begin = at;
-    const tl_nav_ring_edge *first = &begin.ring[begin.edge];
+    const tl_nav_ring_edge *first = &begin.ring.edges[begin.edge];
     vertex_fan f;
-    begin_fan(&f, first, &begin.ring[begin.edge + 1 < begin.count ? begin.edge + 1 : 0]);
+    begin_fan(&f, &begin.ring.points[begin.edge],
+              &begin.ring.points[begin.edge + 1 < begin.ring.count ? begin.edge + 1 : 0]);
     bool is_own = !is_closed && is_ring_portal(first);
     do {
-        walls_of[&at.ring[at.edge] - rings->edges] = own;
+        walls_of[&at.ring.edges[at.edge] - rings->edges] = own;
         f.count++;
-        at.edge = at.edge > 0 ? at.edge - 1 : at.count - 1;
-        widen_fan(&f, &at.ring[at.edge]);
-        is_own = is_own || (at.ring[at.edge].to >= TL_NAV_RING_SEAM && is_ring_portal(&at.ring[at.edge]));
-    } while (f.count < TL_NAV_MAX_FAN && cross_in_tile(rings, &at) && &at.ring[at.edge] != first);
+        at.edge = at.edge > 0 ? at.edge - 1 : at.ring.count - 1;
+        widen_fan(&f, &at.ring.points[at.edge]);
+        is_own = is_own || (at.ring.edges[at.edge].to >= TL_NAV_RING_SEAM && is_ring_portal(&at.ring.edges[at.edge]));
+    } while (f.count < TL_NAV_MAX_FAN && cross_in_tile(rings, &at) && &at.ring.edges[at.edge] != first);
     // What is too large to be gathered, or is not met on the way back, counts as a place to turn at: it is not known to
     // be none.
-    uint32_t *const at_from = &walls_of[&from.ring[from.edge] - rings->edges];
+    uint32_t *const at_from = &walls_of[&from.ring.edges[from.edge] - rings->edges];
     if (is_own || *at_from != own || f.count == TL_NAV_MAX_FAN || (!is_closed && (f.is_wide || f.is_odd))) {
         *at_from = own;
         return true;
     }
     for (at = begin; f.count > 0; f.count--) {
-        walls_of[&at.ring[at.edge] - rings->edges] = is_closed ? TL_NAV_WALLS_NONE : TL_NAV_WALLS_CONVEX;
-        at.edge = at.edge > 0 ? at.edge - 1 : at.count - 1;
+        walls_of[&at.ring.edges[at.edge] - rings->edges] = is_closed ? TL_NAV_WALLS_NONE : TL_NAV_WALLS_CONVEX;
+        at.edge = at.edge > 0 ? at.edge - 1 : at.ring.count - 1;
         cross_in_tile(rings, &at);
     }
     return false;
@@ -204,8 +202,8 @@ uint32_t tl_nav_assign_walls(const tl_nav_rings *rings, uint32_t *walls_of)
     memset(walls_of, 0xff, (size_t)rings->cells[rings->polygon_count].first * sizeof *walls_of);
     for (uint32_t p = 0; p < rings->polygon_count; p++) {
         const tile_place place = tile_place_at(rings, p, 0);
-        for (uint32_t i = 0; i < place.count; i++) {
-            if (walls_of[&place.ring[i] - rings->edges] == UINT32_MAX) {
+        for (uint32_t i = 0; i < place.ring.count; i++) {
+            if (walls_of[&place.ring.edges[i] - rings->edges] == UINT32_MAX) {
                 walls += assign_walls(rings, tile_place_at(rings, p, i), walls, walls_of) ? 1 : 0;
             }
         }
@@ -240,17 +238,16 @@ bool tl_nav_find_fan(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_
 {
     const tl_nav_ring_place from = *at;
     for (uint32_t i = 0; i < TL_NAV_MAX_FAN; i++) {
-        uint32_t count = 0;
-        const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, at->slot, at->polygon, &count);
-        if (!tl_nav_ring_is_open(&ring[at->edge])) {
+        const tl_nav_ring ring = tl_nav_ring_at(navmesh, at->slot, at->polygon);
+        if (!tl_nav_ring_is_open(&ring.edges[at->edge])) {
             return true;
         }
-        tl_nav_ring_place next = tl_nav_ring_twin(navmesh, at->slot, at->polygon, ring, count, at->edge);
+        tl_nav_ring_place next = tl_nav_ring_twin(navmesh, at->slot, at->polygon, &ring, at->edge);
         if (filter != NULL && !tl_nav_passes(filter, navmesh->slots[next.slot].tile, next.polygon)) {
             return true;
         }
         *at = next;
-        tl_nav_ring_at(navmesh, at->slot, at->polygon, &count);
+        const uint32_t count = tl_nav_ring_at(navmesh, at->slot, at->polygon).count;
         at->edge = at->edge + 1 < count ? at->edge + 1 : 0;
         if (at->slot == from.slot && at->polygon == from.polygon && at->edge == from.edge) {
             return false;
@@ -262,13 +259,12 @@ bool tl_nav_find_fan(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_
 static void number_fans_of(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_rings *rings = &navmesh->slots[slot].rings;
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, polygon, &count);
-    for (uint32_t i = 0; i < count; i++) {
+    const tl_nav_ring ring = tl_nav_ring_of(rings, polygon);
+    for (uint32_t i = 0; i < ring.count; i++) {
         tl_nav_ring_place place = { slot, polygon, i };
-        if (!tl_nav_ring_is_open(&ring[i])) {
+        if (!tl_nav_ring_is_open(&ring.edges[i])) {
             number_fan(navmesh, place);
-        } else if ((ring[i].to & TL_NAV_RING_SEAM) != 0 || rings->has_back) {
+        } else if ((ring.edges[i].to & TL_NAV_RING_SEAM) != 0 || rings->has_back) {
             // The fan comes in over a seam: it may begin in a tile that is not looked at.
             tl_nav_find_fan(navmesh, NULL, &place);
             number_fan(navmesh, place);
@@ -287,28 +283,27 @@ static void find_seam_twins(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
     uint32_t across_count = 0;
     for (uint32_t i = tl_nav_tile_side_first(tile, side); i < tl_nav_tile_side_first(tile, side + 1); i++) {
         tl_nav_ring_place place = { slot, portals[i].polygon, 0 };
-        uint32_t count = 0;
-        tl_nav_ring_edge *ring = ring_at(navmesh, place, &count);
-        for (uint32_t k = 0; k < count; k++) {
-            if (!tl_nav_ring_is_seam(&ring[k])) {
+        const tl_nav_ring ring = tl_nav_ring_at(navmesh, slot, place.polygon);
+        tl_nav_ring_edge *edges = edge_at(navmesh, place);
+        for (uint32_t k = 0; k < ring.count; k++) {
+            if (!tl_nav_ring_is_seam(&edges[k])) {
                 continue;
             }
-            const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, ring[k].to);
+            const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, edges[k].to);
             if (to.slot == last.slot && to.polygon == last.polygon) {
-                tl_nav_set_seam_twin(rings, &ring[k], last.edge > 4 ? last.edge - 4 : 0, across_count);
+                tl_nav_set_seam_twin(rings, &edges[k], last.edge > 4 ? last.edge - 4 : 0, across_count);
             }
-            last = tl_nav_ring_twin(navmesh, slot, place.polygon, ring, count, k);
-            tl_nav_ring_at(navmesh, last.slot, last.polygon, &across_count);
-            tl_nav_set_seam_twin(rings, &ring[k], last.edge, across_count);
+            last = tl_nav_ring_twin(navmesh, slot, place.polygon, &ring, k);
+            across_count = tl_nav_ring_at(navmesh, last.slot, last.polygon).count;
+            tl_nav_set_seam_twin(rings, &edges[k], last.edge, across_count);
             // A polygon may reach from side to side: what lies across there keeps its twin where older versions have
             // it. A twin over a seam only says where to look first.
             if (tl_nav_is_shared(navmesh->history, navmesh->slots[last.slot].rings.edges)) {
                 continue;
             }
             // Where tiles do not meet at their portals no edge across is the twin, and any may stand there.
-            tl_nav_ring_edge *across = ring_at(navmesh, last, &across_count);
-            if (last.edge < across_count && tl_nav_ring_is_seam(&across[last.edge])) {
-                tl_nav_set_seam_twin(&navmesh->slots[last.slot].rings, &across[last.edge], k, count);
+            if (last.edge < across_count && tl_nav_ring_is_seam(edge_at(navmesh, last))) {
+                tl_nav_set_seam_twin(&navmesh->slots[last.slot].rings, edge_at(navmesh, last), k, ring.count);
             }
         }
     }
@@ -335,15 +330,14 @@ static void number_fans_of_portal(tl_navmesh *navmesh, uint32_t slot, const tl_n
     uint32_t corner = portal->corner - ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[portal->polygon];
     const tl_vec3 begin = corners[corner];
     const tl_vec3 end = corners[corner + 1 < corner_count ? corner + 1 : 0];
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, portal->polygon, &count);
+    const tl_nav_ring ring = tl_nav_ring_of(rings, portal->polygon);
     uint32_t first = 0;
-    while (first + 1 < count && (ring[first].x != begin.x || ring[first].z != begin.z)) {
+    while (first + 1 < ring.count && (ring.points[first].x != begin.x || ring.points[first].z != begin.z)) {
         first++;
     }
-    for (uint32_t i = 0, at = first; i < count; i++, at = at + 1 < count ? at + 1 : 0) {
+    for (uint32_t i = 0, at = first; i < ring.count; i++, at = at + 1 < ring.count ? at + 1 : 0) {
         tl_nav_ring_place place = { slot, portal->polygon, at };
-        bool is_last = ring[at].x == end.x && ring[at].z == end.z && !rings->has_back;
+        bool is_last = ring.points[at].x == end.x && ring.points[at].z == end.z && !rings->has_back;
         tl_nav_find_fan(navmesh, NULL, &place);
         number_fan(navmesh, place);
         if (is_last) {

@@ -13,8 +13,7 @@ typedef struct tl_nav_plan_point {
     double distance_sq;
 } tl_nav_plan_point;
 
-static inline tl_nav_plan_point tl_nav_nearest_on_edge(const tl_nav_ring_edge *start, const tl_nav_ring_edge *end,
-                                                       double x, double z)
+static inline tl_nav_plan_point tl_nav_nearest_on_edge(const tl_vec3 *start, const tl_vec3 *end, double x, double z)
 {
     double ex = (double)end->x - (double)start->x;
     double ez = (double)end->z - (double)start->z;
@@ -33,13 +32,13 @@ static inline tl_nav_plan_point tl_nav_nearest_on_edge(const tl_nav_ring_edge *s
 }
 
 /// The point of an edge at t: its ends' own bits at 0 and 1.
-static inline tl_vec3 tl_nav_point_on_edge(const tl_nav_ring_edge *start, const tl_nav_ring_edge *end, double t)
+static inline tl_vec3 tl_nav_point_on_edge(const tl_vec3 *start, const tl_vec3 *end, double t)
 {
     if (t <= 0.0) {
-        return tl_vec3_make(start->x, start->y, start->z);
+        return *start;
     }
     if (t >= 1.0) {
-        return tl_vec3_make(end->x, end->y, end->z);
+        return *end;
     }
     return tl_vec3_make((float)((double)start->x + t * ((double)end->x - (double)start->x)),
                         (float)((double)start->y + t * ((double)end->y - (double)start->y)),

@@ -16,10 +16,9 @@ typedef struct tl_nav_ring_place {
     uint32_t edge;
 } tl_nav_ring_place;
 
-static inline const tl_nav_ring_edge *tl_nav_ring_at(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon,
-                                                     uint32_t *count_out)
+static inline tl_nav_ring tl_nav_ring_at(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
 {
-    return tl_nav_ring_of(&navmesh->slots[slot].rings, polygon, count_out);
+    return tl_nav_ring_of(&navmesh->slots[slot].rings, polygon);
 }
 
 /// The polygon across an open edge of a slot's rings.
@@ -29,27 +28,27 @@ static inline tl_nav_ring_seam tl_nav_ring_across(const tl_navmesh *navmesh, uin
     return (to & TL_NAV_RING_SEAM) == 0 ? target : tl_nav_ring_seam_of(&navmesh->slots[slot].rings, to);
 }
 
-/// The same edge as the polygon across it has it. `edge` stands in polygon's ring, which has `count` of them.
+/// The same edge as the polygon across it has it. `edge` stands in polygon's ring.
 static inline tl_nav_ring_place tl_nav_ring_twin(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon,
-                                                 const tl_nav_ring_edge *ring, uint32_t count, uint32_t edge)
+                                                 const tl_nav_ring *ring, uint32_t edge)
 {
-    tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, ring[edge].to);
-    tl_nav_ring_place twin = { to.slot, to.polygon, tl_nav_ring_twin_hint(&ring[edge]) };
-    if ((ring[edge].to & TL_NAV_RING_SEAM) != 0 || twin.edge == TL_NAV_RING_FAR_TWIN) {
+    tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, ring->edges[edge].to);
+    tl_nav_ring_place twin = { to.slot, to.polygon, tl_nav_ring_twin_hint(&ring->edges[edge]) };
+    if ((ring->edges[edge].to & TL_NAV_RING_SEAM) != 0 || twin.edge == TL_NAV_RING_FAR_TWIN) {
         // Rings of other tiles change as tiles come and go. A seam's ends have the same bits in both. Where nothing
         // runs back no two edges of a ring start in one place: the search may begin anywhere.
-        const tl_nav_ring_edge *end = &ring[edge + 1 < count ? edge + 1 : 0];
-        uint32_t across_count = 0;
-        const tl_nav_ring_edge *across = tl_nav_ring_at(navmesh, to.slot, to.polygon, &across_count);
-        if ((ring[edge].to & TL_NAV_RING_SEAM) != 0) {
-            twin.edge = tl_nav_seam_twin_hint(&navmesh->slots[slot].rings, &ring[edge], across_count);
+        const tl_vec3 *end = &ring->points[edge + 1 < ring->count ? edge + 1 : 0];
+        const tl_nav_ring across = tl_nav_ring_at(navmesh, to.slot, to.polygon);
+        if ((ring->edges[edge].to & TL_NAV_RING_SEAM) != 0) {
+            twin.edge = tl_nav_seam_twin_hint(&navmesh->slots[slot].rings, &ring->edges[edge], across.count);
         }
-        uint32_t k = !navmesh->slots[to.slot].rings.has_back && twin.edge < across_count ? twin.edge : 0;
-        for (uint32_t i = 0; i < across_count; i++, k = k + 1 < across_count ? k + 1 : 0) {
-            if (across[k].x != end->x || across[k].z != end->z || !tl_nav_ring_is_open(&across[k])) {
+        uint32_t k = !navmesh->slots[to.slot].rings.has_back && twin.edge < across.count ? twin.edge : 0;
+        for (uint32_t i = 0; i < across.count; i++, k = k + 1 < across.count ? k + 1 : 0) {
+            if (across.points[k].x != end->x || across.points[k].z != end->z ||
+                !tl_nav_ring_is_open(&across.edges[k])) {
                 continue;
             }
-            tl_nav_ring_seam back = tl_nav_ring_across(navmesh, to.slot, across[k].to);
+            tl_nav_ring_seam back = tl_nav_ring_across(navmesh, to.slot, across.edges[k].to);
             if (back.slot == slot && back.polygon == polygon) {
                 twin.edge = k;
                 break;

@@ -11,24 +11,43 @@
 
 #include <string.h>
 
-static bool is_same_vertex(const tl_nav_ring_edge *edge, tl_vec3 point)
+// Of a polygon whose rings are made.
+enum {
+    RING_CHANGES = 1,   // its ring is not that of the rings before
+    RING_HAS_POINTS = 2 // of its own: they are not its corners
+};
+
+static bool is_same_vertex(tl_vec3 a, tl_vec3 b)
 {
-    return edge->x == point.x && edge->z == point.z;
+    return a.x == b.x && a.z == b.z;
 }
 
-// Appends edges; the last one's end is where the next one starts. With rings that have no arrays yet it counts.
+// Appends edges; the last one's end is where the next one starts. With rings that have no arrays yet it counts, and
+// finds which rings have points of their own.
 typedef struct ring_writer {
     tl_nav_rings *rings;
     uint64_t edge_count, seam_count;
+    uint64_t point_count; // of rings that have their own
+    // The ring that is being written.
+    const tl_vec3 *corners; // of its polygon
+    uint32_t corner_count;
+    uint32_t count; // of its edges so far
+    bool has_points;
 } ring_writer;
 
 static void add_ring_edge(ring_writer *writer, tl_vec3 start, uint32_t to, uint32_t mark)
 {
-    if (writer->rings->edges != NULL) {
-        tl_nav_ring_edge edge = { start.x, start.y, start.z, to, 0, mark };
-        writer->rings->edges[writer->edge_count] = edge;
+    const uint32_t i = writer->count++;
+    if (writer->rings->edges == NULL) {
+        const bool is_corner = i < writer->corner_count && memcmp(&writer->corners[i], &start, sizeof start) == 0;
+        writer->has_points = writer->has_points || !is_corner;
+    } else {
+        const tl_nav_ring_edge edge = { to, 0, mark };
+        writer->rings->edges[writer->edge_count + i] = edge;
+        if (writer->has_points) {
+            tl_nav_own_points(writer->rings)[writer->point_count + i] = start;
+        }
     }
-    writer->edge_count++;
 }
 
 static uint32_t add_ring_seam(ring_writer *writer, tl_nav_ring_seam seam)
@@ -77,6 +96,8 @@ static void add_ring(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
     const uint32_t *links = tl_nav_tile_links(tile, polygon);
+    writer->corners = corners;
+    writer->corner_count = count;
     for (uint32_t k = 0; k < count; k++) {
         if (links[k] == TL_NAV_LINK_WALL || (links[k] & TL_NAV_LINK_PORTAL) == 0) {
             add_ring_edge(writer, corners[k], links[k] == TL_NAV_LINK_WALL ? TL_NAV_RING_WALL : links[k], 0);
@@ -91,20 +112,22 @@ static void add_ring(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_
             add_seam_edge(writer, tile, portal, corners[k], corners[k + 1 < count ? k + 1 : 0], sides[side]);
         }
     }
+    if (writer->rings->edges == NULL) {
+        writer->has_points = writer->has_points || writer->count != count;
+    }
 }
 
 // Vertices that a polygon had before keep their turns, and their walls: for now by their place among the old ones.
-static void copy_turns(ring_writer *writer, const tl_nav_rings *old, uint32_t polygon)
+static void copy_turns(tl_nav_rings *rings, const tl_nav_rings *old, uint32_t polygon)
 {
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_of(old, polygon, &count);
-    tl_nav_rings *rings = writer->rings;
-    for (uint64_t k = rings->cells[polygon].first; k < writer->edge_count; k++) {
-        tl_nav_ring_edge *edge = &rings->edges[k];
-        for (uint32_t i = 0; i < count; i++) {
-            if (is_same_vertex(&ring[i], tl_vec3_make(edge->x, 0.0f, edge->z))) {
-                edge->turn = ring[i].turn;
-                edge->mark = (ring[i].mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) | tl_nav_ring_twin_hint(edge);
+    const tl_nav_ring before = tl_nav_ring_of(old, polygon), now = tl_nav_ring_of(rings, polygon);
+    tl_nav_ring_edge *edges = rings->edges + rings->cells[polygon].first;
+    for (uint32_t k = 0; k < now.count; k++) {
+        for (uint32_t i = 0; i < before.count; i++) {
+            if (is_same_vertex(before.points[i], now.points[k])) {
+                edges[k].turn = before.edges[i].turn;
+                edges[k].mark =
+                    (before.edges[i].mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) | tl_nav_ring_twin_hint(&edges[k]);
             }
         }
     }
@@ -113,59 +136,57 @@ static void copy_turns(ring_writer *writer, const tl_nav_rings *old, uint32_t po
 // A polygon whose edges stay as they were; only its seams get new places.
 static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t polygon)
 {
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_of(old, polygon, &count);
+    const tl_nav_ring ring = tl_nav_ring_of(old, polygon);
     tl_nav_rings *rings = writer->rings;
-    for (uint32_t i = 0; i < count; i++) {
-        tl_nav_ring_edge edge = ring[i];
+    writer->has_points = (old->cells[polygon].points & TL_NAV_RING_OWN_POINTS) != 0;
+    writer->count = ring.count;
+    for (uint32_t i = 0; i < ring.count; i++) {
+        tl_nav_ring_edge edge = ring.edges[i];
         if (tl_nav_ring_is_seam(&edge)) {
             edge.to = add_ring_seam(writer, old->seams[edge.to & ~TL_NAV_RING_SEAM]);
         }
         rings->has_back = rings->has_back || edge.to == TL_NAV_RING_BACK;
         if (rings->edges != NULL) {
-            rings->edges[writer->edge_count] = edge;
+            rings->edges[writer->edge_count + i] = edge;
         }
-        writer->edge_count++;
     }
+    if (rings->edges != NULL && writer->has_points) {
+        memcpy(tl_nav_own_points(rings) + writer->point_count, ring.points, ring.count * sizeof *ring.points);
+    }
+}
+
+// The place of an edge in the ring of the polygon across, which is of the same tile; none before `from`.
+static uint32_t find_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge, uint32_t from)
+{
+    const tl_nav_ring ring = tl_nav_ring_of(rings, polygon);
+    const tl_nav_ring across = tl_nav_ring_of(rings, ring.edges[edge].to);
+    const tl_vec3 end = ring.points[edge + 1 < ring.count ? edge + 1 : 0];
+    uint32_t twin = from;
+    while (twin + 1 < across.count && (across.edges[twin].to != polygon || !is_same_vertex(across.points[twin], end))) {
+        twin++;
+    }
+    TL_ASSERT(across.edges[twin].to == polygon);
+    return twin;
 }
 
 // Within a tile: where each edge of a polygon stands in the ring across it, and that one in this.
 static void find_twins(tl_nav_rings *rings, uint32_t polygon)
 {
-    uint32_t count = 0;
-    tl_nav_ring_edge *ring = rings->edges + rings->cells[polygon].first;
-    tl_nav_ring_of(rings, polygon, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        if (ring[i].to >= TL_NAV_RING_SEAM) {
+    const tl_nav_ring ring = tl_nav_ring_of(rings, polygon);
+    for (uint32_t i = 0; i < ring.count; i++) {
+        const uint32_t to = ring.edges[i].to;
+        if (to >= TL_NAV_RING_SEAM) {
             continue;
         }
-        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-        uint32_t across_count = 0;
-        tl_nav_ring_edge *across = rings->edges + rings->cells[ring[i].to].first;
-        tl_nav_ring_of(rings, ring[i].to, &across_count);
-        uint32_t k = 0;
-        while (k + 1 < across_count &&
-               (across[k].to != polygon || !is_same_vertex(&across[k], tl_vec3_make(end->x, 0.0f, end->z)))) {
-            k++;
-        }
-        TL_ASSERT(across[k].to == polygon);
-        tl_nav_set_ring_twin(&ring[i], k);
-        tl_nav_set_ring_twin(&across[k], i);
+        const uint32_t twin = find_twin(rings, polygon, i, 0);
+        tl_nav_set_ring_twin(&rings->edges[rings->cells[polygon].first + i], twin);
+        tl_nav_set_ring_twin(&rings->edges[rings->cells[to].first + twin], i);
     }
 }
 
 uint32_t tl_nav_find_far_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge)
 {
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, polygon, &count);
-    const tl_nav_ring_edge *end = &ring[edge + 1 < count ? edge + 1 : 0];
-    const tl_nav_ring_edge *across = tl_nav_ring_of(rings, ring[edge].to, &count);
-    uint32_t twin = TL_NAV_RING_FAR_TWIN;
-    while (twin + 1 < count &&
-           (across[twin].to != polygon || !is_same_vertex(&across[twin], tl_vec3_make(end->x, 0.0f, end->z)))) {
-        twin++;
-    }
-    return twin;
+    return find_twin(rings, polygon, edge, TL_NAV_RING_FAR_TWIN);
 }
 
 static void set_number(const tl_nav_rings *rings, tl_nav_ring_numbers numbers, uint32_t i, uint32_t number)
@@ -197,10 +218,9 @@ static void label_components(tl_nav_rings *rings, uint32_t *stack)
         set_number(rings, rings->component, p, label);
         set_number(rings, rings->component, rings->polygon_count + p, p);
         while (depth > 0) {
-            uint32_t count = 0;
-            const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, stack[--depth], &count);
-            for (uint32_t i = 0; i < count; i++) {
-                uint32_t to = ring[i].to;
+            const tl_nav_ring ring = tl_nav_ring_of(rings, stack[--depth]);
+            for (uint32_t i = 0; i < ring.count; i++) {
+                uint32_t to = ring.edges[i].to;
                 if (to < TL_NAV_RING_SEAM && tl_nav_component_of(rings, to) == none) {
                     set_number(rings, rings->component, to, label);
                     set_number(rings, rings->component, rings->polygon_count + to, tl_nav_next_member(rings, p));
@@ -237,12 +257,12 @@ static void label_tree_nodes(const tl_nav_tile *tile, tl_nav_rings *rings)
 }
 
 // Where the arrays stand in their block, one behind the other: the widest alignment any of them needs is that of their
-// numbers.
+// numbers. `edges`: the bytes of edges and points.
 static void place_arrays(tl_nav_rings *rings, void *block, uint64_t edges, uint64_t seams, uint64_t polygons)
 {
     char *at = (char *)block;
     rings->edges = (tl_nav_ring_edge *)(void *)at;
-    at += edges * sizeof(tl_nav_ring_edge);
+    at += edges;
     rings->seams = (tl_nav_ring_seam *)(void *)at;
     at += seams * sizeof(tl_nav_ring_seam);
     rings->cells = (tl_nav_ring_cell *)(void *)at;
@@ -255,68 +275,79 @@ static void place_arrays(tl_nav_rings *rings, void *block, uint64_t edges, uint6
 static uint64_t block_size_of(const tl_nav_rings *rings, uint64_t edges, uint64_t seams)
 {
     const uint64_t polygons = rings->polygon_count;
-    return edges * sizeof(tl_nav_ring_edge) + seams * sizeof(tl_nav_ring_seam) +
-           (polygons + 1) * sizeof(tl_nav_ring_cell) + (2 * polygons + rings->node_count) * number_size(rings);
+    return edges + seams * sizeof(tl_nav_ring_seam) + (polygons + 1) * sizeof(tl_nav_ring_cell) +
+           (2 * polygons + rings->node_count) * number_size(rings);
 }
 
 uint64_t tl_nav_rings_size(const tl_nav_rings *rings)
 {
-    const tl_nav_ring_seam *seams_end = (const tl_nav_ring_seam *)(const void *)rings->cells;
-    return block_size_of(rings, rings->cells[rings->polygon_count].first, (uint64_t)(seams_end - rings->seams));
+    const uint64_t edges = (uint64_t)((char *)rings->seams - (char *)rings->edges);
+    const uint64_t seams = (uint64_t)((char *)rings->cells - (char *)rings->seams);
+    return block_size_of(rings, edges, seams / sizeof(tl_nav_ring_seam));
 }
 
-static bool allocate_rings(const tl_allocator *allocator, uint64_t edges, uint64_t seams, tl_nav_rings *rings)
+static bool allocate_rings(const tl_allocator *allocator, const ring_writer *counted, tl_nav_rings *rings)
 {
-    void *block = tl_allocate_array(allocator, block_size_of(rings, edges, seams), 1);
+    const uint64_t edges = counted->edge_count * sizeof(tl_nav_ring_edge) + counted->point_count * sizeof(tl_vec3);
+    void *block = tl_allocate_array(allocator, block_size_of(rings, edges, counted->seam_count), 1);
     if (block == NULL) {
         return false;
     }
-    place_arrays(rings, block, edges, seams, rings->polygon_count);
-    rings->cells[rings->polygon_count].first = (uint32_t)edges;
+    place_arrays(rings, block, edges, counted->seam_count, rings->polygon_count);
+    const tl_nav_ring_cell end = { (uint32_t)counted->edge_count, 0, 0 };
+    rings->cells[rings->polygon_count] = end;
     return true;
 }
 
-// The polygons whose rings are to be made: those on a side, or without rings from before all.
-static void mark_changed(const tl_nav_tile *tile, uint32_t side, const tl_nav_rings *old, uint32_t *is_changed)
+// The polygons whose rings change: those on a side, or without rings from before all.
+static void mark_changed(const tl_nav_tile *tile, uint32_t side, const tl_nav_rings *old, uint32_t *marks)
 {
     const tl_nav_portal *portals = tl_nav_tile_portals(tile);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        is_changed[p] = old == NULL;
+        marks[p] = old == NULL ? RING_CHANGES : 0;
     }
     for (uint32_t i = tl_nav_tile_side_first(tile, side); i < tl_nav_tile_side_first(tile, side + 1); i++) {
-        is_changed[portals[i].polygon] = true;
+        marks[portals[i].polygon] = RING_CHANGES;
     }
 }
 
-// The changed polygons' rings anew, all others' as they were. `writer`: to write, or to count.
+// The changed polygons' rings anew, all others' as they were. `writer`: to count, then to write.
 static void write_rings(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
-                        const uint32_t *is_changed, const tl_nav_rings *old)
+                        uint32_t *marks, const tl_nav_rings *old)
 {
     tl_nav_rings *rings = writer->rings;
+    const uint32_t *corners = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        if (rings->cells != NULL) {
-            rings->cells[p].first = (uint32_t)writer->edge_count;
-        }
-        if (!is_changed[p]) {
+        const bool changes = (marks[p] & RING_CHANGES) != 0;
+        writer->count = 0;
+        writer->has_points = (marks[p] & RING_HAS_POINTS) != 0;
+        if (changes) {
+            add_ring(writer, tile, sides, p);
+        } else {
             copy_ring(writer, old, p);
-            continue;
         }
-        add_ring(writer, tile, sides, p);
-        if (old != NULL && rings->edges != NULL) {
-            copy_turns(writer, old, p);
+        if (rings->edges != NULL) {
+            rings->cells[p].first = (uint32_t)writer->edge_count;
+            rings->cells[p].points =
+                writer->has_points ? TL_NAV_RING_OWN_POINTS | (uint32_t)writer->point_count : corners[p];
+            rings->cells[p + 1].first = (uint32_t)writer->edge_count + writer->count;
         }
+        marks[p] |= writer->has_points ? RING_HAS_POINTS : 0;
+        writer->edge_count += writer->count;
+        writer->point_count += writer->has_points ? writer->count : 0;
     }
 }
 
-static void fill_rings(const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
-                       const uint32_t *is_changed, const tl_nav_rings *old, tl_nav_rings *rings)
+static void fill_rings(const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], uint32_t *marks,
+                       const tl_nav_rings *old, tl_nav_rings *rings)
 {
-    ring_writer writer = { rings, 0, 0 };
-    write_rings(&writer, tile, sides, is_changed, old);
-    rings->cells[tile->polygon_count].first = (uint32_t)writer.edge_count;
-    rings->cells[tile->polygon_count].branch = 0;
+    ring_writer writer = { rings, 0, 0, 0, NULL, 0, 0, false };
+    write_rings(&writer, tile, sides, marks, old);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        if (is_changed[p]) {
+        if ((marks[p] & RING_CHANGES) != 0) {
+            if (old != NULL) {
+                copy_turns(rings, old, p);
+            }
             find_twins(rings, p);
         }
     }
@@ -379,20 +410,21 @@ static tl_result make_rings(const tl_allocator *allocator, const tl_nav_tile *ti
                             const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const tl_nav_rings *old,
                             uint32_t *scratch, tl_nav_rings *rings)
 {
-    ring_writer counted = { rings, 0, 0 };
+    ring_writer counted = { rings, 0, 0, 0, NULL, 0, 0, false };
     write_rings(&counted, tile, sides, scratch, old);
-    const uint64_t edges = counted.edge_count, seams = counted.seam_count;
-    if (edges > UINT32_MAX || seams >= TL_NAV_RING_BACK - TL_NAV_RING_SEAM) {
+    if (counted.edge_count > UINT32_MAX || counted.seam_count >= TL_NAV_RING_BACK - TL_NAV_RING_SEAM ||
+        counted.point_count > TL_NAV_RING_OWN_POINTS || tile->detail_vertex_count > TL_NAV_RING_OWN_POINTS) {
         return TL_ERR_LIMIT;
     }
     rings->polygon_count = tile->polygon_count;
     rings->node_count = tile->node_count;
     rings->is_wide = tile->polygon_count > TL_NAV_MAX_SHORT_NUMBER;
-    if (!allocate_rings(allocator, edges, seams, rings)) {
+    rings->corners = old != NULL ? old->corners : (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices);
+    if (!allocate_rings(allocator, &counted, rings)) {
         return TL_ERR_MEMORY;
     }
     fill_rings(tile, sides, scratch, old, rings);
-    TL_ASSERT(rings->cells[tile->polygon_count].first == edges);
+    TL_ASSERT(rings->cells[tile->polygon_count].first == counted.edge_count);
     if (old != NULL) {
         copy_components(old, rings);
     } else {
@@ -452,8 +484,7 @@ tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings)
     tl_release_array(allocator, rings->edges, size, 1);
     tl_release_array(allocator, rings->walls, walls_size(rings), 1);
     place_walls(rings, walls);
-    place_arrays(rings, block, edges / sizeof(tl_nav_ring_edge), seams / sizeof(tl_nav_ring_seam),
-                 rings->polygon_count);
+    place_arrays(rings, block, edges, seams / sizeof(tl_nav_ring_seam), rings->polygon_count);
     return TL_OK;
 }
 

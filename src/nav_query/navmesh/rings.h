@@ -2,9 +2,10 @@
 //
 // What path searches run on: a tile's polygons as rings of edges, with the ways over its seams among them.
 //
-// A polygon's ring stands in one piece of memory: per edge where it starts, what lies across it, and where that knows
-// of it. Edges on the tile's border are cut where links begin and end, so that a step over a seam looks like any other.
-// Tiles are immutable and know nothing of their neighbours; the rings belong to the navmesh and are made as tiles come.
+// A polygon's ring is its edges, each with what lies across it and where that knows of it, and the points where they
+// start. Edges on the tile's border are cut where links begin and end, so that a step over a seam looks like any other.
+// Where nothing is cut the points are the tile's own corners. Tiles are immutable and know nothing of their neighbours;
+// the rings belong to the navmesh and are made as tiles come.
 
 #ifndef TALUS_SRC_NAV_QUERY_RINGS_H
 #define TALUS_SRC_NAV_QUERY_RINGS_H
@@ -25,10 +26,8 @@ enum {
 #define TL_NAV_RING_ON_PORTAL 1u
 #define TL_NAV_RING_MAX_WALLS (UINT32_MAX >> TL_NAV_RING_TWIN_BITS) ///< of one tile
 
-/// An edge of a polygon, from where it stands to where the next one does. Seen from inside looking out, it starts at
-/// its right end.
+/// An edge of a polygon, from its point to the next one's. Seen from inside looking out, it starts at its right end.
 typedef struct tl_nav_ring_edge {
-    float x, y, z;
     uint32_t to;   ///< across: a polygon of the tile, or TL_NAV_RING_...
     uint32_t turn; ///< names the free way around this vertex when a shortest path may turn here, else 0
     /// In the low bits the same edge's place in the ring across, or TL_NAV_RING_FAR_TWIN; over a seam the low bits of
@@ -66,13 +65,18 @@ typedef union tl_nav_ring_numbers {
 } tl_nav_ring_numbers;
 
 typedef struct tl_nav_ring_cell {
-    uint32_t first;  ///< of the polygon's edges; they end where the next cell's begin
+    uint32_t first; ///< of the polygon's edges; they end where the next cell's begin
+    /// Its first point: index in the tile's detail vertices, or TL_NAV_RING_OWN_POINTS | index behind the edges.
+    uint32_t points;
     uint32_t branch; ///< of the tile, to which the polygon belongs (branches.c)
 } tl_nav_ring_cell;
 
+#define TL_NAV_RING_OWN_POINTS 0x80000000u
+
 typedef struct tl_nav_rings {
-    tl_nav_ring_cell *cells; ///< [polygon_count + 1]
-    tl_nav_ring_edge *edges;
+    tl_nav_ring_cell *cells;  ///< [polygon_count + 1]
+    tl_nav_ring_edge *edges;  ///< behind them points of rings whose points are not the corners of their polygon
+    const tl_vec3 *corners;   ///< the detail vertices of the tile as it was added
     tl_nav_ring_walls *walls; ///< [walls_count]
     tl_nav_ring_seam *seams;
     uint32_t *branch_end;          ///< by branch: those on it, and on those, are numbered from it up to here
@@ -224,12 +228,26 @@ static inline const tl_nav_ring_walls *tl_nav_walls_of(const tl_nav_rings *rings
     return &rings->walls[edge->mark >> TL_NAV_RING_TWIN_BITS];
 }
 
-/// A polygon's ring: edges [0, *count_out).
-static inline const tl_nav_ring_edge *tl_nav_ring_of(const tl_nav_rings *rings, uint32_t polygon, uint32_t *count_out)
+/// A polygon's ring: edge i leads from point i to the next one, from the last one to the first.
+typedef struct tl_nav_ring {
+    const tl_nav_ring_edge *edges;
+    const tl_vec3 *points; ///< metres
+    uint32_t count;        ///< of each
+} tl_nav_ring;
+
+/// The points of the rings that have their own.
+static inline tl_vec3 *tl_nav_own_points(const tl_nav_rings *rings)
+{
+    return (tl_vec3 *)(void *)(rings->edges + rings->cells[rings->polygon_count].first);
+}
+
+static inline tl_nav_ring tl_nav_ring_of(const tl_nav_rings *rings, uint32_t polygon)
 {
     const tl_nav_ring_cell *cell = rings->cells + polygon;
-    *count_out = cell[1].first - cell[0].first;
-    return rings->edges + cell[0].first;
+    const tl_vec3 *points = (cell->points & TL_NAV_RING_OWN_POINTS) != 0 ? tl_nav_own_points(rings) : rings->corners;
+    const tl_nav_ring ring = { rings->edges + cell[0].first, points + (cell->points & ~TL_NAV_RING_OWN_POINTS),
+                               cell[1].first - cell[0].first };
+    return ring;
 }
 
 #endif

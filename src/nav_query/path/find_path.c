@@ -56,11 +56,8 @@ static void relax_way(tl_nav_way_search *search, uint64_t key, uint32_t slot, ui
 }
 
 // Where a straight way to the goal over a portal would cross it.
-static inline tl_vec3 crossing_point(tl_nav_spot from, tl_nav_spot goal, const tl_nav_ring_edge *begin,
-                                     const tl_nav_ring_edge *end)
+static inline tl_vec3 crossing_point(tl_nav_spot from, tl_nav_spot goal, tl_vec3 right, tl_vec3 left)
 {
-    const tl_vec3 right = { begin->x, begin->y, begin->z };
-    const tl_vec3 left = { end->x, end->y, end->z };
     const tl_nav_segment portal = { tl_nav_spot_of(right), tl_nav_spot_of(left) };
     return tl_lerp(right, left, (float)tl_nav_crossing_share(from, goal, portal));
 }
@@ -152,10 +149,10 @@ static inline bool may_step(const tl_nav_way_search *search, const way_step *ste
 }
 
 // Goes over an edge of the node's polygon.
-static inline void step_over_edge(tl_nav_way_search *search, const way_step *step, const tl_nav_ring_edge *begin,
-                                  const tl_nav_ring_edge *end, uint64_t key)
+static inline void step_over_edge(tl_nav_way_search *search, const way_step *step, const tl_nav_ring *ring,
+                                  uint32_t edge, uint64_t key)
 {
-    const tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, step->here.slot, begin->to);
+    const tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, step->here.slot, ring->edges[edge].to);
     if (!may_step(search, step, to)) {
         return;
     }
@@ -165,7 +162,8 @@ static inline void step_over_edge(tl_nav_way_search *search, const way_step *ste
         (search->query->nodes[known].heap_at == TL_NAV_NODE_CLOSED || search->query->nodes[known].cost <= step->cost)) {
         return;
     }
-    const tl_vec3 point = crossing_point(step->from, step->goal, begin, end);
+    const tl_vec3 left = ring->points[edge + 1 < ring->count ? edge + 1 : 0];
+    const tl_vec3 point = crossing_point(step->from, step->goal, ring->points[edge], left);
     const float across = step->asked == NULL
                              ? step->metre_cost * tl_distance(step->point, point)
                              : tl_nav_cost_between(step->asked, search->navmesh->slots[step->here.slot].tile,
@@ -185,12 +183,11 @@ static void expand_way(tl_nav_way_search *search, uint32_t index)
     if (slot->anchor_count > 0) {
         relax_links(search, index);
     }
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_of(&slot->rings, step.here.polygon, &count);
-    const uint64_t first = tl_nav_way_key(step.here.slot, (uint64_t)(ring - slot->rings.edges));
-    for (uint32_t i = 0; i < count; i++) {
-        if (tl_nav_ring_is_open(&ring[i])) {
-            step_over_edge(search, &step, &ring[i], &ring[i + 1 < count ? i + 1 : 0], first + i);
+    const tl_nav_ring ring = tl_nav_ring_of(&slot->rings, step.here.polygon);
+    const uint64_t first = tl_nav_way_key(step.here.slot, (uint64_t)(ring.edges - slot->rings.edges));
+    for (uint32_t i = 0; i < ring.count; i++) {
+        if (tl_nav_ring_is_open(&ring.edges[i])) {
+            step_over_edge(search, &step, &ring, i, first + i);
         }
     }
 }

@@ -127,13 +127,12 @@ static void write_cone(const tl_navmesh *navmesh, const tl_nav_visibility_graph 
 {
     const tl_nav_corner_cones *cones = &graph->cones;
     const tl_nav_corner_vertex *vertex = &graph->vertices[cone->vertex];
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, cone->slot, cone->polygon, &count);
+    const tl_nav_ring ring = tl_nav_ring_at(navmesh, cone->slot, cone->polygon);
     double size = 0.0;
     double largest = 0.0;
-    for (uint32_t i = 0; i < count; i++) {
-        double x = (double)ring[i].x;
-        double z = (double)ring[i].z;
+    for (uint32_t i = 0; i < ring.count; i++) {
+        double x = (double)ring.points[i].x;
+        double z = (double)ring.points[i].z;
         size = tl_max_f64(size, fabs(x - (double)vertex->x) + fabs(z - (double)vertex->z));
         largest = tl_max_f64(largest, tl_max_f64(fabs(x), fabs(z)));
     }

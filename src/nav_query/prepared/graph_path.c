@@ -14,26 +14,25 @@ uint32_t tl_nav_fan_of(const tl_navmesh *navmesh, const tl_nav_corner_vertex *ve
 {
     tl_nav_ring_place at = vertex->place;
     for (uint32_t i = 0; i < TL_NAV_MAX_FAN; i++) {
-        uint32_t count = 0;
-        const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, at.slot, at.polygon, &count);
-        uint32_t before = at.edge > 0 ? at.edge - 1 : count - 1;
+        const tl_nav_ring ring = tl_nav_ring_at(navmesh, at.slot, at.polygon);
+        uint32_t before = at.edge > 0 ? at.edge - 1 : ring.count - 1;
         fan_out[i] = at;
-        if (!tl_nav_ring_is_open(&ring[before])) {
+        if (!tl_nav_ring_is_open(&ring.edges[before])) {
             return i + 1;
         }
-        at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, ring, count, before);
+        at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, &ring, before);
     }
     return TL_NAV_MAX_FAN;
 }
 
-static bool is_ahead(const tl_nav_line *line, const tl_nav_ring_edge *vertex)
+static bool is_ahead(const tl_nav_line *line, const tl_vec3 *vertex)
 {
     return line->on_x * ((double)vertex->x - line->x) + line->on_z * ((double)vertex->z - line->z) > 0.0;
 }
 
 // How far from 0 rounding may put what says on which side of a line a vertex lies: both ends of the line are rounded,
 // so a vertex that is farther away than the line is long counts by its distance.
-static double line_slack(const tl_nav_line *line, const tl_nav_ring_edge *vertex)
+static double line_slack(const tl_nav_line *line, const tl_vec3 *vertex)
 {
     return line->rounding * (fabs(line->on_x) + fabs(line->on_z) + fabs((double)vertex->x - line->x) +
                              fabs((double)vertex->z - line->z));
@@ -44,10 +43,9 @@ bool tl_nav_line_enters(const tl_nav_line *line, const tl_nav_ring_place *place)
     if (line->on_x == 0.0 && line->on_z == 0.0) {
         return place->slot == line->slot && place->polygon == line->polygon; // the goal is in the vertex
     }
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(line->navmesh, place->slot, place->polygon, &count);
-    const tl_nav_ring_edge *right = &ring[place->edge + 1 < count ? place->edge + 1 : 0];
-    const tl_nav_ring_edge *left = &ring[place->edge > 0 ? place->edge - 1 : count - 1];
+    const tl_nav_ring ring = tl_nav_ring_at(line->navmesh, place->slot, place->polygon);
+    const tl_vec3 *right = &ring.points[place->edge + 1 < ring.count ? place->edge + 1 : 0];
+    const tl_vec3 *left = &ring.points[place->edge > 0 ? place->edge - 1 : ring.count - 1];
     double right_slack = line_slack(line, right);
     double left_slack = line_slack(line, left);
     double to_right = tl_nav_right_of_line(line, right);

@@ -52,10 +52,9 @@ static bool may_be_new(const tl_navmesh *navmesh, const tl_nav_graph_reuse *reus
 static bool may_polygon_be_new(const tl_navmesh *navmesh, const tl_nav_graph_reuse *reuse, uint32_t slot,
                                uint32_t polygon, const uint32_t *vertex_of)
 {
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, slot, polygon, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        if (may_be_new(navmesh, reuse, slot, &ring[i], vertex_of)) {
+    const tl_nav_ring ring = tl_nav_ring_at(navmesh, slot, polygon);
+    for (uint32_t i = 0; i < ring.count; i++) {
+        if (may_be_new(navmesh, reuse, slot, &ring.edges[i], vertex_of)) {
             return true;
         }
     }

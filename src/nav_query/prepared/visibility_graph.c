@@ -80,18 +80,16 @@ static uint32_t count_vertices(graph_baker *b)
 
 static void fill_corner_vertex(graph_baker *b, tl_nav_ring_place place)
 {
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring_vertex = tl_nav_ring_at(b->navmesh, place.slot, place.polygon, &count) + place.edge;
+    const tl_nav_ring ring = tl_nav_ring_at(b->navmesh, place.slot, place.polygon);
+    const tl_nav_ring_edge *edge = &ring.edges[place.edge];
+    const tl_vec3 at = ring.points[place.edge];
     const tl_nav_rings *rings = &b->navmesh->slots[place.slot].rings;
-    if (ring_vertex->turn == 0 || b->graph->vertices[b->vertex_of[ring_vertex->turn]].turn != 0) {
+    if (edge->turn == 0 || b->graph->vertices[b->vertex_of[edge->turn]].turn != 0) {
         return;
     }
-    tl_nav_corner_vertex vertex = {
-        ring_vertex->x, ring_vertex->y, ring_vertex->z, ring_vertex->turn, 0, *tl_nav_walls_of(rings, ring_vertex),
-        place
-    };
+    tl_nav_corner_vertex vertex = { at.x, at.y, at.z, edge->turn, 0, *tl_nav_walls_of(rings, edge), place };
     tl_nav_find_fan(b->navmesh, NULL, &vertex.place);
-    b->graph->vertices[b->vertex_of[ring_vertex->turn]] = vertex;
+    b->graph->vertices[b->vertex_of[edge->turn]] = vertex;
 }
 
 static void fill_corner_vertices(graph_baker *b)

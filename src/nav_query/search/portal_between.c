@@ -9,19 +9,19 @@
 
 #include "nav_query/navmesh/ring_step.h"
 
-// The first of a ring's edges from `edge` on that leads to a polygon; `count`: none does.
-static inline uint32_t next_to(const tl_nav_slot *slot, const tl_nav_ring_edge *ring, uint32_t edge, uint32_t count,
+// The first of a ring's edges from `edge` on that leads to a polygon; ring->count: none does.
+static inline uint32_t next_to(const tl_nav_slot *slot, const tl_nav_ring *ring, uint32_t edge,
                                const tl_nav_portal_ends *ends)
 {
     if (ends->to_slot == ends->slot) {
-        while (edge < count && ring[edge].to != ends->to_polygon) {
+        while (edge < ring->count && ring->edges[edge].to != ends->to_polygon) {
             edge++;
         }
         return edge;
     }
-    for (; edge < count; edge++) {
-        if (ring[edge].to >= TL_NAV_RING_SEAM && tl_nav_ring_is_open(&ring[edge])) {
-            const tl_nav_ring_seam seam = tl_nav_ring_seam_of(&slot->rings, ring[edge].to);
+    for (; edge < ring->count; edge++) {
+        if (ring->edges[edge].to >= TL_NAV_RING_SEAM && tl_nav_ring_is_open(&ring->edges[edge])) {
+            const tl_nav_ring_seam seam = tl_nav_ring_seam_of(&slot->rings, ring->edges[edge].to);
             if (seam.slot == ends->to_slot && seam.polygon == ends->to_polygon) {
                 break;
             }
@@ -30,26 +30,21 @@ static inline uint32_t next_to(const tl_nav_slot *slot, const tl_nav_ring_edge *
     return edge;
 }
 
-static tl_vec3 start_of(const tl_nav_ring_edge *edge)
-{
-    return tl_vec3_make(edge->x, edge->y, edge->z);
-}
-
 // Where the portal goes on behind its first edge: two polygons share more than one edge where a vertex lies between, or
 // a seam is cut there. All of them are one.
-static void add_edges(const tl_nav_slot *slot, const tl_nav_ring_edge *ring, uint32_t first, uint32_t count,
-                      const tl_nav_portal_ends *ends, tl_vec3 *left, tl_vec3 *right)
+static void add_edges(const tl_nav_slot *slot, const tl_nav_ring *ring, uint32_t first, const tl_nav_portal_ends *ends,
+                      tl_vec3 *left, tl_vec3 *right)
 {
     const double dx = (double)left->x - (double)right->x;
     const double dz = (double)left->z - (double)right->z;
     double leftmost = dx * (double)left->x + dz * (double)left->z;
     double rightmost = dx * (double)right->x + dz * (double)right->z;
-    for (uint32_t i = first; i < count; i = next_to(slot, ring, i + 1, count, ends)) {
-        const tl_nav_ring_edge *next = &ring[i + 1 < count ? i + 1 : 0];
+    for (uint32_t i = first; i < ring->count; i = next_to(slot, ring, i + 1, ends)) {
+        const tl_vec3 *start = &ring->points[i], *next = &ring->points[i + 1 < ring->count ? i + 1 : 0];
         const double to_left = dx * (double)next->x + dz * (double)next->z;
-        const double to_right = dx * (double)ring[i].x + dz * (double)ring[i].z;
-        *left = to_left > leftmost ? start_of(next) : *left;
-        *right = to_right < rightmost ? start_of(&ring[i]) : *right;
+        const double to_right = dx * (double)start->x + dz * (double)start->z;
+        *left = to_left > leftmost ? *next : *left;
+        *right = to_right < rightmost ? *start : *right;
         leftmost = to_left > leftmost ? to_left : leftmost;
         rightmost = to_right < rightmost ? to_right : rightmost;
     }
@@ -59,17 +54,16 @@ bool tl_nav_find_portal(const tl_navmesh *navmesh, const tl_nav_portal_ends *end
                         tl_vec3 *right_out)
 {
     const tl_nav_slot *slot = &navmesh->slots[ends->slot];
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_of(&slot->rings, ends->polygon, &count);
-    const uint32_t first = next_to(slot, ring, 0, count, ends);
-    if (first == count) {
+    const tl_nav_ring ring = tl_nav_ring_of(&slot->rings, ends->polygon);
+    const uint32_t first = next_to(slot, &ring, 0, ends);
+    if (first == ring.count) {
         return false;
     }
-    *right_out = start_of(&ring[first]);
-    *left_out = start_of(&ring[first + 1 < count ? first + 1 : 0]);
-    const uint32_t second = next_to(slot, ring, first + 1, count, ends);
-    if (second < count) {
-        add_edges(slot, ring, second, count, ends, left_out, right_out);
+    *right_out = ring.points[first];
+    *left_out = ring.points[first + 1 < ring.count ? first + 1 : 0];
+    const uint32_t second = next_to(slot, &ring, first + 1, ends);
+    if (second < ring.count) {
+        add_edges(slot, &ring, second, ends, left_out, right_out);
     }
     return true;
 }

@@ -30,19 +30,17 @@ typedef struct touched_list {
     touched_polygon polygons[MAX_TOUCHED];
 } touched_list;
 
-static bool is_near_line(const tl_nav_line *line, const tl_nav_ring_edge *a, const tl_nav_ring_edge *b, double x,
-                         double z)
+static bool is_near_line(const tl_nav_line *line, const tl_vec3 *a, const tl_vec3 *b, double x, double z)
 {
     return tl_nav_nearest_on_edge(a, b, x, z).distance_sq <= line->rounding * line->rounding;
 }
 
 // Where an edge meets the line: between which metres along it. False: it does not. An edge that is met at a small angle
 // may be near the line's end, and meet it far off.
-static bool meets(const touched_list *list, const tl_nav_ring_edge *a, const tl_nav_ring_edge *b, double *first_out,
-                  double *last_out)
+static bool meets(const touched_list *list, const tl_vec3 *a, const tl_vec3 *b, double *first_out, double *last_out)
 {
     const tl_nav_line *line = list->line;
-    const tl_nav_ring_edge *ends[2] = { a, b };
+    const tl_vec3 *ends[2] = { a, b };
     double along[2], off[2];
     for (int i = 0; i < 2; i++) {
         double x = (double)ends[i]->x - line->x;
@@ -82,14 +80,13 @@ static bool is_in(const touched_list *list, uint32_t slot, uint32_t polygon)
 }
 
 // Whether the line ends in a polygon.
-static bool ends_in(const tl_nav_line *line, uint32_t slot, uint32_t polygon, const tl_nav_ring_edge *ring,
-                    uint32_t count)
+static bool ends_in(const tl_nav_line *line, uint32_t slot, uint32_t polygon, const tl_nav_ring *ring)
 {
     if (line->turn == 0) {
         return slot == line->slot && polygon == line->polygon;
     }
-    for (uint32_t i = 0; i < count; i++) {
-        if (ring[i].turn == line->turn) {
+    for (uint32_t i = 0; i < ring->count; i++) {
+        if (ring->edges[i].turn == line->turn) {
             return true;
         }
     }
@@ -110,17 +107,18 @@ static void add_from_last(tl_nav_trail *trail, const touched_list *list, uint32_
 }
 
 // Adds the neighbours of a polygon of the list. False: the list is full.
-static bool touch_neighbours(touched_list *list, uint32_t at, const tl_nav_ring_edge *ring, uint32_t count)
+static bool touch_neighbours(touched_list *list, uint32_t at, const tl_nav_ring *ring)
 {
     const touched_polygon from = list->polygons[at];
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < ring->count; i++) {
+        const tl_vec3 *end = &ring->points[i + 1 < ring->count ? i + 1 : 0];
         double first = 0.0;
         double last = 0.0;
-        if (!tl_nav_ring_is_open(&ring[i]) || !meets(list, &ring[i], &ring[i + 1 < count ? i + 1 : 0], &first, &last) ||
+        if (!tl_nav_ring_is_open(&ring->edges[i]) || !meets(list, &ring->points[i], end, &first, &last) ||
             last < from.from - list->line->rounding) {
             continue;
         }
-        tl_nav_ring_seam to = tl_nav_ring_across(list->line->navmesh, from.slot, ring[i].to);
+        tl_nav_ring_seam to = tl_nav_ring_across(list->line->navmesh, from.slot, ring->edges[i].to);
         if (is_in(list, to.slot, to.polygon)) {
             continue;
         }
@@ -142,16 +140,15 @@ static tl_nav_line_end walk_touching(const tl_nav_line *line, uint32_t slot, uin
     touched_polygon begin = { slot, polygon, UINT32_MAX, 0.0 };
     list.polygons[0] = begin;
     for (uint32_t at = 0; at < list.count; at++) {
-        uint32_t count = 0;
         const touched_polygon *p = &list.polygons[at];
-        const tl_nav_ring_edge *ring = tl_nav_ring_at(line->navmesh, p->slot, p->polygon, &count);
-        if (ends_in(line, p->slot, p->polygon, ring, count)) {
+        const tl_nav_ring ring = tl_nav_ring_at(line->navmesh, p->slot, p->polygon);
+        if (ends_in(line, p->slot, p->polygon, &ring)) {
             if (trail != NULL) {
                 add_from_last(trail, &list, at);
             }
             return TL_NAV_LINE_ARRIVES;
         }
-        if (list.length > 0.0 && !touch_neighbours(&list, at, ring, count)) {
+        if (list.length > 0.0 && !touch_neighbours(&list, at, &ring)) {
             return TL_NAV_LINE_UNCLEAR;
         }
     }
@@ -161,40 +158,39 @@ static tl_nav_line_end walk_touching(const tl_nav_line *line, uint32_t slot, uin
 // ---------------------------------------------------------------------------------------------------------
 // While no vertex is on the line.
 
-// The edge by which the line leaves the polygon in which it begins; `count` when no edge is clearly the one.
-static uint32_t first_exit(const tl_nav_line *line, const tl_nav_ring_edge *ring, uint32_t count, double slack)
+// The edge by which the line leaves the polygon in which it begins; `ring->count` when no edge is clearly the one.
+static uint32_t first_exit(const tl_nav_line *line, const tl_nav_ring *ring, double slack)
 {
-    bool was_right = tl_nav_right_of_line(line, &ring[count - 1]) > slack;
-    for (uint32_t i = 0; i < count; i++) {
-        double right = tl_nav_right_of_line(line, &ring[i]);
+    bool was_right = tl_nav_right_of_line(line, &ring->points[ring->count - 1]) > slack;
+    for (uint32_t i = 0; i < ring->count; i++) {
+        double right = tl_nav_right_of_line(line, &ring->points[i]);
         if (was_right && right < -slack) {
-            return i > 0 ? i - 1 : count - 1;
+            return i > 0 ? i - 1 : ring->count - 1;
         }
         was_right = right > slack;
     }
-    return count;
+    return ring->count;
 }
 
 // The same in a polygon that was entered by an edge. Looking in, that starts at its left end.
-static uint32_t next_exit(const tl_nav_line *line, const tl_nav_ring_edge *ring, uint32_t count, uint32_t entry,
-                          double slack)
+static uint32_t next_exit(const tl_nav_line *line, const tl_nav_ring *ring, uint32_t entry, double slack)
 {
-    uint32_t edge = entry + 1 < count ? entry + 1 : 0;
+    uint32_t edge = entry + 1 < ring->count ? entry + 1 : 0;
     for (;;) {
-        uint32_t end = edge + 1 < count ? edge + 1 : 0;
-        double right = tl_nav_right_of_line(line, &ring[end]);
+        uint32_t end = edge + 1 < ring->count ? edge + 1 : 0;
+        double right = tl_nav_right_of_line(line, &ring->points[end]);
         if (right < -slack || end == entry) {
             return edge;
         }
         if (!(right > slack)) {
-            return count;
+            return ring->count;
         }
         edge = end;
     }
 }
 
 // Whether the line ends beyond an edge.
-static bool leaves(const tl_nav_line *line, const tl_nav_ring_edge *a, const tl_nav_ring_edge *b)
+static bool leaves(const tl_nav_line *line, const tl_vec3 *a, const tl_vec3 *b)
 {
     double x = line->x + line->on_x - (double)a->x;
     double z = line->z + line->on_z - (double)a->z;
@@ -214,20 +210,19 @@ tl_nav_line_end tl_nav_walk_line(const tl_nav_line *line, uint32_t slot, uint32_
             }
             return TL_NAV_LINE_ARRIVES;
         }
-        uint32_t count = 0;
-        const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, at.slot, at.polygon, &count);
-        uint32_t edge =
-            at.edge == UINT32_MAX ? first_exit(line, ring, count, slack) : next_exit(line, ring, count, at.edge, slack);
-        if (edge == count || !leaves(line, &ring[edge], &ring[edge + 1 < count ? edge + 1 : 0])) {
+        const tl_nav_ring ring = tl_nav_ring_at(navmesh, at.slot, at.polygon);
+        uint32_t edge = at.edge == UINT32_MAX ? first_exit(line, &ring, slack) : next_exit(line, &ring, at.edge, slack);
+        if (edge == ring.count ||
+            !leaves(line, &ring.points[edge], &ring.points[edge + 1 < ring.count ? edge + 1 : 0])) {
             return walk_touching(line, at.slot, at.polygon, trail);
         }
-        if (!tl_nav_ring_is_open(&ring[edge])) {
+        if (!tl_nav_ring_is_open(&ring.edges[edge])) {
             return TL_NAV_LINE_BLOCKED;
         }
         if (trail != NULL) {
             tl_nav_add_to_trail(trail, navmesh, at.slot, at.polygon);
         }
-        at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, ring, count, edge);
+        at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, &ring, edge);
     }
     return TL_NAV_LINE_UNCLEAR;
 }

@@ -17,7 +17,7 @@ typedef struct tl_nav_line {
 } tl_nav_line;
 
 /// Metres to the right of the line, times its length.
-static inline double tl_nav_right_of_line(const tl_nav_line *line, const tl_nav_ring_edge *vertex)
+static inline double tl_nav_right_of_line(const tl_nav_line *line, const tl_vec3 *vertex)
 {
     return line->on_x * ((double)vertex->z - line->z) - line->on_z * ((double)vertex->x - line->x);
 }

@@ -293,9 +293,10 @@ static bool add_winding_end(wall_walk *walk, const tl_nav_ring_place *place, con
 {
     const tl_nav_clearance *clearance = walk->clearance;
     const tl_nav_rings *rings = &clearance->navmesh->slots[place->slot].rings;
-    const tl_nav_ring_edge *edge = &rings->edges[rings->cells[place->polygon].first + place->edge];
+    const tl_nav_ring ring = tl_nav_ring_of(rings, place->polygon);
+    const tl_nav_ring_edge *edge = &ring.edges[place->edge];
     const tl_nav_ring_walls *walls = tl_nav_walls_of(rings, edge);
-    tl_nav_spot spot = { (double)edge->x, (double)edge->z };
+    tl_nav_spot spot = tl_nav_spot_of(ring.points[place->edge]);
     tl_nav_segment end = { spot, spot };
     tl_nav_ring_place fan = *place;
     if (edge->turn == 0 || walls->first_x != 0.0f || walls->first_z != 0.0f ||
@@ -314,17 +315,17 @@ static bool add_winding_end(wall_walk *walk, const tl_nav_ring_place *place, con
 static bool cast_beams(wall_walk *walk, tl_nav_met at, const beam *seen)
 {
     const tl_nav_clearance *clearance = walk->clearance;
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(clearance->navmesh, at.slot, at.polygon, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-        tl_nav_segment edge = { { (double)ring[i].x, (double)ring[i].z }, { (double)end->x, (double)end->z } };
+    const tl_nav_ring ring = tl_nav_ring_at(clearance->navmesh, at.slot, at.polygon);
+    for (uint32_t i = 0; i < ring.count; i++) {
+        const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
+        tl_nav_segment edge = { { (double)ring.points[i].x, (double)ring.points[i].z },
+                                { (double)end->x, (double)end->z } };
         tl_nav_segment window = edge;
         tl_nav_ring_place place = { at.slot, at.polygon, i };
         if (!add_winding_end(walk, &place, seen)) {
             return false;
         }
-        if (ring[i].to == TL_NAV_RING_BACK || (seen != NULL && !cut_to_beam(seen, &window))) {
+        if (ring.edges[i].to == TL_NAV_RING_BACK || (seen != NULL && !cut_to_beam(seen, &window))) {
             continue;
         }
         // As floats, so that it means the same when it is kept.
@@ -333,10 +334,10 @@ static bool cast_beams(wall_walk *walk, tl_nav_met at, const beam *seen)
             continue;
         }
         distance_sq = tl_maxf(distance_sq, seen != NULL ? seen->distance_sq : 0.0f);
-        bool is_open = tl_nav_ring_is_open(&ring[i]);
+        bool is_open = tl_nav_ring_is_open(&ring.edges[i]);
         beam next = { at, { 0, 0 }, window.b, window.a, { 0.0, 0.0 }, { 0.0, 0.0 }, distance_sq };
         if (is_open) {
-            tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, at.slot, ring[i].to);
+            tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, at.slot, ring.edges[i].to);
             next.at.slot = to.slot;
             next.at.polygon = to.polygon;
             is_open = clearance->filter == NULL ||
@@ -345,8 +346,8 @@ static bool cast_beams(wall_walk *walk, tl_nav_met at, const beam *seen)
         // Two polygons share one line: what lies across it again is the window by which the beam came in.
         bool is_back =
             seen != NULL && is_open && next.at.slot == seen->from.slot && next.at.polygon == seen->from.polygon;
-        if (!is_back &&
-            !(is_open ? add_beam(walk, seen, next) : add_wall(walk, at.slot, &ring[i], edge, false, distance_sq))) {
+        if (!is_back && !(is_open ? add_beam(walk, seen, next)
+                                  : add_wall(walk, at.slot, &ring.edges[i], edge, false, distance_sq))) {
             return false;
         }
     }

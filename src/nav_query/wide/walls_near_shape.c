@@ -112,15 +112,15 @@ static bool meet_touched(tl_nav_clearance *clearance, const tl_nav_shape *touch,
     bool fits = true;
     for (uint32_t at = 0; fits && at < near->met_count; at++) {
         tl_nav_met met = *(near->met - at);
-        uint32_t count = 0;
-        const tl_nav_ring_edge *ring = tl_nav_ring_at(clearance->navmesh, met.slot, met.polygon, &count);
-        for (uint32_t i = 0; fits && i < count; i++) {
-            const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-            tl_nav_segment edge = { { (double)ring[i].x, (double)ring[i].z }, { (double)end->x, (double)end->z } };
-            if (!tl_nav_ring_is_open(&ring[i]) || !reaches_over(touch, &lines, clearance->slack, edge)) {
+        const tl_nav_ring ring = tl_nav_ring_at(clearance->navmesh, met.slot, met.polygon);
+        for (uint32_t i = 0; fits && i < ring.count; i++) {
+            const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
+            tl_nav_segment edge = { { (double)ring.points[i].x, (double)ring.points[i].z },
+                                    { (double)end->x, (double)end->z } };
+            if (!tl_nav_ring_is_open(&ring.edges[i]) || !reaches_over(touch, &lines, clearance->slack, edge)) {
                 continue;
             }
-            tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, met.slot, ring[i].to);
+            tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, met.slot, ring.edges[i].to);
             if (clearance->filter == NULL ||
                 tl_nav_passes(clearance->filter, clearance->navmesh->slots[to.slot].tile, to.polygon)) {
                 fits = meet_polygon(clearance, near, to.slot, to.polygon);

@@ -284,15 +284,15 @@ static void relax_polygon(place_search *search, uint32_t slot, uint32_t polygon,
 static void visit_neighbours(place_search *search)
 {
     const tl_nav_clearance *clearance = search->clearance;
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(clearance->navmesh, search->slot, search->polygon, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-        if (!tl_nav_ring_is_open(&ring[i])) {
+    const tl_nav_ring ring = tl_nav_ring_at(clearance->navmesh, search->slot, search->polygon);
+    for (uint32_t i = 0; i < ring.count; i++) {
+        const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
+        if (!tl_nav_ring_is_open(&ring.edges[i])) {
             continue;
         }
-        tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, search->slot, ring[i].to);
-        tl_nav_segment edge = { { (double)ring[i].x, (double)ring[i].z }, { (double)end->x, (double)end->z } };
+        tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, search->slot, ring.edges[i].to);
+        tl_nav_segment edge = { { (double)ring.points[i].x, (double)ring.points[i].z },
+                                { (double)end->x, (double)end->z } };
         tl_nav_spot nearest;
         double distance_sq = tl_nav_nearest_of_segment(edge, search->spot, &nearest);
         bool passes = clearance->filter == NULL ||

@@ -126,7 +126,8 @@ static uint32_t count_pieces(const tl_nav_pieces *pieces, uint32_t edge, double 
 
 // A way out of a polygon: an edge of its ring, which lies on the outline's edge `side`.
 typedef struct way_out {
-    const tl_nav_ring_edge *edge, *end;
+    const tl_nav_ring_edge *edge;
+    tl_vec3 start, end;
     uint32_t side;
 } way_out;
 
@@ -148,8 +149,8 @@ static void cross_wide_edge(tl_nav_wide_search *search, uint32_t index, const cu
     tl_nav_spot p = cut->cell.corners[side];
     tl_nav_spot q = cut->cell.corners[side + 1 < cut->cell.count ? side + 1 : 0];
     // It may be cut from the outline's edge at a seam.
-    double first = share_of(p, q, tl_nav_spot_make((double)edge->x, (double)edge->z));
-    double last = share_of(p, q, tl_nav_spot_make((double)way->end->x, (double)way->end->z));
+    double first = share_of(p, q, tl_nav_spot_of(way->start));
+    double last = share_of(p, q, tl_nav_spot_of(way->end));
     bool is_back = entry != NULL && entry->edge == side && leads_back(search, &node, across);
     double entry_share = is_back ? share_of(p, q, node_spot(&node)) : 0.0;
     // What lies behind it hangs by this edge alone. By a single piece of it the path would come back where it went.
@@ -208,18 +209,18 @@ static void expand_portal(tl_nav_wide_search *search, uint32_t index)
         tl_nav_segment spot = { search->goal.spot, search->goal.spot };
         relax_portal(search, WIDE_GOAL_KEY, at, spot, search->goal.spot, step_cost(node, search->goal.spot), index);
     }
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(clearance->navmesh, node->slot, node->polygon, &count);
+    const tl_nav_ring ring = tl_nav_ring_at(clearance->navmesh, node->slot, node->polygon);
     uint32_t side = 0;
-    for (uint32_t i = 0; i < count && component != TL_NAV_NO_COMPONENT; i++) {
-        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+    for (uint32_t i = 0; i < ring.count && component != TL_NAV_NO_COMPONENT; i++) {
+        const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
         // A ring's edge starts at the outline's next corner when that side is done; an edge that runs back is not.
-        if (i > 0 && side + 1 < cut.cell.count && ring[i].to != TL_NAV_RING_BACK &&
-            (double)ring[i].x == cut.cell.corners[side + 1].x && (double)ring[i].z == cut.cell.corners[side + 1].z) {
+        if (i > 0 && side + 1 < cut.cell.count && ring.edges[i].to != TL_NAV_RING_BACK &&
+            (double)ring.points[i].x == cut.cell.corners[side + 1].x &&
+            (double)ring.points[i].z == cut.cell.corners[side + 1].z) {
             side++;
         }
-        if (tl_nav_ring_is_open(&ring[i])) {
-            way_out way = { &ring[i], end, side };
+        if (tl_nav_ring_is_open(&ring.edges[i])) {
+            way_out way = { &ring.edges[i], ring.points[i], *end, side };
             cross_wide_edge(search, index, &cut, component, entry, &way);
         }
     }
