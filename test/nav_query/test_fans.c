@@ -104,12 +104,12 @@ static void far_twins_are_found(void **state)
         points[k].x = (float)k;
         edges[k].to = TL_NAV_RING_WALL;
     }
-    tl_nav_ring_cell cells[3] = { { 0, 0, 0 }, { 3, 3, 0 }, { 3 + CORNERS, 0, 0 } };
+    tl_nav_ring_cell cells[3] = { { 0, 0, 0 }, { 3, 2 * 3, 0 }, { 3 + CORNERS, 0, 0 } };
     tl_nav_slot slot;
     memset(&slot, 0, sizeof slot);
     slot.rings.cells = cells;
     slot.rings.edges = edges;
-    slot.rings.corners = points;
+    slot.rings.points[0] = points;
     slot.rings.polygon_count = 2;
     tl_navmesh navmesh;
     memset(&navmesh, 0, sizeof navmesh);

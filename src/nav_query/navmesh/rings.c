@@ -35,6 +35,12 @@ typedef struct ring_writer {
     bool has_points;
 } ring_writer;
 
+// Where the points stand that are no tile's: behind the edges.
+static tl_vec3 *own_points(const tl_nav_rings *rings)
+{
+    return (tl_vec3 *)(void *)(rings->edges + rings->cells[rings->polygon_count].first);
+}
+
 static void add_ring_edge(ring_writer *writer, tl_vec3 start, uint32_t to, uint32_t mark)
 {
     const uint32_t i = writer->count++;
@@ -45,7 +51,7 @@ static void add_ring_edge(ring_writer *writer, tl_vec3 start, uint32_t to, uint3
         const tl_nav_ring_edge edge = { to, 0, mark };
         writer->rings->edges[writer->edge_count + i] = edge;
         if (writer->has_points) {
-            tl_nav_own_points(writer->rings)[writer->point_count + i] = start;
+            own_points(writer->rings)[writer->point_count + i] = start;
         }
     }
 }
@@ -138,7 +144,7 @@ static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t pol
 {
     const tl_nav_ring ring = tl_nav_ring_of(old, polygon);
     tl_nav_rings *rings = writer->rings;
-    writer->has_points = (old->cells[polygon].points & TL_NAV_RING_OWN_POINTS) != 0;
+    writer->has_points = (old->cells[polygon].points & 1) != 0;
     writer->count = ring.count;
     for (uint32_t i = 0; i < ring.count; i++) {
         tl_nav_ring_edge edge = ring.edges[i];
@@ -151,7 +157,7 @@ static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t pol
         }
     }
     if (rings->edges != NULL && writer->has_points) {
-        memcpy(tl_nav_own_points(rings) + writer->point_count, ring.points, ring.count * sizeof *ring.points);
+        memcpy(own_points(rings) + writer->point_count, ring.points, ring.count * sizeof *ring.points);
     }
 }
 
@@ -296,6 +302,7 @@ static bool allocate_rings(const tl_allocator *allocator, const ring_writer *cou
     place_arrays(rings, block, edges, counted->seam_count, rings->polygon_count);
     const tl_nav_ring_cell end = { (uint32_t)counted->edge_count, 0, 0 };
     rings->cells[rings->polygon_count] = end;
+    rings->points[1] = own_points(rings);
     return true;
 }
 
@@ -328,8 +335,7 @@ static void write_rings(ring_writer *writer, const tl_nav_tile *tile, const tl_n
         }
         if (rings->edges != NULL) {
             rings->cells[p].first = (uint32_t)writer->edge_count;
-            rings->cells[p].points =
-                writer->has_points ? TL_NAV_RING_OWN_POINTS | (uint32_t)writer->point_count : corners[p];
+            rings->cells[p].points = writer->has_points ? (uint32_t)writer->point_count << 1 | 1 : corners[p] << 1;
             rings->cells[p + 1].first = (uint32_t)writer->edge_count + writer->count;
         }
         marks[p] |= writer->has_points ? RING_HAS_POINTS : 0;
@@ -413,13 +419,13 @@ static tl_result make_rings(const tl_allocator *allocator, const tl_nav_tile *ti
     ring_writer counted = { rings, 0, 0, 0, NULL, 0, 0, false };
     write_rings(&counted, tile, sides, scratch, old);
     if (counted.edge_count > UINT32_MAX || counted.seam_count >= TL_NAV_RING_BACK - TL_NAV_RING_SEAM ||
-        counted.point_count > TL_NAV_RING_OWN_POINTS || tile->detail_vertex_count > TL_NAV_RING_OWN_POINTS) {
+        counted.point_count > UINT32_MAX / 2 || tile->detail_vertex_count > UINT32_MAX / 2) {
         return TL_ERR_LIMIT;
     }
     rings->polygon_count = tile->polygon_count;
     rings->node_count = tile->node_count;
     rings->is_wide = tile->polygon_count > TL_NAV_MAX_SHORT_NUMBER;
-    rings->corners = old != NULL ? old->corners : (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices);
+    rings->points[0] = old != NULL ? old->points[0] : (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices);
     if (!allocate_rings(allocator, &counted, rings)) {
         return TL_ERR_MEMORY;
     }
@@ -485,6 +491,7 @@ tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings)
     tl_release_array(allocator, rings->walls, walls_size(rings), 1);
     place_walls(rings, walls);
     place_arrays(rings, block, edges, seams / sizeof(tl_nav_ring_seam), rings->polygon_count);
+    rings->points[1] = own_points(rings);
     return TL_OK;
 }
 

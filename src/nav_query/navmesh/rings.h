@@ -65,18 +65,17 @@ typedef union tl_nav_ring_numbers {
 } tl_nav_ring_numbers;
 
 typedef struct tl_nav_ring_cell {
-    uint32_t first; ///< of the polygon's edges; they end where the next cell's begin
-    /// Its first point: index in the tile's detail vertices, or TL_NAV_RING_OWN_POINTS | index behind the edges.
-    uint32_t points;
+    uint32_t first;  ///< of the polygon's edges; they end where the next cell's begin
+    uint32_t points; ///< its first point, times two, and in the lowest bit in which of tl_nav_rings.points
     uint32_t branch; ///< of the tile, to which the polygon belongs (branches.c)
 } tl_nav_ring_cell;
 
-#define TL_NAV_RING_OWN_POINTS 0x80000000u
-
 typedef struct tl_nav_rings {
-    tl_nav_ring_cell *cells;  ///< [polygon_count + 1]
-    tl_nav_ring_edge *edges;  ///< behind them points of rings whose points are not the corners of their polygon
-    const tl_vec3 *corners;   ///< the detail vertices of the tile as it was added
+    tl_nav_ring_cell *cells; ///< [polygon_count + 1]
+    tl_nav_ring_edge *edges;
+    /// The detail vertices of the tile as it was added; and, behind the edges, the points of the rings that are not all
+    /// corners of their polygon.
+    const tl_vec3 *points[2];
     tl_nav_ring_walls *walls; ///< [walls_count]
     tl_nav_ring_seam *seams;
     uint32_t *branch_end;          ///< by branch: those on it, and on those, are numbered from it up to here
@@ -235,17 +234,10 @@ typedef struct tl_nav_ring {
     uint32_t count;        ///< of each
 } tl_nav_ring;
 
-/// The points of the rings that have their own.
-static inline tl_vec3 *tl_nav_own_points(const tl_nav_rings *rings)
-{
-    return (tl_vec3 *)(void *)(rings->edges + rings->cells[rings->polygon_count].first);
-}
-
 static inline tl_nav_ring tl_nav_ring_of(const tl_nav_rings *rings, uint32_t polygon)
 {
     const tl_nav_ring_cell *cell = rings->cells + polygon;
-    const tl_vec3 *points = (cell->points & TL_NAV_RING_OWN_POINTS) != 0 ? tl_nav_own_points(rings) : rings->corners;
-    const tl_nav_ring ring = { rings->edges + cell[0].first, points + (cell->points & ~TL_NAV_RING_OWN_POINTS),
+    const tl_nav_ring ring = { rings->edges + cell[0].first, rings->points[cell->points & 1] + (cell->points >> 1),
                                cell[1].first - cell[0].first };
     return ring;
 }
