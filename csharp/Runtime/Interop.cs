@@ -1284,9 +1284,9 @@ namespace Talus.Interop
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_nav_tile_node
     {
-        public tl_aabb box;
-        public uint skip;
-        public uint polygon;
+        public fixed ushort min[3];
+        public fixed ushort max[3];
+        public uint link;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1315,7 +1315,7 @@ namespace Talus.Interop
         public float agent_max_climb;
         public tl_aabb bounds;
         public uint wide;
-        public uint reserved;
+        public uint node_steps;
         public ulong nodes;
         public ulong first_corner;
         public ulong links;

@@ -606,10 +606,10 @@ static unsafe class Layout
         Test.Equal(8, sizeof(tl_nav_profile_point), "tl_nav_profile_point");
         Test.Equal(0, (byte*)&((tl_nav_profile_point*)at)->along - at, "tl_nav_profile_point.along");
         Test.Equal(4, (byte*)&((tl_nav_profile_point*)at)->height - at, "tl_nav_profile_point.height");
-        Test.Equal(32, sizeof(tl_nav_tile_node), "tl_nav_tile_node");
-        Test.Equal(0, (byte*)&((tl_nav_tile_node*)at)->box - at, "tl_nav_tile_node.box");
-        Test.Equal(24, (byte*)&((tl_nav_tile_node*)at)->skip - at, "tl_nav_tile_node.skip");
-        Test.Equal(28, (byte*)&((tl_nav_tile_node*)at)->polygon - at, "tl_nav_tile_node.polygon");
+        Test.Equal(16, sizeof(tl_nav_tile_node), "tl_nav_tile_node");
+        Test.Equal(0, (byte*)((tl_nav_tile_node*)at)->min - at, "tl_nav_tile_node.min");
+        Test.Equal(6, (byte*)((tl_nav_tile_node*)at)->max - at, "tl_nav_tile_node.max");
+        Test.Equal(12, (byte*)&((tl_nav_tile_node*)at)->link - at, "tl_nav_tile_node.link");
         Test.Equal(256, sizeof(tl_nav_tile), "tl_nav_tile");
         Test.Equal(0, (byte*)&((tl_nav_tile*)at)->blob - at, "tl_nav_tile.blob");
         Test.Equal(16, (byte*)&((tl_nav_tile*)at)->tile_x - at, "tl_nav_tile.tile_x");
@@ -634,7 +634,7 @@ static unsafe class Layout
         Test.Equal(116, (byte*)&((tl_nav_tile*)at)->agent_max_climb - at, "tl_nav_tile.agent_max_climb");
         Test.Equal(120, (byte*)&((tl_nav_tile*)at)->bounds - at, "tl_nav_tile.bounds");
         Test.Equal(144, (byte*)&((tl_nav_tile*)at)->wide - at, "tl_nav_tile.wide");
-        Test.Equal(148, (byte*)&((tl_nav_tile*)at)->reserved - at, "tl_nav_tile.reserved");
+        Test.Equal(148, (byte*)&((tl_nav_tile*)at)->node_steps - at, "tl_nav_tile.node_steps");
         Test.Equal(152, (byte*)&((tl_nav_tile*)at)->nodes - at, "tl_nav_tile.nodes");
         Test.Equal(160, (byte*)&((tl_nav_tile*)at)->first_corner - at, "tl_nav_tile.first_corner");
         Test.Equal(168, (byte*)&((tl_nav_tile*)at)->links - at, "tl_nav_tile.links");

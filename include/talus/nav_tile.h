@@ -16,6 +16,8 @@
 #include <talus/polygon.h>
 #include <talus/vec.h>
 
+#include <string.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -59,7 +61,7 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail);
 // Limits, checked when a tile is baked and again when its bytes are.
 
 #define TL_NAV_TILE_MAGIC        0x5456414eu ///< "NAVT"
-#define TL_NAV_TILE_VERSION      2u
+#define TL_NAV_TILE_VERSION      3u
 #define TL_NAV_MAX_CORNERS       64         ///< of one polygon
 #define TL_NAV_MAX_TILE_POLYGONS (1u << 28) ///< so that a polygon's number fits a reference (nav_query.h)
 #define TL_NAV_MAX_AREA          255        ///< areas are 1 to 255, 0 is not walkable
@@ -101,12 +103,14 @@ typedef struct tl_nav_profile_point {
     float height; ///< metres
 } tl_nav_profile_point;
 
+#define TL_NAV_NODE_LEAF 0x80000000u ///< | polygon, in tl_nav_tile_node.link
+
 /// A node of the BVH over polygons and their detail, depth first. An inner node's first child is the next node, its
-/// second child is the first child's `skip`.
+/// second child is the node behind the first child's subtree (tl_nav_tile_node_skip). The box counts in steps from
+/// bounds.min, outward (tl_nav_tile_node_box).
 typedef struct tl_nav_tile_node {
-    tl_aabb box;      ///< metres
-    uint32_t skip;    ///< the node behind this subtree; > own index
-    uint32_t polygon; ///< of a leaf, or TL_NO_POLYGON
+    uint16_t min[3], max[3]; ///< x, y, z
+    uint32_t link;           ///< of a leaf TL_NAV_NODE_LEAF | polygon, of others the node behind this subtree
 } tl_nav_tile_node;
 
 typedef struct tl_nav_tile {
@@ -131,7 +135,7 @@ typedef struct tl_nav_tile {
     float agent_height, agent_radius, agent_max_climb; ///< metres
     tl_aabb bounds;                                    ///< metres, of the surface
     uint32_t wide;                                     ///< TL_NAV_WIDE_... bits
-    uint32_t reserved;                                 ///< 0
+    uint32_t node_steps;                               ///< of the nodes' boxes: tl_nav_tile_node_steps
     uint64_t nodes;                                    ///< tl_nav_tile_node [node_count]
     uint64_t first_corner;                             ///< uint32_t [polygon_count + 1]
     uint64_t links;               ///< uint32_t [corner_count]: polygon, TL_NAV_LINK_WALL or TL_NAV_LINK_PORTAL | portal
@@ -298,6 +302,36 @@ static inline uint64_t tl_nav_tile_flags(const tl_nav_tile *tile, uint32_t polyg
 static inline const tl_nav_tile_node *tl_nav_tile_nodes(const tl_nav_tile *tile)
 {
     return (const tl_nav_tile_node *)tl_nav_tile_at(tile, tile->nodes);
+}
+
+/// The node behind a node's subtree. `node` < node_count.
+static inline uint32_t tl_nav_tile_node_skip(const tl_nav_tile_node *nodes, uint32_t node)
+{
+    return (nodes[node].link & TL_NAV_NODE_LEAF) != 0 ? node + 1 : nodes[node].link;
+}
+
+/// Metres of a step of the nodes' boxes along x, y and z: powers of two, whose exponents, biased as a float has them,
+/// stand in node_steps, x in the lowest 8 bits. 0: a flat side, without steps.
+static inline tl_vec3 tl_nav_tile_node_steps(const tl_nav_tile *tile)
+{
+    tl_vec3 steps;
+    const uint32_t bits[3] = { (tile->node_steps & 0xffu) << 23, (tile->node_steps >> 8 & 0xffu) << 23,
+                               (tile->node_steps >> 16 & 0xffu) << 23 };
+    memcpy(&steps, bits, sizeof steps);
+    return steps;
+}
+
+/// A box that holds what lies below a node, metres.
+static inline tl_aabb tl_nav_tile_node_box(const tl_nav_tile *tile, const tl_nav_tile_node *node)
+{
+    const tl_vec3 base = tile->bounds.min;
+    const tl_vec3 step = tl_nav_tile_node_steps(tile);
+    tl_aabb box;
+    box.min = tl_vec3_make(base.x + (float)node->min[0] * step.x, base.y + (float)node->min[1] * step.y,
+                           base.z + (float)node->min[2] * step.z);
+    box.max = tl_vec3_make(base.x + (float)node->max[0] * step.x, base.y + (float)node->max[1] * step.y,
+                           base.z + (float)node->max[2] * step.z);
+    return box;
 }
 
 /// A polygon's surface: the triangles index `vertices`, whose first ones are the polygon's corners.

@@ -5,11 +5,14 @@
 // Nodes stand depth-first with the index behind each subtree, so a range query is one loop without a stack, and an
 // ordered query still finds both children. The median bounds the depth by log2 of the polygons, so that queries can
 // hold their stack in an array; the surface-area heuristic was rejected, because floors are flat and alike in size.
+// Which polygons stand where is decided by their boxes as floats; boxes of nodes have 16 bits a side, outward.
 
 #include "nav_format/box_tree.h"
 
 #include "base/assert.h"
 #include "base/radix_sort.h"
+
+#include <string.h>
 
 tl_aabb tl_nav_polygon_box(const tl_nav_tile *tile, uint32_t polygon)
 {
@@ -21,17 +24,93 @@ tl_aabb tl_nav_polygon_box(const tl_nav_tile *tile, uint32_t polygon)
     return box;
 }
 
+tl_aabb tl_nav_tile_surface_bounds(const tl_nav_tile *tile)
+{
+    tl_aabb bounds = tl_aabb_empty();
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        bounds = tl_aabb_union(bounds, tl_nav_polygon_box(tile, p));
+    }
+    return bounds;
+}
+
+static float axis_of(tl_vec3 v, int axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+uint32_t tl_nav_steps_over(tl_aabb bounds)
+{
+    uint32_t steps = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const float low = axis_of(bounds.min, axis), high = axis_of(bounds.max, axis);
+        uint32_t exponent = 0; // a step of 0
+        float step = 0.0f;
+        while (exponent < 254 && !(low + (float)UINT16_MAX * step >= high)) {
+            exponent++;
+            const uint32_t bits = exponent << 23;
+            memcpy(&step, &bits, sizeof step);
+        }
+        steps |= exponent << 8 * axis;
+    }
+    return steps;
+}
+
+// The last step that is not above a value, or the first that is not below it. By halving: what a step is in metres is
+// rounded as tl_nav_tile_node_box rounds it.
+static uint16_t step_at(float base, float step, float value, bool is_below)
+{
+    uint32_t low = 0, high = step > 0.0f ? UINT16_MAX : 0;
+    while (low < high) {
+        const uint32_t middle = (low + high + (is_below ? 1 : 0)) / 2;
+        const float at = base + (float)middle * step;
+        if (is_below ? at <= value : at < value) {
+            low = middle + (is_below ? 0 : 1);
+        } else {
+            high = middle - (is_below ? 1 : 0);
+        }
+    }
+    return (uint16_t)low;
+}
+
+void tl_nav_set_leaf_box(const tl_nav_tile *tile, tl_nav_tile_node *leaf)
+{
+    const tl_aabb box = tl_nav_polygon_box(tile, leaf->link & ~TL_NAV_NODE_LEAF);
+    const tl_vec3 steps = tl_nav_tile_node_steps(tile);
+    for (int axis = 0; axis < 3; axis++) {
+        const float base = axis_of(tile->bounds.min, axis), step = axis_of(steps, axis);
+        leaf->min[axis] = step_at(base, step, axis_of(box.min, axis), true);
+        leaf->max[axis] = step_at(base, step, axis_of(box.max, axis), false);
+    }
+}
+
+void tl_nav_set_inner_box(tl_nav_tile_node *inner, const tl_nav_tile_node *a, const tl_nav_tile_node *b)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        inner->min[axis] = a->min[axis] < b->min[axis] ? a->min[axis] : b->min[axis];
+        inner->max[axis] = a->max[axis] > b->max[axis] ? a->max[axis] : b->max[axis];
+    }
+}
+
+void tl_nav_fit_box_tree(tl_nav_tile *tile)
+{
+    tile->bounds = tl_nav_tile_surface_bounds(tile);
+    tile->node_steps = tl_nav_steps_over(tile->bounds);
+    tl_nav_tile_node *nodes = (tl_nav_tile_node *)((char *)tile + tile->nodes);
+    for (uint32_t i = tile->node_count; i > 0; i--) {
+        if ((nodes[i - 1].link & TL_NAV_NODE_LEAF) != 0) {
+            tl_nav_set_leaf_box(tile, &nodes[i - 1]);
+        } else {
+            tl_nav_set_inner_box(&nodes[i - 1], &nodes[i], &nodes[tl_nav_tile_node_skip(nodes, i)]);
+        }
+    }
+}
+
 typedef struct tree_build {
     const tl_aabb *boxes; // by polygon
     tl_sort_item *items;
     tl_sort_item *scratch;
     tl_nav_tile_node *nodes;
 } tree_build;
-
-static float axis_of(tl_vec3 v, int axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
 
 // Doubled centres: the halving would change no order.
 static float center2(tl_aabb box, int axis)
@@ -63,11 +142,8 @@ static int widest_axis(const tree_build *build, uint32_t begin, uint32_t end)
 // that of the tree: at most 1 + log2(2^28).
 static uint32_t build_box_subtree(tree_build *build, uint32_t node, uint32_t begin, uint32_t end)
 {
-    tl_nav_tile_node *out = &build->nodes[node];
     if (end - begin == 1) {
-        out->polygon = build->items[begin].value;
-        out->box = build->boxes[out->polygon];
-        out->skip = node + 1;
+        build->nodes[node].link = TL_NAV_NODE_LEAF | build->items[begin].value;
         return node + 1;
     }
     int axis = widest_axis(build, begin, end);
@@ -79,9 +155,7 @@ static uint32_t build_box_subtree(tree_build *build, uint32_t node, uint32_t beg
     uint32_t middle = begin + (end - begin) / 2;
     uint32_t second = build_box_subtree(build, node + 1, begin, middle);
     uint32_t behind = build_box_subtree(build, second, middle, end);
-    out->box = tl_aabb_union(build->nodes[node + 1].box, build->nodes[second].box);
-    out->polygon = TL_NO_POLYGON;
-    out->skip = behind;
+    build->nodes[node].link = behind;
     return behind;
 }
 
@@ -102,5 +176,6 @@ tl_result tl_nav_bake_box_tree(tl_nav_tile *tile, tl_arena *arena)
     uint32_t behind = build_box_subtree(&build, 0, 0, count);
     TL_ASSERT(behind == tile->node_count);
     (void)behind;
+    tl_nav_fit_box_tree(tile);
     return TL_OK;
 }

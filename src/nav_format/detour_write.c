@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // From our tile to Detour's. The formats are alike, so nothing is computed: shared vertices, polygons and links are
-// copied, and the BVH, which is depth first with skips in both, is copied node by node.
+// copied, and so is the BVH, which is depth first with skips in both. Its boxes are rounded from the polygons' own.
 //
 // Source: the public description of the data in DetourNavMesh.h.
 
@@ -10,6 +10,7 @@
 #include "base/assert.h"
 #include "base/byte_order.h"
 #include "base/host.h"
+#include "nav_format/box_tree.h"
 #include "nav_format/lattice_polygon.h"
 #include "nav_format/triangle_fan.h"
 
@@ -335,15 +336,28 @@ static uint16_t quantized(float value, float origin, float factor, bool up)
 static void write_nodes(const tl_nav_tile *tile, const tl_detour_header *header, uint8_t *bytes)
 {
     const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
-    for (uint32_t i = 0; i < tile->node_count; i++) {
-        const float min[3] = { nodes[i].box.min.x, nodes[i].box.min.y, nodes[i].box.min.z };
-        const float max[3] = { nodes[i].box.max.x, nodes[i].box.max.y, nodes[i].box.max.z };
+    for (uint32_t i = tile->node_count; i-- > 0;) {
+        const bool is_leaf = (nodes[i].link & TL_NAV_NODE_LEAF) != 0;
+        const uint32_t polygon = nodes[i].link & ~TL_NAV_NODE_LEAF;
         tl_detour_node out;
-        for (int k = 0; k < 3; k++) {
-            out.min[k] = quantized(min[k], header->min[k], header->quantization, false);
-            out.max[k] = quantized(max[k], header->min[k], header->quantization, true);
+        if (is_leaf) {
+            const tl_aabb box = tl_nav_polygon_box(tile, polygon);
+            const float min[3] = { box.min.x, box.min.y, box.min.z }, max[3] = { box.max.x, box.max.y, box.max.z };
+            for (int k = 0; k < 3; k++) {
+                out.min[k] = quantized(min[k], header->min[k], header->quantization, false);
+                out.max[k] = quantized(max[k], header->min[k], header->quantization, true);
+            }
+        } else {
+            // Depth first: what lies below stands behind it.
+            tl_detour_node other;
+            memcpy(&out, bytes + (i + 1) * sizeof out, sizeof out);
+            memcpy(&other, bytes + tl_nav_tile_node_skip(nodes, i + 1) * sizeof out, sizeof out);
+            for (int k = 0; k < 3; k++) {
+                out.min[k] = out.min[k] < other.min[k] ? out.min[k] : other.min[k];
+                out.max[k] = out.max[k] > other.max[k] ? out.max[k] : other.max[k];
+            }
         }
-        out.index = nodes[i].polygon != TL_NO_POLYGON ? (int32_t)nodes[i].polygon : -(int32_t)(nodes[i].skip - i);
+        out.index = is_leaf ? (int32_t)polygon : -(int32_t)(nodes[i].link - i);
         memcpy(bytes + i * sizeof out, &out, sizeof out);
     }
 }

@@ -11,9 +11,11 @@ static const tl_word_run TILE_HEAD[] = {
     { 8, 1 },  // size
     { 4, 16 }, // tile_x .. side_end
     { 8, 1 },  // area
-    { 4, 16 }, // origin .. reserved
+    { 4, 16 }, // origin .. node_steps
     { 8, 13 }, // offsets
 };
+
+static const tl_word_run TILE_NODE[] = { { 2, 6 }, { 4, 1 } };
 
 void tl_nav_tile_swap_words(tl_byte_swap *swap)
 {
@@ -23,10 +25,11 @@ void tl_nav_tile_swap_words(tl_byte_swap *swap)
     const uint8_t corner = (head.wide & TL_NAV_WIDE_CORNERS) != 0 ? 4 : 2;
     const uint8_t coordinate = (head.wide & TL_NAV_WIDE_LATTICE) != 0 ? 4 : 2;
     const uint8_t triangle = (head.wide & TL_NAV_WIDE_TRIANGLES) != 0 ? 2 : 1;
-    // Bytes of a word, in the order of the arrays.
-    const uint8_t widths[TL_NAV_TILE_ARRAYS] = { 4, 4, 4, corner, coordinate, 8, 1, 4, 4, 4, triangle, 4, 4 };
+    // Bytes of a word, in the order of the arrays; nodes, the first, have two kinds.
+    const uint8_t widths[TL_NAV_TILE_ARRAYS] = { 0, 4, 4, corner, coordinate, 8, 1, 4, 4, 4, triangle, 4, 4 };
     tl_nav_tile_extents(&head, extents);
-    for (uint32_t i = 0; i < TL_NAV_TILE_ARRAYS; i++) {
+    tl_swap_elements(swap, extents[0].offset, head.node_count, TILE_NODE, 2);
+    for (uint32_t i = 1; i < TL_NAV_TILE_ARRAYS; i++) {
         tl_swap_words(swap, extents[i].offset, extents[i].size / widths[i], widths[i]);
     }
 }

@@ -56,7 +56,7 @@ static tl_result check_scalars(const tl_nav_tile *tile, tl_report *report)
                  isfinite(tile->origin.z);
     const uint32_t widths = TL_NAV_WIDE_TRIANGLES | TL_NAV_WIDE_LATTICE | TL_NAV_WIDE_CORNERS;
     const bool has_wide_corners = (tile->wide & TL_NAV_WIDE_CORNERS) != 0;
-    bool sides = tile->layer <= TL_NAV_MAX_LAYER && (tile->wide & ~widths) == 0 && tile->reserved == 0 &&
+    bool sides = tile->layer <= TL_NAV_MAX_LAYER && (tile->wide & ~widths) == 0 &&
                  has_wide_corners == (tile->vertex_count > UINT16_MAX + 1u);
     for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         sides = sides && tl_nav_tile_side_first(tile, side) <= tl_nav_tile_side_first(tile, side + 1);
@@ -312,29 +312,36 @@ typedef struct tree_check {
 // the recursion is too.
 static bool check_subtree(tree_check *check, uint32_t node, uint32_t end, uint32_t depth)
 {
-    const tl_nav_tile_node *at = &check->nodes[node];
-    if (at->skip != end || depth > TL_NAV_MAX_TILE_DEPTH) {
+    const bool is_leaf = (check->nodes[node].link & TL_NAV_NODE_LEAF) != 0;
+    if (is_leaf != (end - node == 1) || tl_nav_tile_node_skip(check->nodes, node) != end ||
+        depth > TL_NAV_MAX_TILE_DEPTH) {
         return false;
     }
-    if (end - node == 1) {
-        if (at->polygon >= check->tile->polygon_count) {
+    tl_nav_tile_node at = check->nodes[node];
+    if (is_leaf) {
+        const uint32_t polygon = at.link & ~TL_NAV_NODE_LEAF;
+        if (polygon >= check->tile->polygon_count) {
             return false;
         }
-        tl_aabb box = tl_nav_polygon_box(check->tile, at->polygon);
-        check->polygon_digest += tl_hash_mix(at->polygon + 1u);
-        return same_bits(&box, &at->box, sizeof box);
+        tl_nav_set_leaf_box(check->tile, &at);
+        check->polygon_digest += tl_hash_mix(polygon + 1u);
+        return same_bits(&at, &check->nodes[node], sizeof at);
     }
-    uint32_t second = check->nodes[node + 1].skip;
-    if (at->polygon != TL_NO_POLYGON || second <= node + 1 || second >= end) {
+    const uint32_t second = tl_nav_tile_node_skip(check->nodes, node + 1);
+    if (second <= node + 1 || second >= end) {
         return false;
     }
-    tl_aabb box = tl_aabb_union(check->nodes[node + 1].box, check->nodes[second].box);
-    return same_bits(&box, &at->box, sizeof box) && check_subtree(check, node + 1, second, depth + 1) &&
+    tl_nav_set_inner_box(&at, &check->nodes[node + 1], &check->nodes[second]);
+    return same_bits(&at, &check->nodes[node], sizeof at) && check_subtree(check, node + 1, second, depth + 1) &&
            check_subtree(check, second, end, depth + 1);
 }
 
 static tl_result check_tree(const tl_nav_tile *tile, tl_report *report)
 {
+    const tl_aabb bounds = tl_nav_tile_surface_bounds(tile);
+    if (!same_bits(&tile->bounds, &bounds, sizeof bounds) || tile->node_steps != tl_nav_steps_over(bounds)) {
+        return corrupt(report, "header", TL_NO_ELEMENT);
+    }
     tree_check check = { tile, tl_nav_tile_nodes(tile), 0 };
     if (!check_subtree(&check, 0, tile->node_count, 0)) {
         return corrupt(report, "node", TL_NO_ELEMENT);
@@ -345,7 +352,7 @@ static tl_result check_tree(const tl_nav_tile *tile, tl_report *report)
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         expected += tl_hash_mix(p + 1u);
     }
-    if (check.polygon_digest != expected || !same_bits(&tile->bounds, &check.nodes[0].box, sizeof tile->bounds)) {
+    if (check.polygon_digest != expected) {
         return corrupt(report, "node", TL_NO_ELEMENT);
     }
     return TL_OK;

@@ -199,7 +199,6 @@ static tl_result encode_tile(const tl_nav_tile_source *source, const tl_allocato
         tl_blob_free(tile);
         return result;
     }
-    tile->bounds = tl_nav_tile_nodes(tile)[0].box;
     TL_VALIDATE(tl_nav_tile_check(tile, tile->blob.size, NULL) == TL_OK);
     *tile_out = tile;
     return TL_OK;

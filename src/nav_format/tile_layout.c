@@ -11,7 +11,7 @@
 
 _Static_assert(sizeof(tl_nav_tile) == 256, "the header has no hidden padding");
 _Static_assert(sizeof(tl_nav_portal) == 20 && sizeof(tl_nav_profile_point) == 8, "no hidden padding");
-_Static_assert(sizeof(tl_nav_tile_node) == 32, "no hidden padding");
+_Static_assert(sizeof(tl_nav_tile_node) == 16, "no hidden padding");
 _Static_assert(offsetof(tl_nav_tile, profile) - offsetof(tl_nav_tile, nodes) ==
                    (TL_NAV_TILE_ARRAYS - 1) * sizeof(uint64_t),
                "the offsets stand side by side, one an array");

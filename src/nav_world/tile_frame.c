@@ -11,6 +11,8 @@
 
 #include "nav_world/world.h"
 
+#include "nav_format/box_tree.h"
+
 #include <math.h>
 
 // Along one axis: from metres of the old frame to metres of the new one.
@@ -52,16 +54,6 @@ static void move_polygon(tl_nav_tile *tile, uint32_t polygon, const axis_move *x
     }
 }
 
-static tl_aabb moved_polygon_box(const tl_nav_tile *tile, uint32_t polygon)
-{
-    const tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
-    tl_aabb box = tl_aabb_empty();
-    for (uint32_t i = 0; i < surface.vertex_count; i++) {
-        box = tl_aabb_add_point(box, surface.vertices[i]);
-    }
-    return box;
-}
-
 void tl_nav_world_move_tile(tl_nav_tile *tile, int32_t step_x, int32_t step_z)
 {
     const axis_move x = axis_move_of(tile->origin.x, step_x, tile->tile_size, tile->cell_size);
@@ -73,12 +65,5 @@ void tl_nav_world_move_tile(tl_nav_tile *tile, int32_t step_x, int32_t step_z)
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         move_polygon(tile, p, &x, &z);
     }
-    // Depth first: children stand behind their parent.
-    tl_nav_tile_node *nodes = (tl_nav_tile_node *)((char *)tile + tile->nodes);
-    for (uint32_t i = tile->node_count; i > 0; i--) {
-        tl_nav_tile_node *node = &nodes[i - 1];
-        node->box = node->polygon != TL_NO_POLYGON ? moved_polygon_box(tile, node->polygon)
-                                                   : tl_aabb_union(nodes[i].box, nodes[nodes[i].skip].box);
-    }
-    tile->bounds = nodes[0].box;
+    tl_nav_fit_box_tree(tile);
 }

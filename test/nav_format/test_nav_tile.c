@@ -247,6 +247,53 @@ static void test_random_tiles(void **state)
     TEST_CHECK(shared_vertices > 200);
 }
 
+// Boxes of the tree hold what lies below, near the origin and far from it, and no side of a leaf's is a step too far
+// out.
+static void test_boxes(void **state)
+{
+    (void)state;
+    test_random random = { 12 };
+    const float fars[4] = { 0.0f, 1e3f, -3e5f, 2e7f }, cells[3] = { 0.3f, 1e-3f, 50.0f };
+    uint32_t flat = 0, loose = 0, sides = 0;
+    for (uint32_t round = 0; round < 48; round++) {
+        fixture_level level = fixture_random(&random, round % 6, 8);
+        level.origin = tl_vec3_make(fars[round % 4], fars[round / 4 % 4], -fars[round % 4]);
+        level.cell_size = cells[round % 3];
+        tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, NULL);
+        const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
+        const tl_vec3 step = tl_nav_tile_node_steps(tile);
+        flat += step.y == 0.0f;
+        for (uint32_t i = tile->node_count; i-- > 0;) {
+            const tl_aabb box = tl_nav_tile_node_box(tile, &nodes[i]);
+            if ((nodes[i].link & TL_NAV_NODE_LEAF) == 0) {
+                const tl_aabb a = tl_nav_tile_node_box(tile, &nodes[i + 1]);
+                const tl_aabb b = tl_nav_tile_node_box(tile, &nodes[tl_nav_tile_node_skip(nodes, i + 1)]);
+                const tl_aabb both = tl_aabb_union(a, b);
+                TEST_CHECK(memcmp(&both, &box, sizeof box) == 0);
+                continue;
+            }
+            const tl_nav_surface surface = tl_nav_tile_surface(tile, nodes[i].link & ~TL_NAV_NODE_LEAF);
+            tl_aabb own = tl_aabb_empty();
+            for (uint32_t k = 0; k < surface.vertex_count; k++) {
+                own = tl_aabb_add_point(own, surface.vertices[k]);
+            }
+            TEST_CHECK(tl_aabb_contains(box, own.min) && tl_aabb_contains(box, own.max));
+            tl_nav_tile_node inner = nodes[i];
+            inner.min[0]++;
+            inner.max[2]--;
+            const tl_aabb within = tl_nav_tile_node_box(tile, &inner);
+            loose += (step.x > 0.0f && nodes[i].min[0] < UINT16_MAX && within.min.x <= own.min.x) ||
+                     (step.z > 0.0f && nodes[i].max[2] > 0 && within.max.z >= own.max.z);
+            sides++;
+        }
+        TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
+        tile->node_steps ^= 1u << round % 32;
+        TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_CORRUPT);
+        tl_blob_free(tile);
+    }
+    TEST_CHECK(flat > 0 && sides > 500 && loose == 0);
+}
+
 static void test_same_bytes(void **state)
 {
     (void)state;
@@ -352,7 +399,12 @@ static void test_other_bytes(void **state)
     tl_report report;
     TEST_RESULT(tl_nav_tile_check((const char *)tile + 4, 64, NULL), TL_ERR_ARGUMENT);
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size + 64, &report), TL_ERR_CORRUPT);
-    tile->blob.version++;
+    for (uint32_t version = 1; version < TL_NAV_TILE_VERSION; version++) {
+        tile->blob.version = version;
+        TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, &report), TL_ERR_VERSION);
+        TEST_CHECK(strcmp(report.advice, "bake the level again") == 0);
+    }
+    tile->blob.version = TL_NAV_TILE_VERSION + 1;
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_VERSION);
     tile->blob.magic++;
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_MAGIC);
@@ -367,10 +419,10 @@ static void test_other_bytes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_example),    cmocka_unit_test(test_widths),      cmocka_unit_test(test_portals),
-        cmocka_unit_test(test_profile),    cmocka_unit_test(test_bad_sources), cmocka_unit_test(test_random_tiles),
-        cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_memory),      cmocka_unit_test(test_truncated),
-        cmocka_unit_test(test_bit_flips),  cmocka_unit_test(test_other_bytes),
+        cmocka_unit_test(test_example),   cmocka_unit_test(test_widths),      cmocka_unit_test(test_portals),
+        cmocka_unit_test(test_profile),   cmocka_unit_test(test_bad_sources), cmocka_unit_test(test_random_tiles),
+        cmocka_unit_test(test_boxes),     cmocka_unit_test(test_same_bytes),  cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_truncated), cmocka_unit_test(test_bit_flips),   cmocka_unit_test(test_other_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1091,9 +1091,9 @@ pub struct tl_nav_profile_point {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct tl_nav_tile_node {
-    pub r#box: tl_aabb,
-    pub skip: u32,
-    pub polygon: u32,
+    pub min: [u16; 3],
+    pub max: [u16; 3],
+    pub link: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -1121,7 +1121,7 @@ pub struct tl_nav_tile {
     pub agent_max_climb: f32,
     pub bounds: tl_aabb,
     pub wide: u32,
-    pub reserved: u32,
+    pub node_steps: u32,
     pub nodes: u64,
     pub first_corner: u64,
     pub links: u64,
@@ -4918,10 +4918,10 @@ mod layout {
         assert_eq!(core::mem::size_of::<tl_nav_profile_point>(), 8);
         assert_eq!(core::mem::offset_of!(tl_nav_profile_point, along), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_profile_point, height), 4);
-        assert_eq!(core::mem::size_of::<tl_nav_tile_node>(), 32);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile_node, r#box), 0);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile_node, skip), 24);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile_node, polygon), 28);
+        assert_eq!(core::mem::size_of::<tl_nav_tile_node>(), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile_node, min), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile_node, max), 6);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile_node, link), 12);
         assert_eq!(core::mem::size_of::<tl_nav_tile>(), 256);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, blob), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, tile_x), 16);
@@ -4949,7 +4949,7 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_tile, agent_max_climb), 116);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, bounds), 120);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, wide), 144);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, reserved), 148);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, node_steps), 148);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, nodes), 152);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, first_corner), 160);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, links), 168);

@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "nav_query/filter/nav_filter.h"
+#include "nav_query/navmesh/tile_boxes.h"
 #include "nav_query/navmesh/tile_walk.h"
 #include "nav_query/plane/zone.h"
 
@@ -15,6 +16,22 @@ typedef struct zone_search {
     tl_nav_ref *polygons;
     uint32_t capacity, count;
 } zone_search;
+
+// Whether the own box of a leaf's polygon meets the search's.
+static bool meets_box(const zone_search *search, const tl_nav_tile *tile, const tl_nav_tile_boxes *boxes, uint32_t leaf,
+                      const tl_nav_node_box *wanted)
+{
+    const tl_nav_node_box within = tl_nav_box_within_leaf(boxes, leaf);
+    if (tl_nav_node_overlaps(&within, wanted)) {
+        return true;
+    }
+    const tl_nav_surface surface = tl_nav_tile_surface(tile, boxes->nodes[leaf].link & ~TL_NAV_NODE_LEAF);
+    tl_aabb box = tl_aabb_empty();
+    for (uint32_t i = 0; i < surface.vertex_count; i++) {
+        box = tl_aabb_add_point(box, surface.vertices[i]);
+    }
+    return tl_aabb_overlaps(box, search->box);
+}
 
 static void try_in_zone(zone_search *search, uint32_t slot, uint32_t polygon)
 {
@@ -34,16 +51,19 @@ static void try_in_zone(zone_search *search, uint32_t slot, uint32_t polygon)
 static void search_tile_in_zone(zone_search *search, uint32_t slot)
 {
     const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
-    const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
+    const tl_nav_tile_boxes boxes = tl_nav_tile_boxes_of(tile);
+    const tl_nav_node_box wanted = { tl_f32x3_of(search->box.min), tl_f32x3_of(search->box.max) };
     if (!tl_aabb_overlaps(tile->bounds, search->box)) {
         return;
     }
     for (uint32_t i = 0; i < tile->node_count;) {
-        bool overlaps = tl_aabb_overlaps(nodes[i].box, search->box);
-        if (overlaps && nodes[i].polygon != TL_NO_POLYGON) {
-            try_in_zone(search, slot, nodes[i].polygon);
+        const tl_nav_node_box box = tl_nav_box_of_node(&boxes, i);
+        const uint32_t link = boxes.nodes[i].link;
+        const bool overlaps = tl_nav_node_overlaps(&box, &wanted), is_leaf = (link & TL_NAV_NODE_LEAF) != 0;
+        if (overlaps && is_leaf && meets_box(search, tile, &boxes, i, &wanted)) {
+            try_in_zone(search, slot, link & ~TL_NAV_NODE_LEAF);
         }
-        i = overlaps ? i + 1 : nodes[i].skip;
+        i = overlaps || is_leaf ? i + 1 : link;
     }
 }
 

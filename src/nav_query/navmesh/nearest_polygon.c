@@ -12,6 +12,7 @@
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
 #include "nav_query/navmesh/surface.h"
+#include "nav_query/navmesh/tile_boxes.h"
 #include "nav_query/navmesh/tile_walk.h"
 
 typedef struct nearest_search {
@@ -41,21 +42,48 @@ static float measure_point(const nearest_search *search, const tl_nav_tile *tile
     return dx * dx + dz * dz + dy * dy;
 }
 
-// Distance from c to [low, high].
-static float gap(float c, float low, float high)
+// What boxes are held against in one tile.
+typedef struct box_search {
+    tl_nav_tile_boxes boxes;
+    tl_f32x3 center;
+    tl_nav_node_box box;  // of the search
+    float climb, penalty; // a floor more than the one above the centre counts as the other farther
+} box_search;
+
+static box_search begin_boxes(const nearest_search *search, const tl_nav_tile *tile)
 {
-    return c < low ? low - c : c > high ? c - high : 0.0f;
+    const box_search s = { tl_nav_tile_boxes_of(tile),
+                           tl_f32x3_of(search->center),
+                           { tl_f32x3_of(search->box.min), tl_f32x3_of(search->box.max) },
+                           tile->agent_max_climb,
+                           tile->agent_height };
+    return s;
 }
 
-// The least measure that any point of the box can have.
-static float min_measure(const nearest_search *search, const tl_nav_tile *tile, const tl_aabb *box)
+typedef struct pending_tile_node {
+    uint32_t node;
+    float bound; // NaN: it has nothing for the search
+} pending_tile_node;
+
+// The distances to a box along the axes, 0 within.
+static inline tl_vec3 gaps_to_box(const box_search *s, const tl_nav_node_box *box)
 {
-    tl_vec3 c = search->center;
-    float dx = gap(c.x, box->min.x, box->max.x);
-    float dz = gap(c.z, box->min.z, box->max.z);
-    float above = box->min.y - c.y;
-    float dy = above > 0.0f ? vertical_measure(search, tile, above) : gap(c.y, box->min.y, box->max.y);
-    return dx * dx + dz * dz + dy * dy;
+    const tl_f32x3 below = tl_f32x3_sub(box->min, s->center), above = tl_f32x3_sub(s->center, box->max);
+    return tl_f32x3_get(tl_f32x3_max(tl_f32x3_max(below, above), tl_f32x3_of(tl_vec3_make(0.0f, 0.0f, 0.0f))));
+}
+
+// The least measure that any point of a node's box can have.
+static inline pending_tile_node look_at_node(const box_search *s, uint32_t node)
+{
+    const tl_nav_node_box box = tl_nav_box_of_node(&s->boxes, node);
+    const tl_vec3 gap = gaps_to_box(s, &box);
+    pending_tile_node pending = { node, NAN };
+    if (tl_nav_node_overlaps(&box, &s->box)) {
+        const bool is_above = gap.y > s->climb && tl_f32x3_get(box.min).y > tl_f32x3_get(s->center).y;
+        const float dy = is_above ? gap.y + s->penalty : gap.y;
+        pending.bound = gap.x * gap.x + gap.z * gap.z + dy * dy;
+    }
+    return pending;
 }
 
 static void try_nearest(nearest_search *search, uint32_t slot, uint32_t polygon)
@@ -87,32 +115,25 @@ static void try_nearest(nearest_search *search, uint32_t slot, uint32_t polygon)
     }
 }
 
-typedef struct pending_tile_node {
-    uint32_t node;
-    float bound;
-} pending_tile_node;
-
 static void search_tile_nearest(nearest_search *search, uint32_t slot)
 {
-    const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
-    const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
+    const box_search s = begin_boxes(search, search->navmesh->slots[slot].tile);
     // A step down leaves one node behind, so the depth bounds the stack.
     pending_tile_node stack[TL_NAV_MAX_TILE_DEPTH + 1];
     uint32_t depth = 0;
-    pending_tile_node at = { 0, min_measure(search, tile, &nodes[0].box) };
+    pending_tile_node at = look_at_node(&s, 0);
     for (;;) {
-        const tl_nav_tile_node *node = &nodes[at.node];
-        if (at.bound <= search->best && tl_aabb_overlaps(node->box, search->box)) {
-            if (node->polygon == TL_NO_POLYGON) {
-                pending_tile_node near_node = { at.node + 1, min_measure(search, tile, &nodes[at.node + 1].box) };
-                uint32_t second = nodes[at.node + 1].skip;
-                pending_tile_node far_node = { second, min_measure(search, tile, &nodes[second].box) };
-                bool ordered = near_node.bound <= far_node.bound;
-                stack[depth++] = ordered ? far_node : near_node;
-                at = ordered ? near_node : far_node;
+        if (at.bound <= search->best) {
+            const uint32_t link = s.boxes.nodes[at.node].link;
+            if ((link & TL_NAV_NODE_LEAF) == 0) {
+                const pending_tile_node a = look_at_node(&s, at.node + 1);
+                const pending_tile_node b = look_at_node(&s, tl_nav_tile_node_skip(s.boxes.nodes, at.node + 1));
+                const bool ordered = a.bound <= b.bound;
+                stack[depth++] = ordered ? b : a;
+                at = ordered ? a : b;
                 continue;
             }
-            try_nearest(search, slot, node->polygon);
+            try_nearest(search, slot, link & ~TL_NAV_NODE_LEAF);
         }
         if (depth == 0) {
             return;
@@ -121,13 +142,13 @@ static void search_tile_nearest(nearest_search *search, uint32_t slot)
     }
 }
 
-// The squared distance to a box, without a branch.
-static float gap_sq_to_box(tl_vec3 c, const tl_aabb *box)
+// The squared distance to a box.
+static inline pending_tile_node measure_node(const box_search *s, uint32_t node)
 {
-    const float dx = tl_max_f32(tl_max_f32(box->min.x - c.x, c.x - box->max.x), 0.0f);
-    const float dy = tl_max_f32(tl_max_f32(box->min.y - c.y, c.y - box->max.y), 0.0f);
-    const float dz = tl_max_f32(tl_max_f32(box->min.z - c.z, c.z - box->max.z), 0.0f);
-    return dx * dx + dz * dz + dy * dy;
+    const tl_nav_node_box box = tl_nav_box_of_node(&s->boxes, node);
+    const tl_vec3 gap = gaps_to_box(s, &box);
+    const pending_tile_node pending = { node, gap.x * gap.x + gap.z * gap.z + gap.y * gap.y };
+    return pending;
 }
 
 // More components than this are not asked one by one: there are some in each bit.
@@ -154,8 +175,7 @@ static uint32_t bits_on_island(const nearest_search *search, const tl_nav_rings 
 // what holds only components of other islands is left out as a whole.
 static void search_tile_on_island(nearest_search *search, uint32_t slot)
 {
-    const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
-    const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
+    const box_search s = begin_boxes(search, search->navmesh->slots[slot].tile);
     const tl_nav_rings *rings = &search->navmesh->slots[slot].rings;
     const uint32_t bits = bits_on_island(search, rings);
     if (bits == 0) {
@@ -163,7 +183,7 @@ static void search_tile_on_island(nearest_search *search, uint32_t slot)
     }
     pending_tile_node stack[TL_NAV_MAX_TILE_DEPTH + 1];
     uint32_t depth = 0;
-    pending_tile_node at = { 0, gap_sq_to_box(search->center, &nodes[0].box) };
+    pending_tile_node at = measure_node(&s, 0);
     uint32_t known = TL_NAV_MIXED_COMPONENTS; // the component that was asked for last
     bool known_is_on = false;
     for (;;) {
@@ -176,17 +196,17 @@ static void search_tile_on_island(nearest_search *search, uint32_t slot)
             known = component;
             is_on = known_is_on;
         }
-        if (is_on && nodes[at.node].polygon == TL_NO_POLYGON) {
-            const uint32_t second = nodes[at.node + 1].skip;
-            const pending_tile_node a = { at.node + 1, gap_sq_to_box(search->center, &nodes[at.node + 1].box) };
-            const pending_tile_node b = { second, gap_sq_to_box(search->center, &nodes[second].box) };
+        const uint32_t link = s.boxes.nodes[at.node].link;
+        if (is_on && (link & TL_NAV_NODE_LEAF) == 0) {
+            const pending_tile_node a = measure_node(&s, at.node + 1);
+            const pending_tile_node b = measure_node(&s, tl_nav_tile_node_skip(s.boxes.nodes, at.node + 1));
             const bool ordered = a.bound <= b.bound;
             stack[depth++] = ordered ? b : a;
             at = ordered ? a : b;
             continue;
         }
         if (is_on) {
-            try_nearest(search, slot, nodes[at.node].polygon);
+            try_nearest(search, slot, link & ~TL_NAV_NODE_LEAF);
         }
         if (depth == 0) {
             return;

@@ -250,11 +250,12 @@ static void label_tree_nodes(const tl_nav_tile *tile, tl_nav_rings *rings)
     const uint32_t mixed = rings->is_wide ? TL_NAV_MIXED_COMPONENTS : TL_NAV_MAX_SHORT_NUMBER + 1u;
     for (uint32_t i = tile->node_count; i > 0; i--) {
         const uint32_t node = i - 1;
-        if (nodes[node].polygon != TL_NO_POLYGON) {
-            set_number(rings, rings->node_component, node, tl_nav_component_of(rings, nodes[node].polygon));
+        if ((nodes[node].link & TL_NAV_NODE_LEAF) != 0) {
+            const uint32_t polygon = nodes[node].link & ~TL_NAV_NODE_LEAF;
+            set_number(rings, rings->node_component, node, tl_nav_component_of(rings, polygon));
         } else {
             const uint32_t first = tl_nav_node_component(rings, node + 1);
-            const uint32_t second = tl_nav_node_component(rings, nodes[node + 1].skip);
+            const uint32_t second = tl_nav_node_component(rings, tl_nav_tile_node_skip(nodes, node + 1));
             const uint32_t bits = component_bits(rings, first) | component_bits(rings, second);
             const bool is_one = first == second && (first & TL_NAV_MIXED_COMPONENTS) == 0;
             set_number(rings, rings->node_component, node, is_one ? first : mixed | (bits & ~TL_NAV_MIXED_COMPONENTS));
