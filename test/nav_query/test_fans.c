@@ -104,7 +104,7 @@ static void far_twins_are_found(void **state)
         points[k].x = (float)k;
         edges[k].to = TL_NAV_RING_WALL;
     }
-    tl_nav_ring_cell cells[3] = { { 0, 0, 0 }, { 3, 2 * 3, 0 }, { 3 + CORNERS, 0, 0 } };
+    tl_nav_ring_cell cells[3] = { { 0, 0, 0 }, { 3, 3 * sizeof(tl_vec3), 0 }, { 3 + CORNERS, 0, 0 } };
     tl_nav_slot slot;
     memset(&slot, 0, sizeof slot);
     slot.rings.cells = cells;

@@ -132,7 +132,7 @@ static tile_place tile_place_at(const tl_nav_rings *rings, uint32_t polygon, uin
 }
 
 // The same edge as the polygon across has it. False: that is none of the tile.
-static bool cross_in_tile(const tl_nav_rings *rings, tile_place *at)
+static inline bool cross_in_tile(const tl_nav_rings *rings, tile_place *at)
 {
     const uint32_t to = at->ring.edges[at->edge].to;
     if (to >= TL_NAV_RING_SEAM) {

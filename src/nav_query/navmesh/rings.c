@@ -41,7 +41,7 @@ static tl_vec3 *own_points(const tl_nav_rings *rings)
     return (tl_vec3 *)(void *)(rings->edges + rings->cells[rings->polygon_count].first);
 }
 
-static void add_ring_edge(ring_writer *writer, tl_vec3 start, uint32_t to, uint32_t mark)
+static inline void add_ring_edge(ring_writer *writer, tl_vec3 start, uint32_t to, uint32_t mark)
 {
     const uint32_t i = writer->count++;
     if (writer->rings->edges == NULL) {
@@ -162,9 +162,9 @@ static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t pol
 }
 
 // The place of an edge in the ring of the polygon across, which is of the same tile; none before `from`.
-static uint32_t find_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge, uint32_t from)
+static inline uint32_t find_twin(const tl_nav_rings *rings, tl_nav_ring ring, uint32_t polygon, uint32_t edge,
+                                 uint32_t from)
 {
-    const tl_nav_ring ring = tl_nav_ring_of(rings, polygon);
     const tl_nav_ring across = tl_nav_ring_of(rings, ring.edges[edge].to);
     const tl_vec3 end = ring.points[edge + 1 < ring.count ? edge + 1 : 0];
     uint32_t twin = from;
@@ -184,7 +184,7 @@ static void find_twins(tl_nav_rings *rings, uint32_t polygon)
         if (to >= TL_NAV_RING_SEAM) {
             continue;
         }
-        const uint32_t twin = find_twin(rings, polygon, i, 0);
+        const uint32_t twin = find_twin(rings, ring, polygon, i, 0);
         tl_nav_set_ring_twin(&rings->edges[rings->cells[polygon].first + i], twin);
         tl_nav_set_ring_twin(&rings->edges[rings->cells[to].first + twin], i);
     }
@@ -192,7 +192,7 @@ static void find_twins(tl_nav_rings *rings, uint32_t polygon)
 
 uint32_t tl_nav_find_far_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge)
 {
-    return find_twin(rings, polygon, edge, TL_NAV_RING_FAR_TWIN);
+    return find_twin(rings, tl_nav_ring_of(rings, polygon), polygon, edge, TL_NAV_RING_FAR_TWIN);
 }
 
 static void set_number(const tl_nav_rings *rings, tl_nav_ring_numbers numbers, uint32_t i, uint32_t number)
@@ -336,7 +336,8 @@ static void write_rings(ring_writer *writer, const tl_nav_tile *tile, const tl_n
         }
         if (rings->edges != NULL) {
             rings->cells[p].first = (uint32_t)writer->edge_count;
-            rings->cells[p].points = writer->has_points ? (uint32_t)writer->point_count << 1 | 1 : corners[p] << 1;
+            const uint64_t point = writer->has_points ? writer->point_count : corners[p];
+            rings->cells[p].points = (uint32_t)(point * sizeof(tl_vec3)) | (writer->has_points ? 1 : 0);
             rings->cells[p + 1].first = (uint32_t)writer->edge_count + writer->count;
         }
         marks[p] |= writer->has_points ? RING_HAS_POINTS : 0;
@@ -420,7 +421,8 @@ static tl_result make_rings(const tl_allocator *allocator, const tl_nav_tile *ti
     ring_writer counted = { rings, 0, 0, 0, NULL, 0, 0, false };
     write_rings(&counted, tile, sides, scratch, old);
     if (counted.edge_count > UINT32_MAX || counted.seam_count >= TL_NAV_RING_BACK - TL_NAV_RING_SEAM ||
-        counted.point_count > UINT32_MAX / 2 || tile->detail_vertex_count > UINT32_MAX / 2) {
+        counted.point_count > UINT32_MAX / sizeof(tl_vec3) ||
+        tile->detail_vertex_count > UINT32_MAX / sizeof(tl_vec3)) {
         return TL_ERR_LIMIT;
     }
     rings->polygon_count = tile->polygon_count;

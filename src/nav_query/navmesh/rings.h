@@ -66,7 +66,7 @@ typedef union tl_nav_ring_numbers {
 
 typedef struct tl_nav_ring_cell {
     uint32_t first;  ///< of the polygon's edges; they end where the next cell's begin
-    uint32_t points; ///< its first point, times two, and in the lowest bit in which of tl_nav_rings.points
+    uint32_t points; ///< where its first one is: bytes in tl_nav_rings.points, and in the lowest bit in which of them
     uint32_t branch; ///< of the tile, to which the polygon belongs (branches.c)
 } tl_nav_ring_cell;
 
@@ -237,8 +237,8 @@ typedef struct tl_nav_ring {
 static inline tl_nav_ring tl_nav_ring_of(const tl_nav_rings *rings, uint32_t polygon)
 {
     const tl_nav_ring_cell *cell = rings->cells + polygon;
-    const tl_nav_ring ring = { rings->edges + cell[0].first, rings->points[cell->points & 1] + (cell->points >> 1),
-                               cell[1].first - cell[0].first };
+    const void *points = (const char *)rings->points[cell->points & 1] + (cell->points & ~(uint32_t)1);
+    const tl_nav_ring ring = { rings->edges + cell[0].first, (const tl_vec3 *)points, cell[1].first - cell[0].first };
     return ring;
 }
 
