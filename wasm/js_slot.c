@@ -233,8 +233,8 @@ void TL_JS_EXPORT(js_take_report)(void)
     memset(&tl_js_report, 0, sizeof tl_js_report);
 }
 
-/// Slot: include and exclude as 64 bits, the number of area costs, then area and cost of each. The filter stands until
-/// it is set again.
+/// Slot: include and exclude as 64 bits, the number of area costs, then area and cost of each, then the slack. The
+/// filter stands until it is set again.
 void TL_JS_EXPORT(js_set_nav_filter)(void)
 {
     tl_js_nav_filter = tl_default_nav_filter();
@@ -244,4 +244,5 @@ void TL_JS_EXPORT(js_set_nav_filter)(void)
     for (uint32_t i = 0; i < count; i++) {
         tl_js_nav_filter.area_cost[tl_js_u32(3 + 2 * i) & TL_NAV_MAX_AREA] = tl_js_f32(4 + 2 * i);
     }
+    tl_js_nav_filter.slack = tl_js_f32(3 + 2 * count);
 }

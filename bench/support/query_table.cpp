@@ -13,6 +13,7 @@
 #include "detour_mesh.hpp"
 #include "io/mesh/mesh_import.h"
 #include "measure.h"
+#include "query_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,46 +37,6 @@ constexpr float AROUND_RADIUS = 8.0f;
 constexpr unsigned AREA_KINDS = 4;
 const float AREA_COSTS[AREA_KINDS + 1] = { 1.0f, 1.0f, 2.0f, 4.0f, 10.0f };
 
-enum row {
-    ONE_CALL,
-    TWO_CALLS,
-    AREA_COST,
-    UNREACHABLE,
-    PREPARED,
-    RANDOM_AROUND,
-    HEIGHT,
-    MESH_MEMORY,
-    QUERY_MEMORY,
-    AREA_PATH_COST,
-    ROWS
-};
-
-struct row_name {
-    const char *what;
-    double bar, worst_bar; // 0: no bar
-    bool is_less;          // a share of Detour's, of which less is better
-};
-
-const row_name NAMES[ROWS] = { { "polygons and corners, one call", 1.5, 1.0, false },
-                               { "polygons, then corners", 1.2, 0.0, false },
-                               { "areas of different cost", 1.2, 0.0, false },
-                               { "to the nearest reachable point", 2.0, 0.0, false },
-                               { "one call, prepared", 6.0, 0.0, false },
-                               { "random point around a place", 1.0, 0.0, false },
-                               { "height", 1.0, 0.0, false },
-                               { "memory of tiles and table", 1.2, 0.0, true },
-                               { "memory of a query", 1.0, 0.0, true },
-                               { "cost of paths over areas", 1.0, 0.0, true } };
-
-struct row_value {
-    std::string level;
-    double ratio;
-};
-
-enum group { SOLO, TILED, CITY, GROUPS };
-const char *const GROUP_NAMES[GROUPS] = { "one piece", "tiles", "city" };
-
-std::vector<row_value> values[GROUPS][ROWS];
 uint64_t checksum, bytes_in_use;
 uint32_t runs = 3;
 
@@ -159,13 +120,15 @@ int detour_path(table_level &l, const end_pair &p, const dtQueryFilter &filter, 
     return corner_count;
 }
 
-void talus_one_call(table_level &l, const end_pair &p)
+// Metres in the plane.
+double talus_one_call(table_level &l, const end_pair &p, const tl_nav_filter *filter = nullptr)
 {
     tl_nav_shortest_path path;
-    const tl_nav_path_request request = { nullptr, p.start.talus, p.goal.talus };
+    const tl_nav_path_request request = { filter, p.start.talus, p.goal.talus };
     const tl_nav_path_buffers room = l.buffers();
     tl_nav_query_find_shortest_path(l.query.get(), l.navmesh(), &request, &room, &path);
     checksum += path.corner_count;
+    return path.status == TL_NAV_PATH_COMPLETE ? path.length : -1.0;
 }
 
 uint32_t talus_two_calls(table_level &l, const end_pair &p, const tl_nav_filter *filter)
@@ -251,9 +214,12 @@ double cost_along(table_level &l, const end_pair &p, const std::vector<tl_vec3> 
     return cost;
 }
 
-void compare_area_costs(table_level &l)
+// Of all paths with slack, whose corners are judged beside Detour's.
+double area_cost_ratio(table_level &l, float slack)
 {
     double theirs = 0.0, ours = 0.0;
+    tl_nav_filter filter = l.costs;
+    filter.slack = slack;
     for (const end_pair &p : l.reachable) {
         int polygon_count = 0;
         const int count = detour_path(l, p, l.uneven, &polygon_count);
@@ -262,7 +228,7 @@ void compare_area_costs(table_level &l)
             const float *c = &l.points[3 * (size_t)i];
             their_points.push_back({ c[0], c[1], c[2] });
         }
-        const uint32_t corner_count = talus_two_calls(l, p, &l.costs);
+        const uint32_t corner_count = talus_two_calls(l, p, &filter);
         for (uint32_t i = 0; i < corner_count; i++) {
             our_points.push_back(l.corners[i].point);
         }
@@ -272,8 +238,17 @@ void compare_area_costs(table_level &l)
             ours += b;
         }
     }
-    if (theirs > 0.0) {
-        note(l, AREA_PATH_COST, ours / theirs);
+    return theirs > 0.0 ? ours / theirs : 0.0;
+}
+
+void compare_area_costs(table_level &l)
+{
+    const row rows[] = { AREA_PATH_COST, SLACK_AREA_PATH_COST };
+    for (int i = 0; i < 2; i++) {
+        const double ratio = area_cost_ratio(l, i == 0 ? 0.0f : 0.1f);
+        if (ratio > 0.0) {
+            note(l, rows[i], ratio);
+        }
     }
 }
 
@@ -352,6 +327,42 @@ void measure_query_memory(table_level &l)
     dtFreeNavMeshQuery(theirs);
 }
 
+double plan_length(const float *points, int count)
+{
+    double length = 0.0;
+    for (int i = 1; i < count; i++) {
+        const float *a = &points[3 * i - 3], *b = &points[3 * i];
+        length += std::hypot((double)b[0] - (double)a[0], (double)b[2] - (double)a[2]);
+    }
+    return length;
+}
+
+// Paths that end where they were asked to, of a metre or more.
+void compare_lengths(table_level &l)
+{
+    excess sums[SLACK_KINDS] = {};
+    size_t count = 0;
+    for (const end_pair &p : l.reachable) {
+        int polygon_count = 0;
+        const int corner_count = detour_path(l, p, l.even, &polygon_count);
+        const double shortest = talus_one_call(l, p);
+        if (polygon_count == 0 || l.refs[(size_t)polygon_count - 1] != p.goal.detour || shortest < 1.0) {
+            continue;
+        }
+        count++;
+        for (unsigned k = 0; k < SLACK_KINDS; k++) {
+            tl_nav_filter filter = tl_default_nav_filter();
+            filter.slack = SLACKS[k];
+            const double length = k == 0 ? plan_length(l.points.data(), corner_count) : talus_one_call(l, p, &filter);
+            sums[k].mean += length / shortest - 1.0;
+            sums[k].most = std::max(sums[k].most, length / shortest - 1.0);
+        }
+    }
+    for (unsigned k = 0; k < SLACK_KINDS && count > 0; k++) {
+        excesses[l.in][k].push_back({ sums[k].mean / (double)count, sums[k].most });
+    }
+}
+
 void compare_paths(table_level &l)
 {
     const auto detour = [&l](const end_pair &p) {
@@ -363,8 +374,19 @@ void compare_paths(table_level &l)
         checksum += (uint64_t)detour_path(l, p, l.uneven, &polygon_count);
     };
     compare(l, ONE_CALL, l.reachable, detour, [&l](const end_pair &p) { talus_one_call(l, p); });
+    for (unsigned k = 1; k < SLACK_KINDS; k++) {
+        tl_nav_filter filter = tl_default_nav_filter();
+        filter.slack = SLACKS[k];
+        compare(l, (row)(FIRST_SLACK + k - 1), l.reachable, detour,
+                [&l, &filter](const end_pair &p) { talus_one_call(l, p, &filter); });
+    }
+    compare_lengths(l);
     compare(l, TWO_CALLS, l.reachable, detour, [&l](const end_pair &p) { talus_two_calls(l, p, nullptr); });
     compare(l, AREA_COST, l.reachable, detour_uneven, [&l](const end_pair &p) { talus_two_calls(l, p, &l.costs); });
+    tl_nav_filter loose = l.costs;
+    loose.slack = 0.1f;
+    compare(l, SLACK_AREA_COST, l.reachable, detour_uneven,
+            [&l, &loose](const end_pair &p) { talus_two_calls(l, p, &loose); });
     compare(l, UNREACHABLE, l.cut_off, detour, [&l](const end_pair &p) { talus_nearest_reachable(l, p); });
     compare_area_costs(l);
     if (tl_navmesh_prepare(l.level.twin.get(), nullptr, nullptr) == TL_OK && tl_navmesh_is_prepared(l.navmesh())) {
@@ -503,37 +525,6 @@ void measure_samples(const query_options &options)
     }
 }
 
-void print_row(group in, row which, bench_report *report)
-{
-    const std::vector<row_value> &list = values[in][which];
-    if (list.empty()) {
-        return;
-    }
-    const row_name &name = NAMES[which];
-    double sum = 0.0;
-    const row_value *worst = &list[0];
-    for (const row_value &v : list) {
-        sum += std::log(v.ratio);
-        worst = (name.is_less ? v.ratio > worst->ratio : v.ratio < worst->ratio) ? &v : worst;
-    }
-    const double mean = std::exp(sum / (double)list.size());
-    const std::string claim = std::string(name.what) + ", " + GROUP_NAMES[in];
-    std::printf("  %-32s %-10s %3zu levels: %6.2f   worst %6.2f (%s)\n", name.what, GROUP_NAMES[in], list.size(), mean,
-                worst->ratio, worst->level.c_str());
-    double bar = name.bar;
-    if (in == CITY && (which == ONE_CALL || which == PREPARED)) {
-        bar = which == ONE_CALL ? 3.0 : 8.0;
-    }
-    if (name.is_less) {
-        bench_report_at_most(report, claim.c_str(), mean, bar);
-    } else {
-        bench_report_speed(report, claim.c_str(), "Detour", mean, bar);
-    }
-    if (name.worst_bar > 0.0) {
-        bench_report_speed(report, (claim + ", worst").c_str(), "Detour", worst->ratio, name.worst_bar);
-    }
-}
-
 } // namespace
 
 void bench_query_table(const query_options &options, bench_report *report)
@@ -547,6 +538,11 @@ void bench_query_table(const query_options &options, bench_report *report)
     for (int r = 0; r < ROWS; r++) {
         for (int g = 0; g < GROUPS; g++) {
             print_row((group)g, (row)r, report);
+        }
+    }
+    for (unsigned k = 0; k < SLACK_KINDS; k++) {
+        for (int g = 0; g < GROUPS; g++) {
+            print_excess((group)g, k);
         }
     }
     std::printf("  (checksum %llu)\n", (unsigned long long)checksum);

@@ -21,6 +21,7 @@ typedef struct path_settings {
     tl_vec3 extents;
     tl_area_filter areas;
     float radius; // metres; 0: the mesh's own agent
+    float slack;  // share of the shortest length
     bool partial;
     bool prepared;
     bool json;
@@ -270,6 +271,9 @@ static tl_exit run_path(tl_cli *cli)
           "metres: how far from a point its navmesh polygon may lie (2,4,2)", NULL, 0, 0, 0, 0 },
         { "radius", 'r', TL_OPTION_FLOAT, &settings.radius, "M",
           "metres: radius of an agent wider than the navmesh's own (0: its own)", NULL, 0, 1e6f, 0, 0 },
+        { "slack", 0, TL_OPTION_FLOAT, &settings.slack, "SHARE",
+          "a path may be longer than the shortest by this share, for which it is found sooner: 0.1 is 10% (0)", NULL, 0,
+          TL_NAV_MAX_SLACK, 0, 0 },
         { "partial", 0, TL_OPTION_FLAG, &settings.partial, NULL,
           "print the path to the reachable point nearest to the goal, as: partial length corners", NULL, 0, 0, 0, 0 },
         { "prepared", 0, TL_OPTION_FLAG, &settings.prepared, NULL,
@@ -291,6 +295,10 @@ static tl_exit run_path(tl_cli *cli)
                            "--area-cost: paths of a given --radius are the shortest ones whatever areas cost; leave "
                            "out one of both, or use --exclude-area");
     }
+    if (settings.radius > 0.0f && settings.slack > 0.0f) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "--slack: paths of a given --radius have none; leave out one of both");
+    }
+    settings.areas.filter.slack = settings.slack;
     settings.json = cli->json;
     static const tl_question_words words = { "start", "goal", "pairs" };
     return tl_extents_read(cli, settings.extents_text, &settings.extents, &code) &&
@@ -315,6 +323,7 @@ const tl_command tl_path_command = {
     "talus path courtyard.talus 2,0,20 38,0,20\n"
     "talus path courtyard.obj 2,0,20 38,0,20 --agent-radius 0.4 --json\n"
     "talus path courtyard.talus 2,0,20 38,0,20 --radius 1.2\n"
+    "talus path courtyard.talus 2,0,20 38,0,20 --slack 0.1\n"
     "echo 'box 5 10 -1 10 30 3 30' > mud.txt\n"
     "talus path courtyard.obj 2,0,20 38,0,20 --areas mud.txt --area-cost 5=3\n"
     "talus path courtyard.obj 2,0,20 38,0,20 --areas mud.txt --exclude-area 5\n"

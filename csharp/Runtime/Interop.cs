@@ -1437,6 +1437,7 @@ namespace Talus.Interop
         public IntPtr pass;
         public IntPtr cost;
         public void* user;
+        public float slack;
         public uint cookie;
     }
 

@@ -710,7 +710,8 @@ static unsafe class Layout
         Test.Equal(1040, (byte*)&((tl_nav_filter*)at)->pass - at, "tl_nav_filter.pass");
         Test.Equal(1048, (byte*)&((tl_nav_filter*)at)->cost - at, "tl_nav_filter.cost");
         Test.Equal(1056, (byte*)&((tl_nav_filter*)at)->user - at, "tl_nav_filter.user");
-        Test.Equal(1064, (byte*)&((tl_nav_filter*)at)->cookie - at, "tl_nav_filter.cookie");
+        Test.Equal(1064, (byte*)&((tl_nav_filter*)at)->slack - at, "tl_nav_filter.slack");
+        Test.Equal(1068, (byte*)&((tl_nav_filter*)at)->cookie - at, "tl_nav_filter.cookie");
         Test.Equal(24, sizeof(tl_nav_query_def), "tl_nav_query_def");
         Test.Equal(0, (byte*)&((tl_nav_query_def*)at)->max_nodes - at, "tl_nav_query_def.max_nodes");
         Test.Equal(8, (byte*)&((tl_nav_query_def*)at)->allocator - at, "tl_nav_query_def.allocator");

@@ -77,7 +77,7 @@ TL_API void tl_nav_crowd_destroy(tl_nav_crowd *crowd);
 /// Copies a filter into one of the crowd's places for them, below TL_NAV_CROWD_FILTER_COUNT; NULL: the default filter.
 /// Its functions and their `user` must outlive their use, and be called by several threads at once where the host has
 /// tasks. Agents that use it check their corridors in the next step. Filters are not part of the saved state.
-/// TL_ERR_ARGUMENT: the place, a filter without its cookie, or an area cost.
+/// TL_ERR_ARGUMENT: the place, a filter without its cookie, an area cost, or the slack.
 TL_API tl_result tl_nav_crowd_set_filter(tl_nav_crowd *crowd, uint32_t place, const tl_nav_filter *filter);
 
 // ---------------------------------------------------------------------------------------------------------

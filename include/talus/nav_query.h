@@ -226,6 +226,8 @@ typedef bool tl_nav_pass_fn(const tl_nav_tile *tile, uint32_t polygon, void *use
 typedef float tl_nav_cost_fn(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 from, tl_vec3 to, float cost,
                              void *user);
 
+#define TL_NAV_MAX_SLACK 1.0f ///< of a filter: a path may be twice as long as the shortest
+
 /// A polygon passes when (flags & include_flags) != 0 and (flags & exclude_flags) == 0, and `pass` returns true. A
 /// metre in it costs area_cost[its area], or what `cost` makes of it. Functions are called by the querying thread.
 typedef struct tl_nav_filter {
@@ -235,7 +237,11 @@ typedef struct tl_nav_filter {
     tl_nav_pass_fn *pass;                 ///< NULL: flags decide
     tl_nav_cost_fn *cost;                 ///< NULL: metres times area cost
     void *user;                           ///< for both functions
-    uint32_t cookie;                      ///< set by tl_default_nav_filter
+    /// A path may be longer than the shortest one by this share of it at most, for which searches look at fewer
+    /// polygons; 0 (default) to TL_NAV_MAX_SLACK. tl_nav_query_find_path and what is made of it take it (routes,
+    /// slices, corridors, crowds); wide paths, paths out of fields, floods and all that is no path do not look at it.
+    float slack;
+    uint32_t cookie; ///< set by tl_default_nav_filter
 } tl_nav_filter;
 
 /// All polygons with a flag pass, each metre costs 1, no functions.
@@ -360,16 +366,17 @@ typedef struct tl_nav_path {
 /// Finds the polygons of a path, the start's first; each shares an edge with the one before, or an off-mesh link stands
 /// between the two (tl_nav_is_offmesh) that leads from one to the other.
 ///
-/// Where every metre costs the same the path is the shortest one in the plane (tl_nav_query_find_shortest_path), and
-/// the straight path through its polygons has that length. Where costs differ, or that search runs out of nodes, A*
-/// finds the path: its nodes are ways into polygons, and each polygon is entered where the path from the point before
-/// over that edge to the goal is shortest. Such a path is near the cheapest, but not proven to be it; whether there is
-/// a path at all is proven.
+/// Where every metre costs the same the path is the shortest one in the plane (tl_nav_query_find_shortest_path), or
+/// longer by the filter's slack at most, and the straight path through its polygons is no longer. Where costs differ,
+/// or that search runs out of nodes, A* finds the path: its nodes are ways into polygons, and each polygon is entered
+/// where the path from the point before over that edge to the goal is shortest. Such a path is near the cheapest, but
+/// not proven to be it; with slack it may cost some more, and by how much is not proven either. Whether there is a path
+/// at all is proven.
 ///
 /// A goal in another connected component (tl_navmesh_island) is TL_NAV_PATH_UNREACHABLE at once, without a search, and
 /// the path is the start's polygon alone; tl_nav_query_find_route leads as near to such a goal as any path does.
-/// TL_ERR_ARGUMENT: an area cost. Source: Hart, Nilsson, Raphael, A Formal Basis for the Heuristic Determination of
-/// Minimum Cost Paths, 1968 (A*).
+/// TL_ERR_ARGUMENT: an area cost, or the filter's slack. Source: Hart, Nilsson, Raphael, A Formal Basis for the
+/// Heuristic Determination of Minimum Cost Paths, 1968 (A*).
 TL_API tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh,
                                         const tl_nav_path_request *request, tl_nav_ref *polygons_out, uint32_t capacity,
                                         tl_nav_path *path_out);
@@ -462,21 +469,26 @@ typedef struct tl_nav_shortest_path {
     uint32_t corner_count;     ///< of the whole path, though the buffers may hold fewer
     uint32_t polygon_count;    ///< of the whole path, off-mesh links included
     double length;             ///< metres in the plane, of the corners; off-mesh links count what they cost
-    double lower_bound;        ///< metres in the plane: no path is shorter; below length by rounding only
-    double surface_length;     ///< metres in space, straight from corner to corner
-    uint32_t node_count;       ///< nodes that the search used
+    /// Metres in the plane: no path is shorter. Below length by rounding only; with slack, at least length / (1 +
+    /// slack) but for rounding: by how much the path may be too long at most.
+    double lower_bound;
+    double surface_length; ///< metres in space, straight from corner to corner
+    uint32_t node_count;   ///< nodes that the search used
 } tl_nav_shortest_path;
 
 /// Finds the shortest path in the plane from point to point, over tiles, seams and floors that lie over one another,
 /// with its corners, its polygons and a proof. Off-mesh links are used where that is shorter.
 ///
 /// Lengths are measured in x and z, where "straight" means the same on every floor; heights follow from the surface.
-/// The filter's flags count, its area costs do not. Corners are the start, the vertices where the path turns, and the
+/// The filter's flags and slack count, its area costs do not. With slack the path is taut still (no path of the same
+/// homotopy class is shorter), and at most 1 + slack times as long as the shortest; a prepared navmesh yields the
+/// shortest all the same (tl_navmesh_prepare). Corners are the start, the vertices where the path turns, and the
 /// goal. Start and goal are first moved onto their polygons, in the plane.
 /// TL_NAV_PATH_UNREACHABLE: proven, and at once for a goal in another connected component. TL_NAV_PATH_OUT_OF_NODES:
 /// gave up at max_nodes; lower_bound still holds. In both cases nothing is written and the counts are 0.
 /// A buffer with capacity 0 is left out, and its count alone is no TL_INCOMPLETE; NULL `buffers`: both are left out.
-/// Source: Cui, Harabor, Grastien, Compromise-free Pathfinding on a Navigation Mesh (Polyanya), IJCAI 2017.
+/// TL_ERR_ARGUMENT: the filter's slack. Source: Cui, Harabor, Grastien, Compromise-free Pathfinding on a Navigation
+/// Mesh (Polyanya), IJCAI 2017.
 TL_API tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh *navmesh,
                                                  const tl_nav_path_request *request, const tl_nav_path_buffers *buffers,
                                                  tl_nav_shortest_path *path_out);

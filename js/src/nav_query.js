@@ -25,6 +25,7 @@ export function filterFlag(filter) {
     F64[SLOT + 3 + 2 * i] = Number(area);
     F64[SLOT + 4 + 2 * i] = cost;
   });
+  F64[SLOT + 3 + 2 * costs.length] = filter.slack ?? 0;
   wasm.js_set_nav_filter();
   return FILTERED;
 }

@@ -95,13 +95,15 @@ bool binding_filter(PyObject *object, tl_nav_filter *filter)
     Py_buffer costs = { 0 };
     unsigned long long include = 0;
     unsigned long long exclude = 0;
-    if (!PyArg_ParseTuple(object, "KKz*", &include, &exclude, &costs)) {
+    float slack = 0.0f;
+    if (!PyArg_ParseTuple(object, "KKz*f", &include, &exclude, &costs, &slack)) {
         return false;
     }
     bool good = binding_has(&costs, sizeof(float), TL_NAV_MAX_AREA + 1, true, "area_costs");
     if (good) {
         filter->include_flags = include;
         filter->exclude_flags = exclude;
+        filter->slack = slack;
         if (costs.buf != NULL) {
             memcpy(filter->area_cost, costs.buf, sizeof(filter->area_cost));
         }

@@ -129,9 +129,11 @@ class Filter:
     """Polygons with one of these may not."""
     area_costs: Mapping[int, float] | None = None
     """What a metre costs in an area; areas that are not named cost 1."""
+    slack: float = 0.0
+    """By what share a path may be longer than the shortest one, 0 to 1; it is then found sooner."""
 
 
-def filter_tuple(filter: Filter | None) -> tuple[int, int, Floats | None] | None:
+def filter_tuple(filter: Filter | None) -> tuple[int, int, Floats | None, float] | None:
     if filter is None:
         return None
     costs = None
@@ -143,7 +145,9 @@ def filter_tuple(filter: Filter | None) -> tuple[int, int, Floats | None] | None
             if not (math.isfinite(cost) and cost > 0):
                 raise ValueError(f"the cost of area {area} should be finite and > 0")
             costs[area] = cost
-    return filter.include_flags, filter.exclude_flags, costs
+    if not 0 <= filter.slack <= 1:
+        raise ValueError("the slack should be 0 to 1")
+    return filter.include_flags, filter.exclude_flags, costs, float(filter.slack)
 
 
 @dataclass(frozen=True)

@@ -254,7 +254,11 @@ void tl_nav_crowd_destroy(tl_nav_crowd *crowd)
 
 tl_result tl_nav_crowd_set_filter(tl_nav_crowd *crowd, uint32_t place, const tl_nav_filter *filter)
 {
-    if (crowd == NULL || place >= TL_NAV_CROWD_FILTER_COUNT || (filter != NULL && filter->cookie != TL_DEF_COOKIE)) {
+    if (crowd == NULL || place >= TL_NAV_CROWD_FILTER_COUNT) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (filter != NULL &&
+        (filter->cookie != TL_DEF_COOKIE || !(filter->slack >= 0.0f && filter->slack <= TL_NAV_MAX_SLACK))) {
         return TL_ERR_ARGUMENT;
     }
     for (uint32_t i = 0; filter != NULL && i <= TL_NAV_MAX_AREA; i++) {

@@ -153,6 +153,46 @@ static void test_sample_levels_are_walkable(void **state)
     cli_free(&rooms);
 }
 
+// Paths are there as without slack, in space nearly as much longer as they may be in the plane.
+static void test_slack(void **state)
+{
+    (void)state;
+    test_random random = { 4 };
+    cli_do(0, "sample dungeon -n 20000 --seed 1 -o level.obj");
+    cli_do(0, "bake level.obj -o level.talus");
+    FILE *pairs = fopen("pairs.txt", "w");
+    for (int i = 0; i < 200; ++i) {
+        const tl_vec3 a = test_random_point(&random, tl_vec3_make(0, 0, 0), tl_vec3_make(140, 3, 140));
+        const tl_vec3 b = test_random_point(&random, tl_vec3_make(0, 0, 0), tl_vec3_make(140, 3, 140));
+        fprintf(pairs, "%g %g %g %g %g %g\n", (double)a.x, (double)a.y, (double)a.z, (double)b.x, (double)b.y,
+                (double)b.z);
+    }
+    fclose(pairs);
+    cli_result shortest = cli_expect(0, "path level.talus --pairs pairs.txt --extents 4,4,4");
+    cli_result none = cli_expect(0, "path level.talus --pairs pairs.txt --extents 4,4,4 --slack 0");
+    cli_result loose = cli_expect(0, "path level.talus --pairs pairs.txt --extents 4,4,4 --slack 0.5");
+    assert_string_equal(shortest.out, none.out);
+    char *rest = NULL, *loose_rest = NULL;
+    char *line = strtok_r(shortest.out, "\n", &rest), *loose_line = strtok_r(loose.out, "\n", &loose_rest);
+    int complete = 0;
+    for (int i = 0; i < 200; ++i) {
+        double length = 0.0, loose_length = 0.0;
+        const int found = sscanf(line, "%lf", &length), loosely = sscanf(loose_line, "%lf", &loose_length);
+        TEST_CHECK(found == loosely && loose_length <= 1.6 * length);
+        complete += found == 1;
+        line = strtok_r(NULL, "\n", &rest);
+        loose_line = strtok_r(NULL, "\n", &loose_rest);
+    }
+    TEST_CHECK(complete > 60 && strcmp(none.out, loose.out) != 0);
+    cli_free(&shortest);
+    cli_free(&none);
+    cli_free(&loose);
+    cli_check_error(2, "path level.talus 10,1,10 30,1,30 --slack 1.5", "--slack", "1");
+    cli_check_error(2, "path level.talus 10,1,10 30,1,30 --slack=-0.1", "--slack", "0");
+    cli_check_error(2, "path level.talus 10,1,10 30,1,30 --slack nan", "--slack", "nan");
+    cli_check_error(2, "path level.talus 10,1,10 30,1,30 --slack 0.1 --radius 1", "--slack", "--radius");
+}
+
 static void test_bad_pairs(void **state)
 {
     (void)state;
@@ -169,9 +209,9 @@ static void test_bad_pairs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_straight),  cmocka_unit_test(test_no_way),
-        cmocka_unit_test(test_many),      cmocka_unit_test(test_sample_levels_are_walkable),
-        cmocka_unit_test(test_bad_pairs),
+        cmocka_unit_test(test_straight), cmocka_unit_test(test_no_way),
+        cmocka_unit_test(test_many),     cmocka_unit_test(test_sample_levels_are_walkable),
+        cmocka_unit_test(test_slack),    cmocka_unit_test(test_bad_pairs),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }

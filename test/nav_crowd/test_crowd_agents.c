@@ -286,6 +286,11 @@ static void test_edits(void **state)
     TEST_RESULT(tl_navmesh_set_polygon_flags(navmesh, middle.polygon, 2), TL_OK);
     tl_nav_filter filter = tl_default_nav_filter();
     filter.exclude_flags = 2;
+    for (int i = 0; i < 3; i++) {
+        filter.slack = i == 0 ? NAN : i == 1 ? -0.5f : 1.5f;
+        TEST_RESULT(tl_nav_crowd_set_filter(crowd, 0, &filter), TL_ERR_ARGUMENT);
+    }
+    filter.slack = 0.1f;
     TEST_RESULT(tl_nav_crowd_set_filter(crowd, 0, &filter), TL_OK);
     TEST_RESULT(tl_nav_crowd_set_goal(crowd, agent, &goal), TL_OK);
     TEST_CHECK(status_after(crowd, navmesh, agent, 400) == TL_NAV_AGENT_UNREACHABLE);

@@ -24,6 +24,8 @@ export interface NavFilter {
   excludeFlags?: bigint;
   /** Cost of a metre by area, > 0. Default 1. */
   areaCost?: Record<number, number> | ReadonlyMap<number, number>;
+  /** By what share a path may be longer than the shortest one, 0 to 1; it is then found sooner. Default 0. */
+  slack?: number;
 }
 
 export interface NearestOptions {

@@ -1231,6 +1231,7 @@ pub struct tl_nav_filter {
     pub pass: Option<tl_nav_pass_fn>,
     pub cost: Option<tl_nav_cost_fn>,
     pub user: *mut c_void,
+    pub slack: f32,
     pub cookie: u32,
 }
 #[repr(C)]
@@ -5031,7 +5032,8 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_filter, pass), 1040);
         assert_eq!(core::mem::offset_of!(tl_nav_filter, cost), 1048);
         assert_eq!(core::mem::offset_of!(tl_nav_filter, user), 1056);
-        assert_eq!(core::mem::offset_of!(tl_nav_filter, cookie), 1064);
+        assert_eq!(core::mem::offset_of!(tl_nav_filter, slack), 1064);
+        assert_eq!(core::mem::offset_of!(tl_nav_filter, cookie), 1068);
         assert_eq!(core::mem::size_of::<tl_nav_query_def>(), 24);
         assert_eq!(core::mem::offset_of!(tl_nav_query_def, max_nodes), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_query_def, allocator), 8);

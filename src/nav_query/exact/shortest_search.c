@@ -72,6 +72,20 @@ static double certain_length(float total)
     return (double)total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING);
 }
 
+// No path is shorter, when a wedge of this total has come to the goal: neither one through it, nor one through any that
+// waits.
+static double proven_length(const wedge_search *s, float total)
+{
+    const double found = certain_length(total);
+    if (s->weight == 1.0 || s->query->open_count == 0) {
+        return found;
+    }
+    const tl_nav_direction to_goal = { s->goal_x - (double)s->in->start.x, s->goal_z - (double)s->in->start.z };
+    const double straight = fmin(length_of(to_goal), s->detour);
+    const double others = (double)tl_nav_open_item_of(s->query->open[0]).total / s->weight;
+    return fmin(found, certain_length((float)fmax(others, straight)));
+}
+
 // The wedge that holds the goal: the one that entered its polygon, or, where the goal lies beside that wedge's end in a
 // vertex, one that turns there. TL_NAV_NO_NODE where that end is no vertex: then another wedge lies beside it, which
 // leads to the goal in a way that is straight, and this one came first by rounding only.
@@ -116,7 +130,7 @@ static tl_nav_search_end run_wedges(wedge_search *s, uint64_t *steps)
             if (s->detour != (double)INFINITY && goes_on_past_goal(s, next, total)) {
                 continue;
             }
-            s->in->lower_bound = s->in->lower_bound > 0.0 ? s->in->lower_bound : certain_length(total);
+            s->in->lower_bound = s->in->lower_bound > 0.0 ? s->in->lower_bound : proven_length(s, total);
             s->in->last = end_in(s, next);
             if (s->in->last == TL_NAV_NO_NODE) {
                 continue;
@@ -147,12 +161,14 @@ static wedge_search take_up(tl_nav_shortest_search *search)
                        (double)search->goal.x,
                        (double)search->goal.z,
                        0.0,
+                       search->weight,
                        (double)INFINITY,
                        TL_NAV_SEARCH_FOUND,
                        search->only,
                        { search->only_right, search->only_left },
                        search->best,
                        search->best_total,
+                       false,
                        NULL };
     double start_size = larger_magnitude((double)search->start.x, (double)search->start.z);
     s.rounding = TL_NAV_ON_LINE * larger_magnitude(start_size, larger_magnitude(s.goal_x, s.goal_z));
@@ -188,7 +204,7 @@ tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh
     const tl_nav_location *start = &request->start;
     const tl_nav_location *goal = &request->goal;
     memset(search_out, 0, sizeof *search_out);
-    if (!tl_nav_filter_is_begun(filter)) {
+    if (!tl_nav_filter_is_begun(filter) || !tl_nav_filter_has_slack(filter)) {
         return TL_ERR_ARGUMENT;
     }
     if (!tl_nav_is_finite(start->point) || !tl_nav_is_finite(goal->point)) {
@@ -201,7 +217,8 @@ tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh
     search_out->query = query;
     search_out->navmesh = navmesh;
     bool all_pass = tl_nav_all_pass(navmesh, filter);
-    static const tl_nav_filter any = { UINT64_MAX, 0, { 0 }, NULL, NULL, NULL, TL_DEF_COOKIE };
+    static const tl_nav_filter any = { UINT64_MAX, 0, { 0 }, NULL, NULL, NULL, 0.0f, TL_DEF_COOKIE };
+    search_out->weight = 1.0 + (double)(filter != NULL ? filter->slack : 0.0f);
     search_out->filter = all_pass ? NULL : filter != NULL ? filter : &any;
     bool inside = false;
     search_out->start = tl_nav_clamp_to_polygon(navmesh->slots[search_out->start_slot].tile, search_out->start_polygon,
@@ -285,6 +302,7 @@ bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight)
     s.navmesh = from->navmesh;
     s.trouble = TL_NAV_SEARCH_FOUND;
     s.sight = sight;
+    s.weight = 1.0;
     s.detour = (double)INFINITY;
     s.rounding = TL_NAV_ON_LINE * larger_magnitude((double)from->start.x, (double)from->start.z);
     from->goal_slot = TL_NAV_NO_SLOT; // no polygon ends it

@@ -23,6 +23,7 @@ typedef struct tl_nav_shortest_search {
     uint32_t start_slot, start_polygon;
     uint32_t goal_slot, goal_polygon;
     tl_vec3 start, goal; ///< on their polygons
+    double weight;       ///< 1 + the filter's slack
     // Found:
     uint32_t last;      ///< wedge, in the goal's polygon
     double lower_bound; ///< no path is shorter

@@ -76,7 +76,7 @@ static inline void cross_wedge_link(wedge_search *s, uint32_t index, uint32_t en
     s->query->wedges[landing] = wedge;
     tl_nav_direction goal = { s->goal_x - (double)to->point.x, s->goal_z - (double)to->point.z };
     double rest = length_of(goal);
-    offer_wedge(s, landing, (float)(cost + (rest < s->detour ? rest : s->detour)));
+    offer_wedge(s, landing, total_by(s, cost, rest < s->detour ? rest : s->detour));
 }
 
 // All links that can be taken from a wedge's polygon.

@@ -18,12 +18,14 @@ typedef struct wedge_search {
     const tl_navmesh *navmesh;
     double goal_x, goal_z;
     double rounding;           // metres
+    double weight;             // 1 + slack; 1: the shortest path of all is sought
     double detour;             // metres at least from the end of a short cut to the goal; INFINITY: there is none
     tl_nav_search_end trouble; // FOUND: none
     uint32_t only;             // wedge of the current step, while it is the only one
     seen_edge only_edge;       // that it looks through
     uint32_t best;             // the best of several, kept out of the heap
     float best_total;
+    bool puts_off;             // wedges that are added are ordered by what the proof needs (total_by)
     const tl_nav_sight *sight; // NULL: a search; else all that is seen from the start is looked for, and no turn taken
 } wedge_search;
 
@@ -37,6 +39,25 @@ static inline bool may_go(const wedge_search *s, tl_nav_ring_seam from, tl_nav_r
     }
     return !tl_nav_leads_astray(s->navmesh, from, to, goal) &&
            (in->filter == NULL || tl_nav_passes(in->filter, s->navmesh->slots[to.slot].tile, to.polygon));
+}
+
+// What a wedge is ordered by; `cost`: metres to its root, `rest`: at least from there to the goal.
+//
+// Without slack it is the least length of a path through the wedge. With slack, and w = 1 + slack, any order will do in
+// which no total is above w * (cost + rest), and a path that has arrived counts its length. Wedges end only where a
+// path that is known is shorter to all that they see, or as long and sees as much, whatever the order. So until the
+// goal is reached some wedge is open, of exact cost, through which a shortest path of all leads, of length L say. Its
+// total is at most w * L; and so is the length of the first path that comes out of the heap.
+//
+// Here wedges stand in the order of the proof while they are nearer to the start, and are expanded if they must be;
+// from the middle on the search hurries to the goal. What turns where a longer path has turned already is put off: it
+// is searched from where the proof needs it. Source: Pohl, Heuristic Search Viewed as Path Finding in a Graph, 1970;
+// Chen, Sturtevant, Necessary and Sufficient Conditions for Avoiding Reopenings in Best First Suboptimal Search with
+// General Bounding Functions, AAAI 2021 (such orders; of theirs this is the piecewise convex downward one).
+static inline float total_by(const wedge_search *s, double cost, double rest)
+{
+    const double proof = s->weight * (cost + rest), hurry = cost + (2.0 * s->weight - 1.0) * rest;
+    return (float)(s->puts_off || proof < hurry ? proof : hurry);
 }
 
 static inline uint32_t new_wedge(wedge_search *s)

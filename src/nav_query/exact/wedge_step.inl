@@ -33,12 +33,14 @@ static inline uint32_t vertex_behind(uint32_t vertex, uint32_t count)
     return (vertex + 1) & (0u - (uint32_t)(vertex + 1 < count));
 }
 
-// The least length of a path through a wedge.
+// A wedge's total. In the goal's polygon nothing is left to hurry for.
 static inline float total_of(const wedge_search *s, const tl_nav_wedge *wedge, const seen_edge *edge)
 {
     tl_nav_direction goal = { s->goal_x - (double)wedge->root_x, s->goal_z - (double)wedge->root_z };
     double rest = min_length_through(edge, wedge->left, wedge->right, goal);
-    return (float)(wedge->cost + (rest < s->detour ? rest : s->detour));
+    rest = rest < s->detour ? rest : s->detour;
+    const bool is_at_goal = wedge->polygon == s->in->goal_polygon && wedge->slot == s->in->goal_slot;
+    return is_at_goal ? (float)(wedge->cost + rest) : total_by(s, wedge->cost, rest);
 }
 
 // Where a wedge's root lies, and metres from the start to it.
@@ -52,8 +54,11 @@ static inline void offer_first(wedge_search *s)
 {
     if (s->only != TL_NAV_NO_NODE) {
         const uint32_t first = s->only;
+        const bool puts_off = s->puts_off;
         s->only = TL_NAV_NO_NODE;
+        s->puts_off = false; // it was not
         offer_wedge(s, first, total_of(s, &s->query->wedges[first], &s->only_edge));
+        s->puts_off = puts_off;
     }
 }
 
@@ -85,7 +90,7 @@ static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i,
     if (s->sight != NULL) {
         return;
     }
-    if (s->only == TL_NAV_NO_NODE && s->best == TL_NAV_NO_NODE) {
+    if (s->only == TL_NAV_NO_NODE && !s->puts_off && s->best == TL_NAV_NO_NODE) {
         s->only = index;
         s->only_edge = *edge;
         return;
@@ -356,6 +361,7 @@ static TL_ALWAYS_INLINE void turn_at_limit(wedge_search *s, const step_from *fro
                                               is_repeated(s, from, vertex, hand, cost, wedge->root_x, wedge->root_z))) {
                 return;
             }
+            s->puts_off = s->weight > 1.0 && rank != TL_NAV_ROOT_FIRST;
         }
         is_new = false;
         if (touches) {
@@ -369,6 +375,7 @@ static TL_ALWAYS_INLINE void turn_at_limit(wedge_search *s, const step_from *fro
             add_wedge(s, from, i, root, &edge, *to_left, *from_right);
         }
     }
+    s->puts_off = false;
 }
 
 // The ends of the edge by which a wedge entered its polygon. Looking in, the edge starts at its left end.

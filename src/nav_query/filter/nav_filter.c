@@ -19,6 +19,7 @@ tl_nav_filter tl_default_nav_filter(void)
     filter.pass = NULL;
     filter.cost = NULL;
     filter.user = NULL;
+    filter.slack = 0.0f;
     filter.cookie = TL_DEF_COOKIE;
     return filter;
 }

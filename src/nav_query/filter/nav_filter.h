@@ -14,6 +14,12 @@ static inline bool tl_nav_filter_is_begun(const tl_nav_filter *filter)
     return filter == NULL || filter->cookie == TL_DEF_COOKIE;
 }
 
+/// Whether a filter's slack is one that searches of paths take.
+static inline bool tl_nav_filter_has_slack(const tl_nav_filter *filter)
+{
+    return filter == NULL || (filter->slack >= 0.0f && filter->slack <= TL_NAV_MAX_SLACK);
+}
+
 /// NULL passes all but polygons without any flag, as the default filter does.
 static inline bool tl_nav_passes(const tl_nav_filter *filter, const tl_nav_tile *tile, uint32_t polygon)
 {

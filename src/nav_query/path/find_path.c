@@ -43,7 +43,11 @@ static inline void relax_known(tl_nav_way_search *search, uint32_t known, tl_nav
     tl_nav_node *node = tl_nav_pool_relax_known(search->query, known, way, &search->out_of_nodes);
     if (node != NULL) {
         const float straight = tl_distance(way.point, search->goal);
-        node->total = way.cost + search->min_cost * (straight < search->detour ? straight : search->detour);
+        const float rest = search->min_cost * (straight < search->detour ? straight : search->detour);
+        // The order of the exact search (total_by, wedge_search.h); here ways that were closed stay as they are.
+        const float proof = search->weight * (way.cost + rest);
+        const float hurry = way.cost + (2.0f * search->weight - 1.0f) * rest;
+        node->total = proof < hurry ? proof : hurry;
         tl_nav_heap_improve(search->query, (uint32_t)(node - search->query->nodes));
     }
 }
@@ -404,6 +408,7 @@ static tl_result set_up(tl_nav_query *query, const tl_navmesh *navmesh, const tl
                                filter,
                                run->exact.filter,
                                least,
+                               (float)run->exact.weight,
                                run->exact.goal_slot,
                                run->exact.goal_polygon,
                                request->goal.point,

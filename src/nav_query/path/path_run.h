@@ -22,6 +22,7 @@ typedef struct tl_nav_way_search {
     const tl_nav_filter *filter;
     const tl_nav_filter *refuses; ///< the same, or NULL: it refuses no polygon
     float min_cost;               ///< of a metre
+    float weight;                 ///< 1 + the filter's slack
     uint32_t goal_slot, goal_polygon;
     tl_vec3 goal;
     float detour; ///< metres from the goal to the nearest end of a short cut; INFINITY: there is no short cut

@@ -70,7 +70,8 @@ typedef enum tl_nav_root_rank {
     TL_NAV_ROOT_NO_ENTRY, ///< the table is full
     TL_NAV_ROOT_WORSE,
     TL_NAV_ROOT_AS_CHEAP, ///< as another way, within the rounding of the float in which costs are kept
-    TL_NAV_ROOT_CHEAPEST
+    TL_NAV_ROOT_CHEAPER,  ///< than all ways before
+    TL_NAV_ROOT_FIRST
 } tl_nav_root_rank;
 
 /// How a way to the vertex of this number compares with those that are known; it is then one of them.
@@ -87,7 +88,7 @@ static inline tl_nav_root_rank tl_nav_root_rank_of(tl_nav_query *query, uint64_t
     }
     bool is_as_cheap = found && cost >= (double)root->cost * (1.0 - slack);
     root->cost = found && root->cost < (float)cost ? root->cost : (float)cost;
-    return is_as_cheap ? TL_NAV_ROOT_AS_CHEAP : TL_NAV_ROOT_CHEAPEST;
+    return is_as_cheap ? TL_NAV_ROOT_AS_CHEAP : found ? TL_NAV_ROOT_CHEAPER : TL_NAV_ROOT_FIRST;
 }
 
 /// What the cheapest way known costs that has turned at the vertex of this number, rounded up. INFINITY: none has.

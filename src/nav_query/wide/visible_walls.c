@@ -37,7 +37,7 @@ double tl_nav_touch_of(const tl_navmesh *navmesh)
 void tl_nav_clearance_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter, double reach,
                             tl_nav_clearance *clearance_out)
 {
-    static const tl_nav_filter any = { UINT64_MAX, 0, { 0 }, NULL, NULL, NULL, TL_DEF_COOKIE };
+    static const tl_nav_filter any = { UINT64_MAX, 0, { 0 }, NULL, NULL, NULL, 0.0f, TL_DEF_COOKIE };
     memset(clearance_out, 0, sizeof *clearance_out);
     clearance_out->query = query;
     clearance_out->navmesh = navmesh;
