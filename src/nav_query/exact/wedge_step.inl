@@ -39,8 +39,9 @@ static inline float total_of(const wedge_search *s, const tl_nav_wedge *wedge, c
     tl_nav_direction goal = { s->goal_x - (double)wedge->root_x, s->goal_z - (double)wedge->root_z };
     double rest = min_length_through(edge, wedge->left, wedge->right, goal);
     rest = rest < s->detour ? rest : s->detour;
-    const bool is_at_goal = wedge->polygon == s->in->goal_polygon && wedge->slot == s->in->goal_slot;
-    return is_at_goal ? (float)(wedge->cost + rest) : total_by(s, wedge->cost, rest);
+    const bool is_least =
+        s->weight == 1.0 || (wedge->polygon == s->in->goal_polygon && wedge->slot == s->in->goal_slot);
+    return is_least ? (float)(wedge->cost + rest) : total_by(s, wedge->cost, rest);
 }
 
 // Where a wedge's root lies, and metres from the start to it.
