@@ -130,9 +130,11 @@ static tl_nav_search_end run_wedges(wedge_search *s, uint64_t *steps)
             if (s->detour != (double)INFINITY && goes_on_past_goal(s, next, total)) {
                 continue;
             }
-            s->in->lower_bound = s->in->lower_bound > 0.0 ? s->in->lower_bound : proven_length(s, total);
             s->in->last = end_in(s, next);
-            if (s->in->last == TL_NAV_NO_NODE) {
+            const bool is_found = s->in->last != TL_NAV_NO_NODE;
+            const double proven = is_found ? proven_length(s, total) : certain_length(total);
+            s->in->lower_bound = s->in->lower_bound > 0.0 ? fmin(s->in->lower_bound, proven) : proven;
+            if (!is_found) {
                 continue;
             }
             return TL_NAV_SEARCH_FOUND;
