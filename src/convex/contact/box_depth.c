@@ -9,6 +9,7 @@
 
 #include "convex/contact/contact_axis.h"
 
+#include "math/simd2d.h"
 #include "math/tolerance.h"
 
 // As good as equal, as in EPA.
@@ -33,6 +34,45 @@ typedef struct box_pair {
     tl_vec3d normal;
 } box_pair;
 
+// Whether eight points, none of which is outside of a box, are its corners: each coordinate is on one of two sides.
+#if TL_HAS_F64X2
+
+static inline tl_f64x2 off_sides(const tl_f64x2 four[2], float low, float high, tl_f64x2 most)
+{
+    const tl_f64x2 from = tl_f64x2_all((double)low), to = tl_f64x2_all((double)high);
+    const tl_f64x2 off = tl_f64x2_min(tl_f64x2_sub(four[0], from), tl_f64x2_sub(to, four[0])),
+                   next_off = tl_f64x2_min(tl_f64x2_sub(four[1], from), tl_f64x2_sub(to, four[1]));
+    return tl_f64x2_max(tl_f64x2_max(off, next_off), most);
+}
+
+static bool are_corners(const tl_vec3 *points, tl_vec3 low, tl_vec3 high)
+{
+    tl_f64x2 most = tl_f64x2_all(0.0);
+    for (int i = 0; i < 8; i += 4) {
+        tl_f64x2 x[2], y[2], z[2];
+        tl_f64x2_load_points(&points[i].x, x, y, z);
+        most = off_sides(x, low.x, high.x, most);
+        most = off_sides(y, low.y, high.y, most);
+        most = off_sides(z, low.z, high.z, most);
+    }
+    return tl_f64x2_masks(tl_f64x2_where_less(tl_f64x2_all(0.0), most)) == 0;
+}
+
+#else
+
+static bool are_corners(const tl_vec3 *points, tl_vec3 low, tl_vec3 high)
+{
+    for (int i = 0; i < 8; i++) {
+        if ((points[i].x != low.x && points[i].x != high.x) || (points[i].y != low.y && points[i].y != high.y) ||
+            (points[i].z != low.z && points[i].z != high.z)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+#endif
+
 bool tl_box_of(const tl_convex *shape, tl_box *box)
 {
     if (shape->kind == TL_CONVEX_BOX) {
@@ -44,12 +84,9 @@ bool tl_box_of(const tl_convex *shape, tl_box *box)
     if (shape->kind != TL_CONVEX_HULL || hull->vertex_count != 8 || hull->face_count != 6) {
         return false;
     }
-    const tl_vec3 low = hull->bounds.min, high = hull->bounds.max, *v = tl_hull_vertices(hull);
-    for (uint32_t i = 0; i < 8; i++) {
-        if ((v[i].x != low.x && v[i].x != high.x) || (v[i].y != low.y && v[i].y != high.y) ||
-            (v[i].z != low.z && v[i].z != high.z)) {
-            return false;
-        }
+    const tl_vec3 low = hull->bounds.min, high = hull->bounds.max;
+    if (!are_corners(tl_hull_vertices(hull), low, high)) {
+        return false;
     }
     tl_vec3d from = tl_vec3d_from(low), to = tl_vec3d_from(high);
     box->middle = tl_vec3d_scale(tl_vec3d_add(from, to), 0.5);
