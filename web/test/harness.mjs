@@ -146,6 +146,15 @@ export class Viewer {
     await this.page.mouse.up();
   }
 
+  /** A finger that stays where it is. */
+  async pressLong(at) {
+    const touch = await this.context.newCDPSession(this.page);
+    await touch.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [at] });
+    await this.page.waitForTimeout(700);
+    await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+    await touch.detach();
+  }
+
   /** A finger that moves over the screen. */
   async swipe(from, to) {
     const touch = await this.context.newCDPSession(this.page);

@@ -529,7 +529,10 @@ test('works by keyboard and by touch', async () => {
   const at = await phone.screen([20, 0, 30]);
   await phone.page.touchscreen.tap(at.x, at.y);
   await phone.until(({ app }) => app.view.get().start !== null);
-  assert.match(await phone.page.locator('.hint').innerText(), /Click the start/);
+  assert.match(await phone.page.locator('.hint').innerText(), /Click the start.*A long press moves the start/);
+  await phone.pressLong(await phone.screen([20, 0, 24]));
+  await phone.until(({ app }) => Math.abs(app.view.get().start[2] - 24) < 1);
+  assert.equal(await phone.ask(({ app }) => app.view.get().goal), null);
   await phone.shot('phone');
   // A finger on a mark drags it, a finger beside it turns the level.
   const eye = () => phone.ask(({ app }) => app.stage.getCamera().eye);

@@ -5,7 +5,7 @@ import { Latest } from '../engine/latest';
 import type { Obstacle, ObstacleUpdate } from '../engine/protocol';
 import { facts, fill, h, milliseconds, slider } from '../panels/dom';
 import { Marks } from '../scene/marks';
-import type { Click, Handle, Tool } from './tool';
+import { SECOND_CLICK, type Click, type Handle, type Tool } from './tool';
 
 const TILE = 48;
 
@@ -13,7 +13,7 @@ export class ObstacleTool implements Tool {
   readonly name = 'obstacle';
   readonly label = 'Obstacle';
   readonly key = '4';
-  readonly hint = 'Click to put an obstacle down; drag it. Shift-click one to take it away.';
+  readonly hint = `Click to put an obstacle down; drag it. ${SECOND_CLICK} takes one away.`;
   readonly panel = h('div');
   private answerBox = h('div', { 'aria-live': 'polite' });
   private marks: Marks;
@@ -49,11 +49,11 @@ export class ObstacleTool implements Tool {
     }));
   }
 
-  click({ hit, shift }: Click): void {
+  click({ hit, second }: Click): void {
     if (!hit) return;
     const { obstacles, settings } = this.app.view.get();
     if (settings.tileSize === 0) return;
-    if (shift) {
+    if (second) {
       const near = obstacles.filter((one) =>
         Math.hypot(one.base[0] - hit.point[0], one.base[2] - hit.point[2]) <= one.radius * 1.5);
       this.app.view.set({ obstacles: obstacles.filter((one) => !near.includes(one)) });

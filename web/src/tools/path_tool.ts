@@ -6,7 +6,7 @@ import type { PathAnswer, Vec3 } from '../engine/protocol';
 import { facts, fill, h, metres, milliseconds, slider } from '../panels/dom';
 import { Marks } from '../scene/marks';
 import { INK } from '../scene/palette';
-import type { Click, Handle, Tool } from './tool';
+import { SECOND_CLICK, type Click, type Handle, type Tool } from './tool';
 
 const WORDS: Record<Exclude<PathAnswer['status'], 'complete'>, string> = {
   unreachable: 'No path leads to the goal: it lies on another island. That is proven, without a search.',
@@ -26,7 +26,7 @@ export class PathTool implements Tool {
   readonly name = 'path';
   readonly label = 'Path';
   readonly key = '2';
-  readonly hint = 'Click the start, then the goal. Drag either one. Shift-click moves the start.';
+  readonly hint = `Click the start, then the goal. Drag either one. ${SECOND_CLICK} moves the start.`;
   readonly panel = h('div');
   private answerBox = h('div', { 'aria-live': 'polite' });
   private marks: Marks;
@@ -55,10 +55,10 @@ export class PathTool implements Tool {
     return [...(goal ? [handle('goal', goal)] : []), ...(start ? [handle('start', start)] : [])];
   }
 
-  click({ hit, shift }: Click): void {
+  click({ hit, second }: Click): void {
     if (!hit) return;
     const { start } = this.app.view.get();
-    this.app.view.set(!start || shift ? { start: hit.point } : { goal: hit.point });
+    this.app.view.set(!start || second ? { start: hit.point } : { goal: hit.point });
   }
 
   leave(): void {}

@@ -7,10 +7,11 @@ import type { RayHit, Vec3 } from '../engine/protocol';
 import type { Click, Handle, Tool } from './tool';
 
 const CLICK_PIXELS = 5;
+const LONG_PRESS_MS = 500;
 const HANDLE_PIXELS = { mouse: 14, pen: 18, touch: 28 } as const;
 
 export class Pointer {
-  private down: { x: number; y: number; id: number; moved: boolean; handle: string | null } | null = null;
+  private down: { x: number; y: number; id: number; time: number; moved: boolean; handle: string | null } | null = null;
   private drags = new Latest();
 
   constructor(private app: App, private tool: () => Tool) {
@@ -20,6 +21,7 @@ export class Pointer {
     canvas.addEventListener('pointermove', (event) => this.move(event));
     canvas.addEventListener('pointerup', (event) => this.release(event));
     canvas.addEventListener('pointercancel', () => this.stop());
+    canvas.addEventListener('contextmenu', (event) => event.preventDefault()); // a long press asks for one
   }
 
   private nearestHandle(event: PointerEvent): Handle | null {
@@ -44,7 +46,7 @@ export class Pointer {
       return;
     }
     const handle = this.nearestHandle(event);
-    this.down = { x: event.clientX, y: event.clientY, id: event.pointerId, moved: false, handle: handle?.name ?? null };
+    this.down = { x: event.clientX, y: event.clientY, id: event.pointerId, time: event.timeStamp, moved: false, handle: handle?.name ?? null };
     if (handle) {
       this.app.stage.controls.enabled = false;
       this.app.stage.canvas.setPointerCapture(event.pointerId);
@@ -88,9 +90,9 @@ export class Pointer {
     this.stop();
     if (!down || down.id !== event.pointerId || down.moved || !this.app.engine.ready) return;
     const ray = this.app.stage.rayAt(event.clientX, event.clientY);
-    const shift = event.shiftKey;
+    const second = event.shiftKey || (event.pointerType === 'touch' && event.timeStamp - down.time >= LONG_PRESS_MS);
     this.pick(ray)
-      .then((hit) => this.tool().click({ hit, ray, shift }))
+      .then((hit) => this.tool().click({ hit, ray, second }))
       .catch((error: Error) => this.app.say(error.message, 'error'));
   }
 

@@ -10,11 +10,15 @@ export interface Handle {
   move(hit: RayHit): void;
 }
 
+/** How a second kind of click is made here: fingers have no Shift key. */
+export const SECOND_CLICK = matchMedia('(pointer: coarse)').matches ? 'A long press' : 'Shift-click';
+
 export interface Click {
   /** What the ray through the pointer hits first. */
   hit: RayHit | null;
   ray: { origin: Vec3; direction: Vec3 };
-  shift: boolean;
+  /** With Shift held, or a long press of a finger. */
+  second: boolean;
 }
 
 export interface Tool {
