@@ -169,9 +169,9 @@ static void test_reach_without_end(void **state)
         fixture_level level = fixture_random(&random, round, 24);
         level.tile_cells = 0;
         tl_navmesh *navmesh = fixture_build(&level, NULL);
-        uint64_t walls[3];
-        for (int i = 0; i < 3; i++) {
-            const float radii[3] = { 1.0f, 1e2f, 1e3f };
+        uint64_t walls[4];
+        for (int i = 0; i < 4; i++) {
+            const float radii[4] = { 1.0f, 1e2f, 1e3f, 1e12f };
             tl_nav_wide_def def = tl_default_nav_wide_def();
             tl_nav_wide_report report;
             def.max_radius = radii[i];
@@ -181,6 +181,7 @@ static void test_reach_without_end(void **state)
         TEST_CHECK(walls[2] >= walls[1] && walls[1] >= walls[0]);
         fixture_refs all = fixture_all_refs(navmesh);
         TEST_CHECK(walls[2] <= 32 * (uint64_t)all.count);
+        TEST_CHECK(walls[3] >= walls[2] && walls[3] <= 32 * (uint64_t)all.count);
         print_message("%u polygons: %u walls in 1 m, %u in all\n", all.count, (uint32_t)walls[0], (uint32_t)walls[2]);
         free(all.refs);
         lesser += walls[0] < walls[1];

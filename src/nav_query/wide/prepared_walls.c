@@ -24,6 +24,7 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "base/min_max.h"
+#include "math/tolerance.h"
 
 #include <string.h>
 
@@ -157,16 +158,39 @@ static tl_result make_wall_query(wall_baker *b, uint32_t nodes)
     return tl_nav_query_allocate(nodes, none, &b->navmesh->allocator, &b->query);
 }
 
-// Gathers the walls around a polygon, with more nodes if need be. The list lies in the query's memory.
+// A first reach to look for walls around a polygon: as wide as it is, and no less than rounding asks of a wall that
+// forbids it (visible_walls.c, end_reach_at_cover).
+static double first_reach(const wall_baker *b, uint32_t slot, uint32_t polygon)
+{
+    tl_nav_spot corners[TL_NAV_MAX_CORNERS];
+    uint32_t count = tl_nav_corner_spots(b->navmesh, slot, polygon, corners);
+    double widest_sq = 0.0;
+    for (uint32_t i = 1; i < count; i++) {
+        widest_sq = tl_max_f64(tl_nav_spot_distance_sq(corners[0], corners[i]), widest_sq);
+    }
+    const double slack = TL_NAV_PLACE_ROUNDINGS * (double)TL_FLOAT_ROUNDING * (double)b->navmesh->extent;
+    return tl_min_f64(2.0 * (sqrt(widest_sq) + 8.0 * slack), b->reach);
+}
+
+// Gathers the walls around a polygon, with more nodes if need be. The list lies in the query's memory. Looks about
+// twice as far as it must: beams that start with all of the reach run over the whole level before they come to the
+// wall that ends it, and the rounding of a reach far beyond the level would be larger than the level.
 static tl_result gather_walls(wall_baker *b, uint32_t slot, uint32_t polygon, tl_nav_wall_cell *cell)
 {
+    const double whole_level = 4.0 * (double)b->navmesh->extent;
+    double reach = first_reach(b, slot, polygon);
     for (;;) {
         tl_nav_clearance clearance;
-        tl_nav_clearance_begin(b->query, b->navmesh, NULL, b->reach, &clearance);
+        tl_nav_clearance_begin(b->query, b->navmesh, NULL, reach, &clearance);
         clearance.filter = NULL;
         clearance.is_enough = true;
-        if (tl_nav_gather_cell(&clearance, slot, polygon, b->reach, cell)) {
-            return TL_OK;
+        if (tl_nav_gather_cell(&clearance, slot, polygon, reach, cell)) {
+            if (cell->near.within < reach || reach == b->reach) {
+                cell->distance = b->reach;
+                return TL_OK;
+            }
+            reach = reach > 0.0 && 2.0 * reach < whole_level ? tl_min_f64(2.0 * reach, b->reach) : b->reach;
+            continue;
         }
         if (b->query->max_nodes == LAST_NODES) {
             return TL_ERR_LIMIT;
