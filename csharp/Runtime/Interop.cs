@@ -3059,6 +3059,8 @@ namespace Talus.Interop
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern uint tl_nav_tile_neighbour(tl_nav_tile* tile, uint polygon, uint edge);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern void tl_nav_tile_fit_boxes(tl_nav_tile* tile);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern double tl_nav_tile_polygon_area(tl_nav_tile* tile, uint polygon);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_navmesh_create(tl_allocator* allocator, tl_navmesh** navmesh_out);

@@ -444,6 +444,10 @@ static inline int tl_nav_cut_compare(const tl_nav_tile *tile_a, const tl_nav_por
 /// TL_PORTAL | side, TL_NAV_SIDE_CUT among them.
 TL_API uint32_t tl_nav_tile_neighbour(const tl_nav_tile *tile, uint32_t polygon, uint32_t edge);
 
+/// Computes a tile's bounds and the boxes of its tree, which stays as it is, from its detail vertices: after those were
+/// moved. All else of the tile must be valid. O(n).
+TL_API void tl_nav_tile_fit_boxes(tl_nav_tile *tile);
+
 /// Square metres of one polygon in the plane.
 TL_API double tl_nav_tile_polygon_area(const tl_nav_tile *tile, uint32_t polygon);
 

@@ -91,7 +91,7 @@ void tl_nav_set_inner_box(tl_nav_tile_node *inner, const tl_nav_tile_node *a, co
     }
 }
 
-void tl_nav_fit_box_tree(tl_nav_tile *tile)
+void tl_nav_tile_fit_boxes(tl_nav_tile *tile)
 {
     tile->bounds = tl_nav_tile_surface_bounds(tile);
     tile->node_steps = tl_nav_steps_over(tile->bounds);
@@ -176,6 +176,6 @@ tl_result tl_nav_bake_box_tree(tl_nav_tile *tile, tl_arena *arena)
     uint32_t behind = build_box_subtree(&build, 0, 0, count);
     TL_ASSERT(behind == tile->node_count);
     (void)behind;
-    tl_nav_fit_box_tree(tile);
+    tl_nav_tile_fit_boxes(tile);
     return TL_OK;
 }

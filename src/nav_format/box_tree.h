@@ -20,8 +20,6 @@ uint32_t tl_nav_steps_over(tl_aabb bounds);
 void tl_nav_set_leaf_box(const tl_nav_tile *tile, tl_nav_tile_node *leaf);
 /// Sets the box of an inner node: what its children's have together.
 void tl_nav_set_inner_box(tl_nav_tile_node *inner, const tl_nav_tile_node *a, const tl_nav_tile_node *b);
-/// Computes the tile's bounds and all boxes of its tree, which stays as it is, from its corners and detail.
-void tl_nav_fit_box_tree(tl_nav_tile *tile);
 
 /// Fills the tile's nodes, 2 * polygon_count - 1 of them, and its bounds. The tile's corners and detail must be there.
 /// TL_ERR_MEMORY. O(n log n).

@@ -11,8 +11,6 @@
 
 #include "nav_world/world.h"
 
-#include "nav_format/box_tree.h"
-
 #include <math.h>
 
 // Along one axis: from metres of the old frame to metres of the new one.
@@ -65,5 +63,5 @@ void tl_nav_world_move_tile(tl_nav_tile *tile, int32_t step_x, int32_t step_z)
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         move_polygon(tile, p, &x, &z);
     }
-    tl_nav_fit_box_tree(tile);
+    tl_nav_tile_fit_boxes(tile);
 }

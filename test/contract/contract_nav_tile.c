@@ -142,6 +142,8 @@ static tl_result nav_tile_reads(contract_run *run)
 {
     tl_nav_tile *tile = make_tile();
     TEST_CHECK(tl_nav_tile_polygon_area(tile, 0) == 16.0);
+    tl_nav_tile_fit_boxes(tile); // nothing was moved
+    TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
     for (uint32_t edge = 0; edge < 4; edge++) {
         run->answer += tl_nav_tile_neighbour(tile, 0, edge) == 1;
     }
@@ -163,6 +165,7 @@ const contract_entry CONTRACT_TABLE_nav_tile[] = {
     { "tl_nav_tile_check",
       CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(BAD_BYTES), 1, 0, NULL,
       nav_tile_check, NULL },
+    { "tl_nav_tile_fit_boxes", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_tile_reads, NULL },
     { "tl_nav_tile_neighbour", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_tile_reads, NULL },
     { "tl_nav_tile_polygon_area", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_tile_reads, NULL },
     { 0 },

@@ -99,10 +99,10 @@ static void built_in_levels(void **state)
     static const struct {
         const char *name;
         uint64_t hash, layered_hash;
-    } golden[] = { { "courtyard", 0x8583f941090d9c91, 0x46ccbcefb3745b12 },
-                   { "dungeon", 0x532b25b887cff07e, 0x1f79574ae5203ecc },
-                   { "terrain", 0xcd453051655c1427, 0xdc85743637eb129b },
-                   { "city", 0x1765ee157b148771, 0x09b596c5de777fd5 } };
+    } golden[] = { { "courtyard", 0xca7b0ed8d5c22dc9, 0x117538988bd81b36 },
+                   { "dungeon", 0x14b9f38abf52a2df, 0x4e5c2879e370127a },
+                   { "terrain", 0xaf257505b4a8c214, 0x675773f745a200b4 },
+                   { "city", 0xbc2addd159c4634b, 0x89a193aaeb9c40ce } };
     const tl_tasks two = { run_on_two_threads, 2, NULL };
     bool equal = true;
     for (size_t i = 0; i < 4; i++) {

@@ -2972,6 +2972,7 @@ extern "C" {
         report_out: *mut tl_report,
     ) -> tl_result;
     pub fn tl_nav_tile_neighbour(tile: *const tl_nav_tile, polygon: u32, edge: u32) -> u32;
+    pub fn tl_nav_tile_fit_boxes(tile: *mut tl_nav_tile);
     pub fn tl_nav_tile_polygon_area(tile: *const tl_nav_tile, polygon: u32) -> f64;
     pub fn tl_navmesh_create(
         allocator: *const tl_allocator,

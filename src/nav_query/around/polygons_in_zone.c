@@ -4,7 +4,6 @@
 
 #include "base/assert.h"
 #include "nav_query/filter/nav_filter.h"
-#include "nav_query/navmesh/tile_boxes.h"
 #include "nav_query/navmesh/tile_walk.h"
 #include "nav_query/plane/zone.h"
 

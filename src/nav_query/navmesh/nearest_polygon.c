@@ -12,7 +12,6 @@
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
 #include "nav_query/navmesh/surface.h"
-#include "nav_query/navmesh/tile_boxes.h"
 #include "nav_query/navmesh/tile_walk.h"
 
 typedef struct nearest_search {
