@@ -17,8 +17,8 @@ typedef struct zone_search {
 } zone_search;
 
 // Whether the own box of a leaf's polygon meets the search's.
-static bool meets_box(const zone_search *search, const tl_nav_tile *tile, const tl_nav_tile_boxes *boxes, uint32_t leaf,
-                      const tl_nav_node_box *wanted)
+static bool polygon_meets_box(const zone_search *search, const tl_nav_tile *tile, const tl_nav_tile_boxes *boxes,
+                              uint32_t leaf, const tl_nav_node_box *wanted)
 {
     const tl_nav_node_box within = tl_nav_box_within_leaf(boxes, leaf);
     if (tl_nav_node_overlaps(&within, wanted)) {
@@ -59,7 +59,7 @@ static void search_tile_in_zone(zone_search *search, uint32_t slot)
         const tl_nav_node_box box = tl_nav_box_of_node(&boxes, i);
         const uint32_t link = boxes.nodes[i].link;
         const bool overlaps = tl_nav_node_overlaps(&box, &wanted), is_leaf = (link & TL_NAV_NODE_LEAF) != 0;
-        if (overlaps && is_leaf && meets_box(search, tile, &boxes, i, &wanted)) {
+        if (overlaps && is_leaf && polygon_meets_box(search, tile, &boxes, i, &wanted)) {
             try_in_zone(search, slot, link & ~TL_NAV_NODE_LEAF);
         }
         i = overlaps || is_leaf ? i + 1 : link;

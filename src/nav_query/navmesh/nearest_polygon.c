@@ -42,20 +42,20 @@ static float measure_point(const nearest_search *search, const tl_nav_tile *tile
 }
 
 // What boxes are held against in one tile.
-typedef struct box_search {
+typedef struct box_gaps_search {
     tl_nav_tile_boxes boxes;
     tl_f32x3 center;
     tl_nav_node_box box;  // of the search
     float climb, penalty; // a floor more than the one above the centre counts as the other farther
-} box_search;
+} box_gaps_search;
 
-static box_search begin_boxes(const nearest_search *search, const tl_nav_tile *tile)
+static box_gaps_search begin_boxes(const nearest_search *search, const tl_nav_tile *tile)
 {
-    const box_search s = { tl_nav_tile_boxes_of(tile),
-                           tl_f32x3_of(search->center),
-                           { tl_f32x3_of(search->box.min), tl_f32x3_of(search->box.max) },
-                           tile->agent_max_climb,
-                           tile->agent_height };
+    const box_gaps_search s = { tl_nav_tile_boxes_of(tile),
+                                tl_f32x3_of(search->center),
+                                { tl_f32x3_of(search->box.min), tl_f32x3_of(search->box.max) },
+                                tile->agent_max_climb,
+                                tile->agent_height };
     return s;
 }
 
@@ -65,14 +65,14 @@ typedef struct pending_tile_node {
 } pending_tile_node;
 
 // The distances to a box along the axes, 0 within.
-static inline tl_vec3 gaps_to_box(const box_search *s, const tl_nav_node_box *box)
+static inline tl_vec3 gaps_to_box(const box_gaps_search *s, const tl_nav_node_box *box)
 {
     const tl_f32x3 below = tl_f32x3_sub(box->min, s->center), above = tl_f32x3_sub(s->center, box->max);
     return tl_f32x3_get(tl_f32x3_max(tl_f32x3_max(below, above), tl_f32x3_of(tl_vec3_make(0.0f, 0.0f, 0.0f))));
 }
 
 // The least measure that any point of a node's box can have.
-static inline pending_tile_node look_at_node(const box_search *s, uint32_t node)
+static inline pending_tile_node look_at_node(const box_gaps_search *s, uint32_t node)
 {
     const tl_nav_node_box box = tl_nav_box_of_node(&s->boxes, node);
     const tl_vec3 gap = gaps_to_box(s, &box);
@@ -116,7 +116,7 @@ static void try_nearest(nearest_search *search, uint32_t slot, uint32_t polygon)
 
 static void search_tile_nearest(nearest_search *search, uint32_t slot)
 {
-    const box_search s = begin_boxes(search, search->navmesh->slots[slot].tile);
+    const box_gaps_search s = begin_boxes(search, search->navmesh->slots[slot].tile);
     // A step down leaves one node behind, so the depth bounds the stack.
     pending_tile_node stack[TL_NAV_MAX_TILE_DEPTH + 1];
     uint32_t depth = 0;
@@ -142,7 +142,7 @@ static void search_tile_nearest(nearest_search *search, uint32_t slot)
 }
 
 // The squared distance to a box.
-static inline pending_tile_node measure_node(const box_search *s, uint32_t node)
+static inline pending_tile_node measure_node(const box_gaps_search *s, uint32_t node)
 {
     const tl_nav_node_box box = tl_nav_box_of_node(&s->boxes, node);
     const tl_vec3 gap = gaps_to_box(s, &box);
@@ -174,7 +174,7 @@ static uint32_t bits_on_island(const nearest_search *search, const tl_nav_rings 
 // what holds only components of other islands is left out as a whole.
 static void search_tile_on_island(nearest_search *search, uint32_t slot)
 {
-    const box_search s = begin_boxes(search, search->navmesh->slots[slot].tile);
+    const box_gaps_search s = begin_boxes(search, search->navmesh->slots[slot].tile);
     const tl_nav_rings *rings = &search->navmesh->slots[slot].rings;
     const uint32_t bits = bits_on_island(search, rings);
     if (bits == 0) {
