@@ -166,7 +166,7 @@ static void test_reach_without_end(void **state)
     test_random random = { 43 };
     uint32_t lesser = 0;
     for (uint32_t round = 0; round < 6; round++) {
-        fixture_level level = fixture_random(&random, round, 24);
+        fixture_level level = fixture_random(&random, round, 12);
         level.tile_cells = 0;
         tl_navmesh *navmesh = fixture_build(&level, NULL);
         uint64_t walls[4];
