@@ -14,16 +14,13 @@ typedef struct step_from {
     uint32_t wedge; // that is expanded
     uint32_t slot, polygon;
     const tl_nav_rings *rings; // of the slot
-    const tl_nav_ring_edge *ring;
-    const tl_vec3 *points; // where its edges start
-    uint32_t count;
+    tl_nav_ring ring;          // of the polygon
 } step_from;
 
 static inline step_from step_from_polygon(const wedge_search *s, uint32_t wedge, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_rings *rings = &s->navmesh->slots[slot].rings;
-    const tl_nav_ring ring = tl_nav_ring_of(rings, polygon);
-    const step_from from = { wedge, slot, polygon, rings, ring.edges, ring.points, ring.count };
+    const step_from from = { wedge, slot, polygon, rings, tl_nav_ring_of(rings, polygon) };
     return from;
 }
 
@@ -69,11 +66,10 @@ static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i,
                              const seen_edge *edge, tl_nav_direction left, tl_nav_direction right)
 {
     const tl_nav_ring_seam here = { from->slot, from->polygon };
-    if (!may_go(s, here, tl_nav_ring_across(s->navmesh, from->slot, from->ring[i].to))) {
+    if (!may_go(s, here, tl_nav_ring_across(s->navmesh, from->slot, from->ring.edges[i].to))) {
         return;
     }
-    const tl_nav_ring ring = { from->ring, from->points, from->count };
-    tl_nav_ring_place twin = tl_nav_ring_twin(s->navmesh, from->slot, from->polygon, &ring, i);
+    tl_nav_ring_place twin = tl_nav_ring_twin(s->navmesh, from->slot, from->polygon, &from->ring, i);
     uint32_t index = new_wedge(s);
     if (index == TL_NAV_NO_NODE) {
         return;
@@ -102,8 +98,8 @@ static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i,
 
 static inline seen_edge see_edge(const step_from *from, uint32_t i, float root_x, float root_z)
 {
-    const tl_vec3 *a = &from->points[i];
-    const tl_vec3 *b = &from->points[i + 1 < from->count ? i + 1 : 0];
+    const tl_vec3 *a = &from->ring.points[i];
+    const tl_vec3 *b = &from->ring.points[i + 1 < from->ring.count ? i + 1 : 0];
     seen_edge edge = { { (double)a->x - (double)root_x, (double)a->z - (double)root_z },
                        { (double)b->x - (double)root_x, (double)b->z - (double)root_z } };
     return edge;
@@ -128,14 +124,14 @@ static inline edge_view view_of(const wedge_search *s, const seen_edge *edge)
 
 static inline uint64_t corner_number(const step_from *from, uint32_t vertex)
 {
-    return CORNER_NUMBER | (uint64_t)from->slot << 32 | ((uint32_t)(from->ring - from->rings->edges) + vertex);
+    return CORNER_NUMBER | (uint64_t)from->slot << 32 | ((uint32_t)(from->ring.edges - from->rings->edges) + vertex);
 }
 
 // The number of a vertex of the ring in this search, or 0 when no shortest path turns there.
 static inline uint64_t turn_of(const wedge_search *s, const step_from *from, uint32_t vertex)
 {
     if (s->in->filter == NULL) {
-        return from->ring[vertex].turn;
+        return from->ring.edges[vertex].turn;
     }
     // Walls are where the filter says, so the fan is sought anew. Where floors fork each corner stands for itself.
     tl_nav_ring_place place = { from->slot, from->polygon, vertex };
@@ -151,7 +147,7 @@ static inline uint64_t turn_of(const wedge_search *s, const step_from *from, uin
 // once. Where links run back and forth a polygon has more than one way on from there, and each counts for itself.
 static inline bool may_turn_on(wedge_search *s, const step_from *from, uint32_t i, uint32_t vertex, double cost)
 {
-    const tl_nav_ring_walls *walls = tl_nav_walls_of(from->rings, &from->ring[vertex]);
+    const tl_nav_ring_walls *walls = tl_nav_walls_of(from->rings, &from->ring.edges[vertex]);
     bool is_walled = walls->first_x != 0.0f || walls->first_z != 0.0f;
     const uint64_t end = from->rings->has_back && vertex != i ? TURNING_NUMBER >> 3 : 0;
     const uint64_t number = TURNING_NUMBER | end | corner_number(from, from->rings->has_back ? i : vertex);
@@ -163,7 +159,7 @@ static inline bool may_turn_on(wedge_search *s, const step_from *from, uint32_t 
 static inline void note_corner(const wedge_search *s, const step_from *from, uint32_t vertex, uint64_t turn,
                                tl_nav_direction to_vertex)
 {
-    const double x = (double)from->points[vertex].x, z = (double)from->points[vertex].z;
+    const double x = (double)from->ring.points[vertex].x, z = (double)from->ring.points[vertex].z;
     const tl_nav_direction to_root = { x - to_vertex.x - (double)s->in->start.x,
                                        z - to_vertex.z - (double)s->in->start.z };
     const double size = fabs(to_root.x) + fabs(to_root.z) + fabs(to_vertex.x) + fabs(to_vertex.z);
@@ -191,7 +187,7 @@ static inline bool is_repeated(wedge_search *s, const step_from *from, uint32_t 
     if (root == NULL) {
         return false;
     }
-    double x = (double)from->points[vertex].x, z = (double)from->points[vertex].z;
+    double x = (double)from->ring.points[vertex].x, z = (double)from->ring.points[vertex].z;
     tl_nav_direction known = { x - (double)root->from_x, z - (double)root->from_z };
     tl_nav_direction limit = { x - (double)from_x, z - (double)from_z };
     double known_cost = (double)root->cost + (double)root->cost_rest;
@@ -220,7 +216,7 @@ static inline void turn_into(wedge_search *s, const step_from *from, uint32_t i,
     cost += length_of(to_vertex);
     if (turn != 0 && rank_root(s, turn, cost) != TL_NAV_ROOT_WORSE &&
         (!from->rings->has_back || may_turn_on(s, from, i, vertex, cost))) {
-        const wedge_origin root = { from->points[vertex].x, from->points[vertex].z, cost };
+        const wedge_origin root = { from->ring.points[vertex].x, from->ring.points[vertex].z, cost };
         seen_edge edge = see_edge(from, i, root.x, root.z);
         add_wedge(s, from, i, root, &edge, open, open);
     }
@@ -231,7 +227,7 @@ static inline void turn_into(wedge_search *s, const step_from *from, uint32_t i,
 static inline void add_edge_on(wedge_search *s, const step_from *from, uint32_t i, wedge_origin root,
                                const seen_edge *edge)
 {
-    uint32_t next = i + 1 < from->count ? i + 1 : 0;
+    uint32_t next = i + 1 < from->ring.count ? i + 1 : 0;
     if (is_open_direction(edge->left) || is_open_direction(edge->right)) {
         const tl_nav_direction open = { 0.0, 0.0 };
         if (!may_turn_on(s, from, i, is_open_direction(edge->left) ? next : i, root.cost)) {
@@ -248,7 +244,7 @@ static inline void add_edge_on(wedge_search *s, const step_from *from, uint32_t 
 static inline bool has_walls_on(const wedge_search *s, const step_from *from, uint32_t vertex, tl_nav_direction limit,
                                 int hand)
 {
-    return may_turn(tl_nav_walls_of(from->rings, &from->ring[vertex]), limit, hand, s->rounding);
+    return may_turn(tl_nav_walls_of(from->rings, &from->ring.edges[vertex]), limit, hand, s->rounding);
 }
 
 // Whether the root, which lies on the line of an edge, is between its ends.
@@ -287,10 +283,10 @@ static TL_NOINLINE bool is_wall_beside(const wedge_search *s, const tl_nav_wedge
     const tl_nav_ring ring = tl_nav_ring_at(s->navmesh, first->slot, first->polygon);
     const tl_nav_ring_place way = tl_nav_ring_twin(s->navmesh, first->slot, first->polygon, &ring, first->edge);
     const step_from holder = step_from_polygon(s, first->parent, way.slot, way.polygon);
-    const uint32_t before = way.edge > 0 ? way.edge - 1 : holder.count - 1;
-    const uint32_t beside = hand > 0 ? vertex_behind(way.edge, holder.count) : before;
+    const uint32_t before = way.edge > 0 ? way.edge - 1 : holder.ring.count - 1;
+    const uint32_t beside = hand > 0 ? vertex_behind(way.edge, holder.ring.count) : before;
     const seen_edge wall = see_edge(&holder, beside, wedge->root_x, wedge->root_z);
-    return !tl_nav_ring_is_open(&holder.ring[beside]) && view_of(s, &wall).edge_on && is_root_within(s, &wall);
+    return !tl_nav_ring_is_open(&holder.ring.edges[beside]) && view_of(s, &wall).edge_on && is_root_within(s, &wall);
 }
 
 // Whether the root lies on a wall that ends in the vertex which a wedge's limit leads to. It does not lie there
@@ -323,7 +319,7 @@ static inline uint64_t turn_at_end(const wedge_search *s, const step_from *from,
 static TL_ALWAYS_INLINE void turn_at_limit(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge, int hand,
                                            uint32_t begin, uint32_t end)
 {
-    uint32_t vertex = hand > 0 ? wedge->edge : wedge->edge + 1 < from->count ? wedge->edge + 1 : 0;
+    uint32_t vertex = hand > 0 ? wedge->edge : wedge->edge + 1 < from->ring.count ? wedge->edge + 1 : 0;
     tl_nav_direction limit = hand > 0 ? wedge->left : wedge->right;
     uint64_t turn = turn_at_end(s, from, wedge, hand, vertex);
     if (turn == 0) {
@@ -333,14 +329,14 @@ static TL_ALWAYS_INLINE void turn_at_limit(wedge_search *s, const step_from *fro
         note_corner(s, from, vertex, turn, limit);
         return;
     }
-    float x = from->points[vertex].x;
-    float z = from->points[vertex].z;
+    float x = from->ring.points[vertex].x;
+    float z = from->ring.points[vertex].z;
     double cost = wedge->cost + length_of(limit); // the limit leads to the vertex
     const wedge_origin root = { x, z, cost };
     bool is_new = true;
     for (uint32_t k = begin; k < end; k++) {
-        uint32_t i = wedge->edge + k < from->count ? wedge->edge + k : wedge->edge + k - from->count;
-        if (!tl_nav_ring_is_open(&from->ring[i])) {
+        uint32_t i = wedge->edge + k < from->ring.count ? wedge->edge + k : wedge->edge + k - from->ring.count;
+        if (!tl_nav_ring_is_open(&from->ring.edges[i])) {
             continue;
         }
         seen_edge edge = see_edge(from, i, x, z);
@@ -388,14 +384,15 @@ typedef struct entry_ends {
 
 static inline entry_ends ends_of_entry(const step_from *from, const tl_nav_wedge *wedge)
 {
-    const uint32_t behind = vertex_behind(wedge->edge, from->count);
-    const tl_vec3 *left = &from->points[wedge->edge], *right = &from->points[behind];
+    const uint32_t behind = vertex_behind(wedge->edge, from->ring.count);
+    const tl_vec3 *left = &from->ring.points[wedge->edge], *right = &from->ring.points[behind];
     const double x = (double)wedge->root_x, z = (double)wedge->root_z;
     const seen_edge at = { { (double)right->x - x, (double)right->z - z },
                            { (double)left->x - x, (double)left->z - z } };
     const bool left_is_end = (wedge->left.x == at.left.x) & (wedge->left.z == at.left.z);
     const bool right_is_end = (wedge->right.x == at.right.x) & (wedge->right.z == at.right.z);
-    const entry_ends ends = { from->ring[wedge->edge].turn, from->ring[behind].turn, at, left_is_end, right_is_end };
+    const entry_ends ends = { from->ring.edges[wedge->edge].turn, from->ring.edges[behind].turn, at, left_is_end,
+                              right_is_end };
     return ends;
 }
 
@@ -436,10 +433,10 @@ static inline bool is_outrun(const wedge_search *s, const tl_nav_wedge *wedge, c
 static TL_NOINLINE void turn_within_entry(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge,
                                           const wedge_view *view)
 {
-    for (uint32_t i = 0; i < from->count; i++) {
-        const uint32_t ends[2] = { i, vertex_behind(i, from->count) };
-        for (uint32_t k = 0; k < 2 && i != wedge->edge && tl_nav_ring_is_open(&from->ring[i]); k++) {
-            const tl_vec3 *vertex = &from->points[ends[k]];
+    for (uint32_t i = 0; i < from->ring.count; i++) {
+        const uint32_t ends[2] = { i, vertex_behind(i, from->ring.count) };
+        for (uint32_t k = 0; k < 2 && i != wedge->edge && tl_nav_ring_is_open(&from->ring.edges[i]); k++) {
+            const tl_vec3 *vertex = &from->ring.points[ends[k]];
             const seen_vertex seen = look_at(view, vertex);
             const seen_edge entry = see_edge(from, wedge->edge, vertex->x, vertex->z);
             const bool is_within = entry.right.x * entry.left.x + entry.right.z * entry.left.z < 0.0;
@@ -468,25 +465,25 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
     if (s->navmesh->slots[wedge->slot].anchor_count > 0) {
         cross_wedge_links(s, index);
     }
-    uint32_t first_seen = from.count; // the first way that ends left of the wedge's right side
-    uint32_t last_seen = 1;           // the last one that begins right of its left side
+    uint32_t first_seen = from.ring.count; // the first way that ends left of the wedge's right side
+    uint32_t last_seen = 1;                // the last one that begins right of its left side
     uint32_t i = wedge->edge;
     seen_vertex right, left;
     uint32_t left_is = UINT32_MAX; // the vertex that was looked at last
-    for (uint32_t k = 1; k < from.count; k++) {
-        i = vertex_behind(i, from.count);
-        if (!tl_nav_ring_is_open(&from.ring[i])) {
+    for (uint32_t k = 1; k < from.ring.count; k++) {
+        i = vertex_behind(i, from.ring.count);
+        if (!tl_nav_ring_is_open(&from.ring.edges[i])) {
             continue;
         }
-        const uint32_t next = vertex_behind(i, from.count);
-        right = left_is == i ? left : look_at(&view, &from.points[i]);
+        const uint32_t next = vertex_behind(i, from.ring.count);
+        right = left_is == i ? left : look_at(&view, &from.ring.points[i]);
         if ((right.left_of & LEFT_LIMIT) != 0) {
             if (in_order) {
                 break; // and so are all that follow
             }
             continue;
         }
-        left = look_at(&view, &from.points[next]);
+        left = look_at(&view, &from.ring.points[next]);
         left_is = next;
         if ((left.right_of & RIGHT_LIMIT) != 0) {
             continue;
@@ -511,10 +508,10 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
         turn_within_entry(s, &from, wedge, &view);
     }
     if (view.open_right_of == 0 && ends.sees_left) {
-        turn_at_limit(s, &from, wedge, 1, last_seen, from.count);
+        turn_at_limit(s, &from, wedge, 1, last_seen, from.ring.count);
     }
     if (view.open_left_of == 0 && ends.sees_right) {
-        turn_at_limit(s, &from, wedge, -1, 1, first_seen < from.count ? first_seen + 1 : from.count);
+        turn_at_limit(s, &from, wedge, -1, 1, first_seen < from.ring.count ? first_seen + 1 : from.ring.count);
     }
 }
 
