@@ -185,7 +185,9 @@ static tl_result gather_walls(wall_baker *b, uint32_t slot, uint32_t polygon, tl
         clearance.filter = NULL;
         clearance.is_enough = true;
         if (tl_nav_gather_cell(&clearance, slot, polygon, reach, cell)) {
-            if (cell->near.within < reach || reach == b->reach) {
+            tl_nav_near_walls *near = &cell->near;
+            if (near->within < reach || reach == b->reach) {
+                near->wall_count = tl_nav_count_within(near->walls, near->wall_count, near->within);
                 cell->distance = b->reach;
                 return TL_OK;
             }

@@ -318,8 +318,7 @@ static bool cast_beams(wall_walk *walk, tl_nav_met at, const beam *seen)
     const tl_nav_ring ring = tl_nav_ring_at(clearance->navmesh, at.slot, at.polygon);
     for (uint32_t i = 0; i < ring.count; i++) {
         const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
-        tl_nav_segment edge = { { (double)ring.points[i].x, (double)ring.points[i].z },
-                                { (double)end->x, (double)end->z } };
+        tl_nav_segment edge = { tl_nav_spot_of(ring.points[i]), tl_nav_spot_of(*end) };
         tl_nav_segment window = edge;
         tl_nav_ring_place place = { at.slot, at.polygon, i };
         if (!add_winding_end(walk, &place, seen)) {
@@ -419,7 +418,6 @@ bool tl_nav_find_visible_walls(tl_nav_clearance *clearance, uint32_t slot, uint3
     tl_nav_begin_walls(clearance, near_out);
     bool fits = tl_nav_add_visible_walls(clearance, at, corners, count, distance, near_out);
     tl_nav_end_walls(clearance, near_out);
-    near_out->wall_count = tl_nav_count_within(near_out->walls, near_out->wall_count, near_out->within);
     return fits;
 }
 

@@ -115,8 +115,7 @@ static bool meet_touched(tl_nav_clearance *clearance, const tl_nav_shape *touch,
         const tl_nav_ring ring = tl_nav_ring_at(clearance->navmesh, met.slot, met.polygon);
         for (uint32_t i = 0; fits && i < ring.count; i++) {
             const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
-            tl_nav_segment edge = { { (double)ring.points[i].x, (double)ring.points[i].z },
-                                    { (double)end->x, (double)end->z } };
+            tl_nav_segment edge = { tl_nav_spot_of(ring.points[i]), tl_nav_spot_of(*end) };
             if (!tl_nav_ring_is_open(&ring.edges[i]) || !reaches_over(touch, &lines, clearance->slack, edge)) {
                 continue;
             }

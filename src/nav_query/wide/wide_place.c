@@ -291,8 +291,7 @@ static void visit_neighbours(place_search *search)
             continue;
         }
         tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, search->slot, ring.edges[i].to);
-        tl_nav_segment edge = { { (double)ring.points[i].x, (double)ring.points[i].z },
-                                { (double)end->x, (double)end->z } };
+        tl_nav_segment edge = { tl_nav_spot_of(ring.points[i]), tl_nav_spot_of(*end) };
         tl_nav_spot nearest;
         double distance_sq = tl_nav_nearest_of_segment(edge, search->spot, &nearest);
         bool passes = clearance->filter == NULL ||
