@@ -110,7 +110,7 @@ static void bench_file(const char *path, totals *sums)
         fprintf(stderr, "bench_polygon: %s: %s\n", path, error.message);
         exit(1);
     }
-    tl_contour_reader reader = { map.bytes, map.size, path, NULL, 0, 0 };
+    tl_text_reader reader = { map.bytes, map.size, path, NULL, 0, 0 };
     const char *slash = strrchr(path, '/');
     const char *name = slash != NULL ? slash + 1 : path;
     size_t length = strlen(name);
@@ -118,7 +118,7 @@ static void bench_file(const char *path, totals *sums)
     char kind = length > 6 ? name[length - 5] : '?';
     totals file;
     memset(&file, 0, sizeof file);
-    while (!tl_contour_reader_at_end(&reader)) {
+    while (!tl_text_reader_at_end(&reader)) {
         tl_contour_text text;
         if (tl_contour_text_read(&reader, &text, &error) != TL_OK) {
             fprintf(stderr, "bench_polygon: %s:%llu: %s\n", path, (unsigned long long)error.line, error.message);

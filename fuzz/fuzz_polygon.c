@@ -64,12 +64,12 @@ static void from_bytes(const uint8_t *data, size_t size)
 
 static void from_text(const uint8_t *data, size_t size)
 {
-    tl_contour_reader reader;
+    tl_text_reader reader;
     memset(&reader, 0, sizeof reader);
     reader.bytes = (const char *)data;
     reader.size = size;
     tl_contour_text text;
-    while (!tl_contour_reader_at_end(&reader) && tl_contour_text_read(&reader, &text, NULL) == TL_OK) {
+    while (!tl_text_reader_at_end(&reader) && tl_contour_text_read(&reader, &text, NULL) == TL_OK) {
         build_and_check(&text.set, text.max_verts_per_poly, 2);
         tl_contour_text_free(&text);
     }

@@ -312,7 +312,7 @@ static tl_exit bake_and_write(tl_cli *cli, const tl_level *level, const tl_bake_
         bake_result result = { level, &bake, settings, output, 0, 0.0, { NULL, "" } };
         const bool empty = settings->nav && !bake.walkable;
         if (empty) {
-            result.empty = tl_level_explain_empty(cli, level, settings, &bake);
+            result.empty = tl_level_explain_empty(cli, level, settings, &bake.nav_report, &bake.pruned);
         }
         tl_result made = tl_pack_content_of_bake(level, &bake, settings->nav, &content);
         code = made == TL_OK ? tl_pack_content_write(cli, output, &content, &result.file_bytes)

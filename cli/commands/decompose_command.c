@@ -2,9 +2,9 @@
 //
 // talus decompose: a mesh into convex parts, measured and written.
 
-#include "cli/commands/decompose_files.h"
 #include "cli/level/load_level.h"
 #include "cli/options/output_check.h"
+#include "cli/shapes/decompose_files.h"
 #include "cli/shared/json_out.h"
 
 #include <talus/decompose.h>

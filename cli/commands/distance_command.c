@@ -2,8 +2,8 @@
 //
 // talus distance: how far two hulls are apart, and where they are nearest.
 
-#include "cli/level/open_hull.h"
 #include "cli/options/parse_value.h"
+#include "cli/shapes/open_hull.h"
 #include "cli/shared/json_out.h"
 #include "cli/shared/line_batch.h"
 

@@ -2,8 +2,8 @@
 //
 // talus hull: the convex hull of points or of a mesh, measured and written.
 
-#include "cli/level/open_hull.h"
 #include "cli/options/output_check.h"
+#include "cli/shapes/open_hull.h"
 #include "cli/shared/json_out.h"
 #include "io/files/atomic_write.h"
 #include "io/mesh/obj_write.h"

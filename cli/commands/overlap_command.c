@@ -3,7 +3,7 @@
 // talus overlap: which triangles a ball, capsule or box touches.
 
 #include "cli/level/open_input.h"
-#include "cli/level/shape_option.h"
+#include "cli/shapes/shape_option.h"
 #include "cli/shared/json_out.h"
 #include "cli/shared/line_batch.h"
 

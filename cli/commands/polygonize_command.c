@@ -190,7 +190,7 @@ static tl_exit run_set(job *j, const tl_contour_text *text)
 
 static tl_exit run_sets(job *j, const tl_file_map *map)
 {
-    tl_contour_reader reader;
+    tl_text_reader reader;
     memset(&reader, 0, sizeof reader);
     reader.bytes = map->bytes;
     reader.size = map->size;
@@ -203,7 +203,7 @@ static tl_exit run_sets(job *j, const tl_file_map *map)
         }
         code = run_set(j, &text);
         tl_contour_text_free(&text);
-    } while (code == TL_EXIT_OK && !tl_contour_reader_at_end(&reader));
+    } while (code == TL_EXIT_OK && !tl_text_reader_at_end(&reader));
     return code;
 }
 

@@ -2,7 +2,7 @@
 //
 // talus support: the point of a hull that lies farthest along a direction.
 
-#include "cli/level/open_hull.h"
+#include "cli/shapes/open_hull.h"
 #include "cli/shared/line_batch.h"
 
 #include <string.h>

@@ -3,7 +3,7 @@
 // talus sweep: what a moving ball, capsule or box meets first.
 
 #include "cli/level/open_input.h"
-#include "cli/level/shape_option.h"
+#include "cli/shapes/shape_option.h"
 #include "cli/shared/json_out.h"
 #include "cli/shared/line_batch.h"
 

@@ -108,14 +108,14 @@ static bool open_contours(draw_source *source, const char *path, uint32_t set, t
         *exit_out = tl_cli_fail_io(source->cli, &error);
         return false;
     }
-    tl_contour_reader reader;
+    tl_text_reader reader;
     memset(&reader, 0, sizeof reader);
     reader.bytes = map.bytes;
     reader.size = map.size;
     reader.path = path;
     tl_result result = tl_contour_text_read(&reader, &source->text, &error);
     uint32_t at = 0;
-    for (; result == TL_OK && at < set && !tl_contour_reader_at_end(&reader); at++) {
+    for (; result == TL_OK && at < set && !tl_text_reader_at_end(&reader); at++) {
         tl_contour_text_free(&source->text);
         result = tl_contour_text_read(&reader, &source->text, &error);
     }

@@ -196,9 +196,8 @@ tl_level_doubt tl_level_doubt_find(const tl_mesh_view *mesh, tl_aabb bounds, con
 // ---------------------------------------------------------------------------------------------------------
 // Nothing is walkable.
 
-static bool doubt_pruned(const tl_bake *bake, tl_level_doubt *doubt)
+static bool doubt_pruned(const tl_nav_prune_report *pruned, tl_level_doubt *doubt)
 {
-    const tl_nav_prune_report *pruned = &bake->pruned;
     const uint32_t islands = pruned->inside.islands + pruned->unreachable.islands + pruned->small.islands;
     if (islands > 0) {
         doubt->cause = "pruning";
@@ -210,9 +209,8 @@ static bool doubt_pruned(const tl_bake *bake, tl_level_doubt *doubt)
 }
 
 // Islands of fewer square metres together than `area` are leavings of another cause.
-static bool doubt_filtered(const tl_bake *bake, double area, tl_level_doubt *doubt)
+static bool doubt_filtered(const tl_nav_bake_report *nav, double area, tl_level_doubt *doubt)
 {
-    const tl_nav_bake_report *nav = &bake->nav_report;
     if (nav->filtered_regions > 0 && nav->filtered_area > area) {
         doubt->cause = "region_min_size";
         snprintf(doubt->text, sizeof(doubt->text),
@@ -283,7 +281,7 @@ static bool doubt_agent(const tl_cli *cli, const tl_level *level, const tl_bake_
 }
 
 tl_level_doubt tl_level_explain_empty(const tl_cli *cli, const tl_level *level, const tl_bake_settings *settings,
-                                      const tl_bake *bake)
+                                      const tl_nav_bake_report *baked, const tl_nav_prune_report *pruned)
 {
     tl_level_doubt doubt = { NULL, "" };
     const tl_mesh_view mesh = tl_mesh_as_view(&level->mesh);
@@ -292,7 +290,7 @@ tl_level_doubt tl_level_explain_empty(const tl_cli *cli, const tl_level *level, 
     const double longest = longest_side(bounds);
     const face_areas f = measure_faces(&mesh, (double)def.agent_max_slope);
     const double agent_area = 4.0 * (double)def.agent_radius * (double)def.agent_radius;
-    if (doubt_pruned(bake, &doubt) || doubt_filtered(bake, agent_area, &doubt)) {
+    if (doubt_pruned(pruned, &doubt) || doubt_filtered(baked, agent_area, &doubt)) {
         return doubt;
     }
     if (!tl_aabb_is_empty(def.bounds) && !tl_aabb_overlaps(def.bounds, bounds)) {
@@ -320,7 +318,7 @@ tl_level_doubt tl_level_explain_empty(const tl_cli *cli, const tl_level *level, 
                  f.min_slope, (double)def.agent_max_slope);
         return doubt;
     }
-    if (!doubt_agent(cli, level, settings, &doubt) && !doubt_filtered(bake, 0.0, &doubt)) {
+    if (!doubt_agent(cli, level, settings, &doubt) && !doubt_filtered(baked, 0.0, &doubt)) {
         doubt.cause = "unknown";
         snprintf(doubt.text, sizeof(doubt.text),
                  "%.4g m2 of its triangles are floor by their slope, but none has room for the agent; talus why FILE "

@@ -6,7 +6,9 @@
 #ifndef TALUS_CLI_LEVEL_DOUBT_H
 #define TALUS_CLI_LEVEL_DOUBT_H
 
-#include "cli/level/bake_level.h"
+#include "cli/level/bake_settings.h"
+
+#include <talus/nav_prune.h>
 
 enum { TL_DOUBT_BYTES = 320 };
 
@@ -21,9 +23,9 @@ typedef struct tl_level_doubt {
 /// none of these as they are.
 tl_level_doubt tl_level_doubt_find(const tl_mesh_view *mesh, tl_aabb bounds, const tl_bake_settings *settings);
 
-/// Why a bake came out without a polygon. The agent is proven to be too large by bakes with smaller ones. Never without
-/// a cause.
+/// Why a bake came out without a polygon, from what it and the pruning after it reported. The agent is proven to be too
+/// large by bakes with smaller ones. Never without a cause.
 tl_level_doubt tl_level_explain_empty(const tl_cli *cli, const tl_level *level, const tl_bake_settings *settings,
-                                      const tl_bake *bake);
+                                      const tl_nav_bake_report *baked, const tl_nav_prune_report *pruned);
 
 #endif

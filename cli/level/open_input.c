@@ -177,7 +177,8 @@ tl_exit tl_input_fail_empty(tl_cli *cli, const tl_input *input, const tl_bake_se
         return tl_cli_fail(cli, TL_EXIT_EMPTY,
                            "%s: nothing is walkable; bake the level again, which tells the likely cause", input->path);
     }
-    const tl_level_doubt doubt = tl_level_explain_empty(cli, &input->level, settings, &input->bake);
+    const tl_level_doubt doubt =
+        tl_level_explain_empty(cli, &input->level, settings, &input->bake.nav_report, &input->bake.pruned);
     return tl_cli_fail(cli, TL_EXIT_EMPTY, "%s: nothing is walkable (%s): %s", input->path, doubt.cause, doubt.text);
 }
 

@@ -12,7 +12,7 @@
 typedef struct marks_parser {
     tl_area_marks *marks;
     tl_allocator allocator;
-    tl_contour_reader reader;
+    tl_text_reader reader;
     const tl_pack_frame *frame;
     tl_io_error *error;
 } marks_parser;

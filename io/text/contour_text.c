@@ -6,7 +6,6 @@
 #include "io/text/contour_text.h"
 
 #include "io/files/growable.h"
-#include "io/text/line_words.h"
 
 #include <string.h>
 
@@ -19,13 +18,6 @@
     } while (0)
 
 enum { LARGEST_LATTICE_SIDE = TL_MAX_CONTOUR_COORDINATE };
-
-bool tl_contour_reader_at_end(tl_contour_reader *reader)
-{
-    tl_contour_reader ahead = *reader;
-    tl_line line;
-    return !tl_next_line(&ahead, &line);
-}
 
 void tl_contour_text_free(tl_contour_text *text)
 {
@@ -41,7 +33,7 @@ void tl_contour_text_free(tl_contour_text *text)
 }
 
 // One header line after the first. *count_out is set by the last one, "contours COUNT".
-static tl_result read_contour_header_line(const tl_contour_reader *reader, tl_line line, tl_contour_text *text,
+static tl_result read_contour_header_line(const tl_text_reader *reader, tl_line line, tl_contour_text *text,
                                           int64_t *count_out, tl_io_error *error)
 {
     tl_contour_set *set = &text->set;
@@ -84,7 +76,7 @@ static tl_result read_contour_header_line(const tl_contour_reader *reader, tl_li
     return good && tl_line_is_done(&line) ? TL_OK : tl_line_fail(reader, error, "a number in the word's range");
 }
 
-static tl_result read_contour_header(tl_contour_reader *reader, tl_contour_text *text, int64_t *count_out,
+static tl_result read_contour_header(tl_text_reader *reader, tl_contour_text *text, int64_t *count_out,
                                      tl_io_error *error)
 {
     tl_line line;
@@ -118,7 +110,7 @@ static tl_result read_contour_header(tl_contour_reader *reader, tl_contour_text 
     return TL_OK;
 }
 
-static tl_result read_contour_vertex(tl_contour_reader *reader, tl_contour_text *text, tl_io_error *error)
+static tl_result read_contour_vertex(tl_text_reader *reader, tl_contour_text *text, tl_io_error *error)
 {
     void *vertices = (void *)(uintptr_t)text->set.vertices;
     if (!tl_io_grow(&text->allocator, &vertices, &text->vertex_capacity, text->set.vertex_count,
@@ -143,7 +135,7 @@ static tl_result read_contour_vertex(tl_contour_reader *reader, tl_contour_text 
     return TL_OK;
 }
 
-static tl_result read_contour(tl_contour_reader *reader, tl_contour_text *text, tl_io_error *error)
+static tl_result read_contour(tl_text_reader *reader, tl_contour_text *text, tl_io_error *error)
 {
     void *contours = (void *)(uintptr_t)text->set.contours;
     if (!tl_io_grow(&text->allocator, &contours, &text->contour_capacity, text->set.contour_count,
@@ -169,7 +161,7 @@ static tl_result read_contour(tl_contour_reader *reader, tl_contour_text *text, 
     return TL_OK;
 }
 
-static tl_result read_contour_set(tl_contour_reader *reader, tl_contour_text *text, tl_io_error *error)
+static tl_result read_contour_set(tl_text_reader *reader, tl_contour_text *text, tl_io_error *error)
 {
     int64_t count;
     CONTOUR_TRY(read_contour_header(reader, text, &count, error));
@@ -183,7 +175,7 @@ static tl_result read_contour_set(tl_contour_reader *reader, tl_contour_text *te
     return tl_take_word(&line, "end") && tl_line_is_done(&line) ? TL_OK : tl_line_fail(reader, error, "'end'");
 }
 
-tl_result tl_contour_text_read(tl_contour_reader *reader, tl_contour_text *text_out, tl_io_error *error_out)
+tl_result tl_contour_text_read(tl_text_reader *reader, tl_contour_text *text_out, tl_io_error *error_out)
 {
     memset(text_out, 0, sizeof *text_out);
     text_out->allocator = tl_io_allocator_or_default(reader->allocator);

@@ -6,7 +6,7 @@
 #ifndef TALUS_IO_CONTOUR_TEXT_H
 #define TALUS_IO_CONTOUR_TEXT_H
 
-#include "io/files/io_error.h"
+#include "io/text/line_words.h"
 
 #include <talus/polygon.h>
 
@@ -15,16 +15,6 @@ extern "C" {
 #endif
 
 #define TL_TEXT_NAME_BYTES 128
-
-/// The place of a reader in its text. Begin zeroed, with bytes, size, path and allocator set.
-typedef struct tl_contour_reader {
-    const char *bytes;
-    size_t size;
-    const char *path;              ///< for error messages; may be NULL
-    const tl_allocator *allocator; ///< NULL: malloc
-    size_t offset;
-    uint64_t line; ///< lines read so far
-} tl_contour_reader;
 
 /// A contour set that owns its arrays.
 typedef struct tl_contour_text {
@@ -36,12 +26,9 @@ typedef struct tl_contour_text {
     tl_allocator allocator;
 } tl_contour_text;
 
-/// Whether only blank lines are left.
-bool tl_contour_reader_at_end(tl_contour_reader *reader);
-
 /// Reads the next contour set. Errors name file and line: TL_ERR_MAGIC (another kind of file), TL_ERR_VERSION,
 /// TL_ERR_FORMAT, TL_ERR_TRUNCATED, TL_ERR_MEMORY; then `*text_out` is zeroed. Free with tl_contour_text_free.
-tl_result tl_contour_text_read(tl_contour_reader *reader, tl_contour_text *text_out, tl_io_error *error_out);
+tl_result tl_contour_text_read(tl_text_reader *reader, tl_contour_text *text_out, tl_io_error *error_out);
 void tl_contour_text_free(tl_contour_text *text);
 
 #ifdef __cplusplus

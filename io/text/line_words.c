@@ -21,7 +21,7 @@ static void skip_line_blanks(tl_line *line)
     }
 }
 
-bool tl_next_line(tl_contour_reader *reader, tl_line *line_out)
+bool tl_next_line(tl_text_reader *reader, tl_line *line_out)
 {
     while (reader->offset < reader->size) {
         const char *begin = reader->bytes + reader->offset;
@@ -38,6 +38,13 @@ bool tl_next_line(tl_contour_reader *reader, tl_line *line_out)
         }
     }
     return false;
+}
+
+bool tl_text_reader_at_end(tl_text_reader *reader)
+{
+    tl_text_reader ahead = *reader;
+    tl_line line;
+    return !tl_next_line(&ahead, &line);
 }
 
 bool tl_next_word(tl_line *line, const char **begin, const char **end)
@@ -118,13 +125,13 @@ void tl_take_rest(tl_line *line, char *text, size_t capacity)
     line->at = line->end;
 }
 
-tl_result tl_line_fail(const tl_contour_reader *reader, tl_io_error *error, const char *expected)
+tl_result tl_line_fail(const tl_text_reader *reader, tl_io_error *error, const char *expected)
 {
     return tl_io_fail(error, TL_ERR_FORMAT, reader->path, reader->line, "docs/guide/polygons.md describes the format",
                       "expected %s", expected);
 }
 
-tl_result tl_line_missing(const tl_contour_reader *reader, tl_io_error *error, const char *expected)
+tl_result tl_line_missing(const tl_text_reader *reader, tl_io_error *error, const char *expected)
 {
     return tl_io_fail(error, TL_ERR_TRUNCATED, reader->path, reader->line, "the file is cut off; write it again",
                       "the text ends where %s should follow", expected);

@@ -5,7 +5,21 @@
 #ifndef TALUS_IO_LINE_WORDS_H
 #define TALUS_IO_LINE_WORDS_H
 
-#include "io/text/contour_text.h"
+#include "io/files/io_error.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The place of a reader in its text. Begin zeroed, with bytes, size, path and allocator set.
+typedef struct tl_text_reader {
+    const char *bytes;
+    size_t size;
+    const char *path;              ///< for error messages; may be NULL
+    const tl_allocator *allocator; ///< NULL: malloc
+    size_t offset;
+    uint64_t line; ///< lines read so far
+} tl_text_reader;
 
 /// One line: what is left of it.
 typedef struct tl_line {
@@ -13,8 +27,11 @@ typedef struct tl_line {
     const char *end;
 } tl_line;
 
+/// Whether only blank lines are left.
+bool tl_text_reader_at_end(tl_text_reader *reader);
+
 /// Moves to the next line that is not blank. False: there is none.
-bool tl_next_line(tl_contour_reader *reader, tl_line *line_out);
+bool tl_next_line(tl_text_reader *reader, tl_line *line_out);
 
 /// The next word of the line, [*begin, *end). False: none is left.
 bool tl_next_word(tl_line *line, const char **begin, const char **end);
@@ -32,9 +49,13 @@ bool tl_line_is_done(const tl_line *line);
 /// The rest of the line without blanks at its ends, cut at `capacity` - 1 bytes.
 void tl_take_rest(tl_line *line, char *text, size_t capacity);
 
-/// Reads "WORD VALUE" lines' failure: "expected ..." at the reader's line.
-tl_result tl_line_fail(const tl_contour_reader *reader, tl_io_error *error, const char *expected);
+/// TL_ERR_FORMAT, told as "expected ..." at the line that was read last.
+tl_result tl_line_fail(const tl_text_reader *reader, tl_io_error *error, const char *expected);
 /// The text ends too early.
-tl_result tl_line_missing(const tl_contour_reader *reader, tl_io_error *error, const char *expected);
+tl_result tl_line_missing(const tl_text_reader *reader, tl_io_error *error, const char *expected);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

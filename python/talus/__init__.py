@@ -10,6 +10,7 @@ Takes a level's loose triangles as numpy arrays, in metres with y up.
 """
 
 from . import _talus
+from ._poses import poses
 from .characters import CHARACTER, CHARACTER_HIT, Characters, Moves
 from .crowd import AgentStates, Crowd, CrowdReport, GroupState
 from .decomposition import Decomposition, decompose
@@ -58,7 +59,6 @@ from .shapes import (
     cylinder,
     distance,
     penetration,
-    poses,
     sphere,
     triangle,
 )

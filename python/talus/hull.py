@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _talus
 from ._arrays import ArrayLike, Floats, Progress, points as as_points, triple
+from ._poses import pose_array
 
 _PLANE = np.dtype([("normal", "f8", 3), ("offset", "f8")])
 _MASS = np.dtype([("volume", "f8"), ("area", "f8"), ("center", "f8", 3), ("inertia", "f8", 6)])
@@ -148,8 +149,6 @@ class Hull:
 
     def transform(self, pose: ArrayLike | None = None, *, scale: ArrayLike = (1, 1, 1)) -> Hull:
         """A copy, scaled along its own axes, then turned and moved by a pose (see `talus.poses`)."""
-        from .shapes import pose_array
-
         at = pose_array(pose)
         if len(at) != 1:
             raise ValueError("a hull is transformed by one pose")

@@ -12,7 +12,8 @@ import numpy as np
 
 from . import _talus
 from ._arrays import ArrayLike, Floats, triple
-from .shapes import Shape, pose_array
+from ._poses import pose_array
+from .shapes import Shape
 
 WALKABLE_AREA = 63
 """The area of floors that were given none."""

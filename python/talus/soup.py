@@ -26,7 +26,8 @@ from ._arrays import (
     thread_count,
     triple,
 )
-from .shapes import Shape, pose_array
+from ._poses import pose_array
+from .shapes import Shape
 
 _HIT = np.dtype(
     [("t", "f4"), ("triangle", "u4"), ("u", "f4"), ("v", "f4"), ("normal", "f4", 3), ("material", "u2"), ("back", "?")],

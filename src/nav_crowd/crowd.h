@@ -201,6 +201,13 @@ typedef struct crowd_snapshot {
     float max_radius;
 } crowd_snapshot;
 
+/// One who is near another.
+typedef struct crowd_neighbor {
+    float gap;         ///< metres between the two rims in the plane; < 0: they overlap
+    uint32_t agent;    ///< its place, by which ties are broken
+    uint32_t snapshot; ///< where it stands there
+} crowd_neighbor;
+
 #define CROWD_SEEN_FIXED   1u ///< others do all of the evading
 #define CROWD_SEEN_STILL   2u ///< it has arrived, or has nowhere to go
 #define CROWD_SEEN_YIELDS  4u

@@ -14,8 +14,8 @@
 #include "base/hash.h"
 #include "base/lowest_bit.h"
 #include "base/min_max.h"
-#include "nav_crowd/crowd_kernels.h"
 #include "nav_crowd/crowd_neighbors.h"
+#include "nav_crowd/crowd_right_of_way.h"
 
 #include <string.h>
 

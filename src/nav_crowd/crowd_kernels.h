@@ -8,7 +8,7 @@
 #define TALUS_SRC_NAV_CROWD_CROWD_KERNELS_H
 
 #include "base/cpu.h"
-#include "nav_crowd/crowd_neighbors.h"
+#include "nav_crowd/crowd.h"
 #include "nav_crowd/half_plane_program.h"
 
 enum {
@@ -119,10 +119,5 @@ static inline const crowd_kernels *tl_crowd_best_kernels(void)
     return &tl_crowd_kernels_scalar;
 #endif
 }
-
-/// Keeps to the right of those who come the other way, lets them pass where neither gets on, and settles an agent that
-/// stands before others with its goal (crowd_right_of_way.c): changes what it wants. The neighbours are those that it
-/// sees.
-void tl_crowd_give_way(const crowd_step *step, uint32_t k, const crowd_neighbor *neighbors, const crowd_view *view);
 
 #endif

@@ -9,12 +9,6 @@
 
 #include <math.h>
 
-typedef struct crowd_neighbor {
-    float gap;         ///< metres between the two rims in the plane; < 0: they overlap
-    uint32_t agent;    ///< its place, by which ties are broken
-    uint32_t snapshot; ///< where it stands there
-} crowd_neighbor;
-
 /// Where a coordinate is in a grid.
 typedef struct crowd_cell_place {
     int32_t cell; ///< cells beyond 2^30 fall together with others

@@ -14,9 +14,11 @@
 // behind follow those in front. Directions that took turns by the clock alone were slower by half: each turn cut off a
 // flow that moved.
 
+#include "nav_crowd/crowd_right_of_way.h"
+
 #include "base/lowest_bit.h"
 #include "base/min_max.h"
-#include "nav_crowd/crowd_kernels.h"
+#include "nav_crowd/crowd_neighbors.h"
 
 // Two directions are against one another when their cosine is below this.
 #define AGAINST_COSINE (-0.3f)

@@ -4,7 +4,7 @@
 
 #include "talus_test.h"
 
-#include "hull/bake/quickhull.h"
+#include "hull/bake/hull_polygons.h"
 #include "hull/support/hull_support.h"
 #include "hull_shapes.h"
 

@@ -30,9 +30,9 @@ static tl_result into_buffer(const char *bytes, size_t size, void *user)
     return TL_OK;
 }
 
-static tl_contour_reader reader_of(const char *bytes, size_t size)
+static tl_text_reader reader_of(const char *bytes, size_t size)
 {
-    tl_contour_reader reader = { bytes, size, "set.txt", NULL, 0, 0 };
+    tl_text_reader reader = { bytes, size, "set.txt", NULL, 0, 0 };
     return reader;
 }
 
@@ -59,11 +59,11 @@ static const char two_contours[] = "navcontours 1\n"
 static void reads_what_the_text_says(void **state)
 {
     (void)state;
-    tl_contour_reader reader = reader_of(two_contours, sizeof two_contours - 1);
+    tl_text_reader reader = reader_of(two_contours, sizeof two_contours - 1);
     tl_contour_text text;
-    TEST_CHECK(!tl_contour_reader_at_end(&reader));
+    TEST_CHECK(!tl_text_reader_at_end(&reader));
     TEST_RESULT(tl_contour_text_read(&reader, &text, NULL), TL_OK);
-    TEST_CHECK(tl_contour_reader_at_end(&reader));
+    TEST_CHECK(tl_text_reader_at_end(&reader));
     TEST_CHECK(strcmp(text.name, "a level of two") == 0 && text.max_verts_per_poly == 6);
     TEST_CHECK(text.set.cell_size == 0.3f && text.set.cell_height == 0.2f && text.set.max_error == 1.3f);
     TEST_CHECK(text.set.bounds.min.x == -1.5f && text.set.bounds.min.z == 1e-3f && text.set.bounds.max.z == 30.0f);
@@ -82,9 +82,9 @@ static void sets_follow_one_another(void **state)
     char both[2 * sizeof two_contours];
     memcpy(both, two_contours, sizeof two_contours - 1);
     memcpy(both + sizeof two_contours - 1, two_contours, sizeof two_contours - 1);
-    tl_contour_reader reader = reader_of(both, 2 * (sizeof two_contours - 1));
+    tl_text_reader reader = reader_of(both, 2 * (sizeof two_contours - 1));
     uint32_t sets = 0;
-    for (; !tl_contour_reader_at_end(&reader); sets++) {
+    for (; !tl_text_reader_at_end(&reader); sets++) {
         tl_contour_text text;
         TEST_RESULT(tl_contour_text_read(&reader, &text, NULL), TL_OK);
         TEST_CHECK(text.set.contour_count == 2 && text.set.vertex_count == 3);
@@ -108,7 +108,7 @@ static void meshes_come_back_as_written(void **state)
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, NULL), TL_OK);
     first.size = second.size = first.limit = second.limit = 0;
     TEST_RESULT(tl_polygon_text_write(&mesh, "a\nb", "talus", 3, 12.5, into_buffer, &first), TL_OK);
-    tl_contour_reader reader = reader_of(first.bytes, first.size);
+    tl_text_reader reader = reader_of(first.bytes, first.size);
     polygon_text text;
     TEST_RESULT(polygon_text_read(&reader, &text, NULL), TL_OK);
     TEST_CHECK(strcmp(text.name, "a b") == 0 && strcmp(text.producer, "talus") == 0 && text.ok);
@@ -150,7 +150,7 @@ static void every_prefix_is_refused(void **state)
         for (size_t size = 0; size + 1 < sizes[kind]; size++) {
             char *copy = malloc(size + 1);
             memcpy(copy, texts[kind], size);
-            tl_contour_reader reader = reader_of(copy, size);
+            tl_text_reader reader = reader_of(copy, size);
             tl_io_error error;
             memset(&error, 0, sizeof error);
             tl_contour_text contours;
@@ -167,7 +167,7 @@ static void every_prefix_is_refused(void **state)
 
 static void expect_error(const char *text, bool polygons, tl_result expected, uint64_t line)
 {
-    tl_contour_reader reader = reader_of(text, strlen(text));
+    tl_text_reader reader = reader_of(text, strlen(text));
     tl_io_error error;
     memset(&error, 0, sizeof error);
     tl_contour_text contours;
@@ -218,8 +218,8 @@ static void every_allocation_may_fail(void **state)
         for (; result == TL_ERR_MEMORY; fail_at++) {
             test_allocator allocator;
             test_allocator_init(&allocator, fail_at);
-            tl_contour_reader reader = kind == 0 ? reader_of(two_contours, sizeof two_contours - 1)
-                                                 : reader_of(mesh_text, sizeof mesh_text - 1);
+            tl_text_reader reader = kind == 0 ? reader_of(two_contours, sizeof two_contours - 1)
+                                              : reader_of(mesh_text, sizeof mesh_text - 1);
             reader.allocator = &allocator.allocator;
             if (kind == 0) {
                 tl_contour_text text;

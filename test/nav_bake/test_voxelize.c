@@ -6,7 +6,7 @@
 // smaller than the cell and once to one a little larger: what lies in the smaller one must be covered, what misses the
 // larger one must not be, and the heights lie between theirs. "A little" is the documented displacement, 2^-10.
 
-#include "nav_bake/voxels/triangle_block.h"
+#include "nav_bake/voxels/voxelize.h"
 
 #include "nav_fields.h"
 

@@ -150,7 +150,7 @@ static void compare_with_plain(const tl_contour_set *set, tl_polygon_def def, ro
     tl_polygon_mesh_free(&mesh);
 }
 
-static void compare_set(const tl_contour_text *text, tl_contour_reader *recast_reader, row *r)
+static void compare_set(const tl_contour_text *text, tl_text_reader *recast_reader, row *r)
 {
     tl_polygon_def def = tl_default_polygon_def();
     def.max_verts_per_poly = text->max_verts_per_poly;
@@ -192,9 +192,9 @@ static void compare_file(const char *name, row *sum)
     memset(&recast_file, 0, sizeof recast_file);
     TEST_RESULT(tl_file_map_open(path, 0, &contours_file, NULL), TL_OK);
     r.has_recast = tl_file_map_open(beside, 0, &recast_file, NULL) == TL_OK;
-    tl_contour_reader reader = { contours_file.bytes, contours_file.size, path, NULL, 0, 0 };
-    tl_contour_reader recast_reader = { recast_file.bytes, recast_file.size, beside, NULL, 0, 0 };
-    while (!tl_contour_reader_at_end(&reader)) {
+    tl_text_reader reader = { contours_file.bytes, contours_file.size, path, NULL, 0, 0 };
+    tl_text_reader recast_reader = { recast_file.bytes, recast_file.size, beside, NULL, 0, 0 };
+    while (!tl_text_reader_at_end(&reader)) {
         tl_contour_text text;
         TEST_RESULT(tl_contour_text_read(&reader, &text, NULL), TL_OK);
         compare_set(&text, &recast_reader, &r);

@@ -33,7 +33,7 @@ typedef struct polygon_text {
 
 // What grows with the lines, before the mesh's block can be made.
 typedef struct polygon_text_parse {
-    tl_contour_reader *reader;
+    tl_text_reader *reader;
     tl_io_error *error;
     polygon_text *text;
     tl_allocator allocator;
@@ -244,7 +244,7 @@ static inline tl_result read_polygon_mesh(polygon_text_parse *p)
     return assemble_polygon_text(p);
 }
 
-static inline tl_result polygon_text_read(tl_contour_reader *reader, polygon_text *text_out, tl_io_error *error_out)
+static inline tl_result polygon_text_read(tl_text_reader *reader, polygon_text *text_out, tl_io_error *error_out)
 {
     memset(text_out, 0, sizeof *text_out);
     polygon_text_parse p;

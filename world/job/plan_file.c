@@ -27,7 +27,7 @@ static void list_floats(tl_nav_def *def, float *fields[GRID_FLOATS])
     memcpy(fields, all, sizeof all);
 }
 
-void tl_world_grid_encode(const tl_world_grid *grid, unsigned char bytes_out[TL_WORLD_GRID_BYTES])
+static void encode_grid(const tl_world_grid *grid, unsigned char bytes_out[TL_WORLD_GRID_BYTES])
 {
     tl_nav_def def = grid->def;
     float *fields[GRID_FLOATS];
@@ -53,6 +53,20 @@ void tl_world_grid_encode(const tl_world_grid *grid, unsigned char bytes_out[TL_
     tl_put_u32(bytes_out + 120, def.tile_size);
     tl_put_u32(bytes_out + 124, (def.filter_low_hanging_obstacles ? 1u : 0u) | (def.filter_ledge_spans ? 2u : 0u) |
                                     (def.filter_walkable_low_height_spans ? 4u : 0u));
+}
+
+tl_content_hash tl_world_grid_hash(const tl_world_grid *grid)
+{
+    unsigned char bytes[TL_WORLD_GRID_BYTES + 64];
+    memset(bytes, 0, sizeof bytes);
+    encode_grid(grid, bytes);
+    tl_put_u32(bytes + TL_WORLD_GRID_BYTES, TL_WORLD_STORE_VERSION);
+    tl_put_u32(bytes + TL_WORLD_GRID_BYTES + 4, TL_WORLD_PLAN_VERSION);
+    tl_put_u32(bytes + TL_WORLD_GRID_BYTES + 8, TL_NAV_TILE_VERSION);
+    const char *version = tl_version();
+    const size_t length = strlen(version);
+    memcpy(bytes + TL_WORLD_GRID_BYTES + 12, version, length < 48 ? length : 48);
+    return tl_content_hash_of(bytes, sizeof bytes);
 }
 
 static tl_result decode_grid(const unsigned char *bytes, tl_world_grid *grid, tl_report *report)
@@ -127,7 +141,7 @@ static void encode_plan(const tl_world_plan *plan, unsigned char *bytes, size_t 
     memcpy(bytes, TL_WORLD_PLAN_MAGIC, 8);
     tl_put_u32(bytes + 8, TL_WORLD_PLAN_VERSION);
     tl_put_u64(bytes + 16, size);
-    tl_world_grid_encode(&plan->grid, bytes + PLAN_HEAD);
+    encode_grid(&plan->grid, bytes + PLAN_HEAD);
     unsigned char *at = bytes + PLAN_HEAD + TL_WORLD_GRID_BYTES;
     tl_put_u64(at, plan->vertices);
     tl_put_u64(at + 8, plan->triangles);

@@ -39,7 +39,8 @@ typedef struct tl_world_plan {
     uint64_t tile_count;
 } tl_world_plan;
 
-void tl_world_grid_encode(const tl_world_grid *grid, unsigned char bytes_out[TL_WORLD_GRID_BYTES]);
+/// A name of all that a tile's bytes depend on, but its triangles.
+tl_content_hash tl_world_grid_hash(const tl_world_grid *grid);
 
 tl_result tl_world_plan_write(const tl_world_plan *plan, const char *path, tl_io_error *error_out);
 /// Reads and checks a plan: all counts and places in it hold. Errors: TL_ERR_IO, TL_ERR_MAGIC, TL_ERR_VERSION,

@@ -3,7 +3,6 @@
 #include "world/job/tile_grid.h"
 
 #include "world/bytes/little_endian.h"
-#include "world/job/plan_file.h"
 
 #include <math.h>
 #include <string.h>
@@ -73,18 +72,4 @@ bool tl_world_grid_tiles_of_record(const tl_world_grid *grid, const double cell_
         high[i] = cell_origin[2 * i] + (double)tl_maxf(a, tl_maxf(b, c));
     }
     return tl_world_grid_tiles(grid, low, high, range_out);
-}
-
-tl_content_hash tl_world_grid_hash(const tl_world_grid *grid)
-{
-    unsigned char bytes[TL_WORLD_GRID_BYTES + 64];
-    memset(bytes, 0, sizeof bytes);
-    tl_world_grid_encode(grid, bytes);
-    tl_put_u32(bytes + TL_WORLD_GRID_BYTES, TL_WORLD_STORE_VERSION);
-    tl_put_u32(bytes + TL_WORLD_GRID_BYTES + 4, TL_WORLD_PLAN_VERSION);
-    tl_put_u32(bytes + TL_WORLD_GRID_BYTES + 8, TL_NAV_TILE_VERSION);
-    const char *version = tl_version();
-    const size_t length = strlen(version);
-    memcpy(bytes + TL_WORLD_GRID_BYTES + 12, version, length < 48 ? length : 48);
-    return tl_content_hash_of(bytes, sizeof bytes);
 }

@@ -35,7 +35,4 @@ bool tl_world_grid_tiles_of_cell(const tl_world_grid *grid, const tl_world_segme
 bool tl_world_grid_tiles_of_record(const tl_world_grid *grid, const double cell_origin[3], const unsigned char *record,
                                    tl_nav_tile_range *range_out);
 
-/// A name of all that a tile's bytes depend on, but its triangles.
-tl_content_hash tl_world_grid_hash(const tl_world_grid *grid);
-
 #endif

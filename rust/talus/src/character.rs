@@ -3,8 +3,7 @@ use std::ptr::{null, null_mut};
 
 use talus_sys as sys;
 
-use crate::shapes::vec3;
-use crate::soup::point_of;
+use crate::point::{point_of, vec3};
 use crate::{Error, Point, Soup};
 
 /// The shape of characters and what they can do. Lengths are metres.

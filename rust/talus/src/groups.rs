@@ -3,7 +3,7 @@ use std::ptr::null;
 
 use talus_sys as sys;
 
-use crate::soup::point_of;
+use crate::point::point_of;
 use crate::{Agent, Crowd, Error, Point};
 
 /// How the others stand about their leader.

@@ -11,6 +11,7 @@ mod level;
 mod memory;
 mod navmesh;
 mod obstacles;
+mod point;
 mod shapes;
 mod soup;
 mod tasks;

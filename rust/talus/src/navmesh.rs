@@ -7,8 +7,8 @@ use std::sync::Arc;
 use talus_sys as sys;
 
 use crate::memory::FileBytes;
-use crate::shapes::vec3;
-use crate::soup::{point_of, view};
+use crate::point::{point_of, vec3};
+use crate::soup::view;
 use crate::versions::HeldVersions;
 use crate::{Error, Point};
 

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use talus_sys as sys;
 
-use crate::shapes::{vec3, Hull, Pose, Shape};
+use crate::point::vec3;
+use crate::shapes::{Hull, Pose, Shape};
 use crate::soup::view;
 use crate::{Draft, Error, Navmesh, NavmeshSettings, Point};
 

@@ -5,12 +5,8 @@ use std::ptr::null_mut;
 use talus_sys as sys;
 
 use crate::memory::Blob;
-use crate::soup::point_of;
+use crate::point::{point_of, vec3};
 use crate::{Error, Point};
-
-pub(crate) fn vec3(p: Point) -> sys::tl_vec3 {
-    sys::tl_vec3 { x: p[0], y: p[1], z: p[2] }
-}
 
 /// How a hull is baked. The default is the exact hull of all points.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use std::ptr::null;
 use talus_sys as sys;
 
 use crate::memory::Blob;
-use crate::shapes::vec3;
+use crate::point::{point_of, vec3};
 use crate::{Error, Point, Pose, Shape};
 
 /// Which sides of triangles a ray ignores.
@@ -301,10 +301,6 @@ impl Soup {
         // SAFETY: the soup is whole.
         unsafe { sys::tl_soup_size(self.blob.get()) }
     }
-}
-
-pub(crate) fn point_of(v: sys::tl_vec3) -> Point {
-    [v.x, v.y, v.z]
 }
 
 fn ray_hit(hit: &sys::tl_ray_hit) -> RayHit {

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use talus_sys as sys;
 
-use crate::shapes::vec3;
+use crate::point::vec3;
 use crate::{Error, Navmesh, Point};
 
 /// An off-mesh link: a connection that crosses no polygon. A jump, a drop, a ladder, a door, a lift.

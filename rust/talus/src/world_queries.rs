@@ -5,7 +5,7 @@ use std::sync::Arc;
 use talus_sys as sys;
 
 use crate::navmesh::Search;
-use crate::shapes::vec3;
+use crate::point::vec3;
 use crate::world::HeldWorld;
 use crate::{Error, World, WorldPoint};
 

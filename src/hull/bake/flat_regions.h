@@ -6,7 +6,7 @@
 #ifndef TALUS_SRC_HULL_FLAT_REGIONS_H
 #define TALUS_SRC_HULL_FLAT_REGIONS_H
 
-#include "hull/bake/quickhull.h"
+#include "hull/bake/hull_polygons.h"
 
 // For an exact hull, whose vertex v is points[fine->points[v]]: sets `spare` [vertex_count] for vertices that lie
 // inside a region, or in the middle of a nearly straight border between two, and so could be left out. TL_ERR_MEMORY,

@@ -5,7 +5,7 @@
 // Polyhedral Mass Properties (Revisited), 2002; here in the form of tetrahedra.
 
 #include "base/assert.h"
-#include "hull/bake/quickhull.h"
+#include "hull/bake/hull_polygons.h"
 #include "hull/support/hull_support.h"
 
 #include <string.h>

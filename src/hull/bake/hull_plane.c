@@ -2,7 +2,7 @@
 //
 // The plane of a face: bake and check fit it by the same steps, so that the check can compare bits.
 
-#include "hull/bake/quickhull.h"
+#include "hull/bake/hull_polygons.h"
 #include "math/predicates.h"
 #include "math/tolerance.h"
 #include "math/vec3d.h"

@@ -12,6 +12,7 @@
 #include "hull/bake/flat_regions.h"
 
 #include "base/assert.h"
+#include "hull/bake/quickhull.h"
 #include "math/point_grid.h"
 
 #include <string.h>

@@ -8,14 +8,9 @@
 #ifndef TALUS_SRC_HULL_QUICKHULL_H
 #define TALUS_SRC_HULL_QUICKHULL_H
 
-#include "base/arena.h"
-#include "base/stage.h"
+#include "hull/bake/hull_polygons.h"
 #include "hull/bake/side_plane.h"
 #include "math/vec3d.h"
-
-#include <talus/hull.h>
-
-#define TL_NONE UINT32_MAX
 
 // Half-edge k of triangle f is 4 * f + k and runs from vertex k to vertex (k + 1) % 3. What a step reads of a face is
 // one cache line; what it keeps for it lies beside, in tl_quickhull_conflicts.
@@ -86,18 +81,6 @@ typedef struct tl_quickhull {
     tl_quickhull_entry *heap;
     uint32_t heap_count, heap_capacity;
 } tl_quickhull;
-
-// The hull as polygons, in final numbering, before it is baked.
-typedef struct tl_hull_polygons {
-    uint32_t vertex_count, face_count, half_edge_count;
-    uint32_t *points; // [vertex_count] ascending
-    tl_hull_half_edge *half_edges;
-    tl_hull_face *faces;
-    // Of merged faces, else zero.
-    const struct tl_hull_polygons *exact; // what they were merged from, with the same vertices
-    uint32_t *plane_faces;                // [face_count] the exact face whose plane a face has
-    float merge_distance;                 // metres; a face's corners lie within this of its plane
-} tl_hull_polygons;
 
 static inline uint32_t tl_half_edge_face(uint32_t half_edge)
 {
@@ -191,37 +174,11 @@ tl_result tl_hull_bake_named(const tl_vec3 *points, uint32_t count, const tl_hul
 tl_result tl_hull_bake_merged(const tl_hull *corners, float distance, const tl_allocator *allocator,
                               tl_hull **hull_out);
 
-// hull_simplify.c: leaves out corners that the def's distances make superfluous. `polygons` are the exact hull, and
-// then that of the corners which stay; `max_outside` how far the others lie outside of it.
-tl_result tl_hull_simplify(const tl_vec3 *points, const tl_hull_def *def, tl_arena *arena, tl_hull_polygons *polygons,
-                           double *max_outside);
-
 // face_merge.c
 tl_result tl_quickhull_merge_faces(tl_quickhull *hull, tl_hull_polygons *polygons_out);
 
 // thicken.c: copies of the points moved to both sides along the directions that they lack.
 tl_result tl_quickhull_thicken(tl_quickhull *hull, const uint32_t seed[4], uint32_t rank, float thickness,
                                uint32_t *copies_out);
-
-// hull_mass.c: for density 1, from the vertices and loops.
-// TL_ERR_CANCELLED is the only error; a NULL stage is silent.
-tl_result tl_hull_measure_mass(const tl_hull *hull, tl_stage *stage, tl_hull_mass *mass_out);
-
-// hull_encode.c
-tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points, const tl_hull *named, uint32_t copies,
-                         tl_arena *arena, tl_stage *stage, tl_hull **hull_out);
-
-// hull_plane.c
-// The loop of a face: words that name its corners among the vertices, `stride` bytes from one to the next.
-typedef struct tl_hull_loop {
-    const tl_vec3 *vertices;
-    const char *words;
-    uint32_t word_bytes, stride, count;
-} tl_hull_loop;
-tl_hull_loop tl_hull_loop_of(const tl_hull *hull, uint32_t face);
-// The plane of a face, from its corners, which lie in it exactly.
-tl_hull_plane tl_hull_fit_plane(tl_hull_loop loop);
-// For TL_HULL_HAS_SIDES: whether a corner of some face, off the edge between, lies in a neighbour's plane.
-bool tl_hull_has_sides(const tl_hull *hull);
 
 #endif

@@ -14,7 +14,7 @@
 #include "nav_bake/input/level_mesh.h"
 #include "nav_bake/input/row_bins.h"
 #include "nav_bake/voxels/batches.h"
-#include "nav_bake/voxels/triangle_block.h"
+#include "nav_bake/voxels/voxelize.h"
 
 #include <string.h>
 

@@ -11,8 +11,9 @@
 #define TALUS_SRC_NAV_BAKE_TRIANGLE_BLOCK_H
 
 #include "base/cpu.h"
+#include "nav_bake/input/lattice_map.h"
 #include "nav_bake/input/triangle_bins.h"
-#include "nav_bake/voxels/voxelize.h"
+#include "nav_bake/voxels/voxel_band.h"
 
 enum { TL_TRIANGLE_BLOCK = 32 };
 
@@ -31,7 +32,7 @@ enum {
 };
 
 /// Triangles side by side; all lanes hold numbers.
-struct tl_triangle_block {
+typedef struct tl_triangle_block {
     float metres[3][3][TL_TRIANGLE_BLOCK];   ///< [axis][corner] as given
     double lattice[3][3][TL_TRIANGLE_BLOCK]; ///< [axis][corner] as tl_lattice_map_point has them
     int32_t slope[TL_TRIANGLE_BLOCK];
@@ -39,7 +40,7 @@ struct tl_triangle_block {
     int32_t first_z[TL_TRIANGLE_BLOCK], last_z[TL_TRIANGLE_BLOCK]; ///< rows, counted from the band's first
     int32_t min[TL_TRIANGLE_BLOCK], max[TL_TRIANGLE_BLOCK];        ///< voxels of its heights; none when max <= min
     int32_t place[TL_TRIANGLE_BLOCK];
-};
+} tl_triangle_block;
 
 /// The questions, compiled for a level of instructions.
 typedef struct tl_block_questions {

@@ -7,7 +7,8 @@
 #define TALUS_SRC_NAV_BAKE_VOXEL_WALK_H
 
 #include "base/min_max.h"
-#include "nav_bake/voxels/voxelize.h"
+#include "nav_bake/input/lattice_map.h"
+#include "nav_bake/voxels/voxel_band.h"
 
 #include <string.h>
 

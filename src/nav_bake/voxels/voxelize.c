@@ -17,10 +17,10 @@
 // 2^-10 of a cell. An edge is walked in an order that depends on its ends alone, so two triangles that share an edge
 // agree on it.
 
-#include "nav_bake/voxels/voxel_walk.h"
+#include "nav_bake/voxels/voxelize.h"
 
 #include "base/assert.h"
-#include "nav_bake/voxels/triangle_block.h"
+#include "nav_bake/voxels/voxel_walk.h"
 
 // Cells in line, first..last along it.
 typedef struct cell_line {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "cli/commands/decompose_files.h"
+#include "cli/shapes/decompose_files.h"
 
 #include "cli/draw/draw_picture.h"
 #include "cli/draw/draw_sheet.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "cli/level/shape_option.h"
+#include "cli/shapes/shape_option.h"
 
 #include "cli/level/load_level.h"
 #include "cli/options/parse_value.h"

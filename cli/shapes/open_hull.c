@@ -2,7 +2,7 @@
 //
 // How hull, support and distance open their input.
 
-#include "cli/level/open_hull.h"
+#include "cli/shapes/open_hull.h"
 
 #include <string.h>
 
