@@ -5,8 +5,17 @@
 // What a corner vertex sees through the edge by which its sight enters a polygon is a cone. So are the directions that
 // have both of its walls on the side of the turn, and the intersection of both is a cone again: two cross products tell
 // whether a point lies in it. That leaves few corner vertices for a point; many more see the polygon as a whole.
-// Adjacent cones of a vertex are joined. A cone is kept as two half planes, a little too wide by rounding: a leg is
-// walked along before a path takes it. They stand array by array, so that a compiler tests several at once.
+// Adjacent cones of a vertex are joined. They stand array by array, so that a compiler tests several at once.
+//
+// A cone is kept as two directions of whole steps from its corner vertex v, 12 bytes with what follows, since a city
+// has a million: a direction D, whose larger component is M metres, becomes s D with s = TL_NAV_CONE_STEPS / M, rounded
+// by half a step in each component. D itself is off by up to 4 r, r the rounding of coordinates, in each component and
+// in where its line begins. So a point v + d that lies left of D has
+//
+//   cross(kept, d) >= -(e |d| + 4 r |kept|),  e = 1/2 + 4 r s and what floats round,
+//
+// with sums of absolute components as lengths. e is kept rounded up, in a code of 8 bits. A cone is a little too wide
+// by that, and never too narrow: a leg is walked along before a path takes it.
 // Source: Shen, Cheema, Harabor, Stuckey, Euclidean Pathfinding with Compressed Path Databases, IJCAI 2020, for paths
 // from the corner vertices that both ends see.
 
@@ -115,61 +124,86 @@ static uint32_t join_cones(tl_nav_corner_cone *cones, uint32_t count)
     return kept;
 }
 
-// Where the half plane left of a direction from a corner vertex begins, for points no farther from it than `size`.
-static float plane_min(const tl_nav_corner_vertex *vertex, double x, double z, double size, double rounding)
+// Half a step, and the roundings of dot products of floats, 2^-22 of 32767 steps.
+#define CONE_LEAST_SLACK 0.51
+
+// A slack is (1 + (code % 8) / 8) 2^(code / 8 - 1): the high bits of a float.
+enum { SLACK_SHIFT = 20, SLACK_LOWEST = 126 << 23, SLACK_CODE_SHIFT = 24, SLACK_LAST = 255 };
+
+// The code of a slack that is no smaller than `slack` >= 0.5; SLACK_LAST may be smaller.
+static uint32_t slack_code(double slack)
 {
-    double at_vertex = x * (double)vertex->z - z * (double)vertex->x;
-    return (float)(at_vertex - 4.0 * rounding * (fabs(x) + fabs(z) + size));
+    const float value = (float)tl_min_f64(slack * (1.0 + 1e-6), 1e9);
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return tl_min_u32((bits - SLACK_LOWEST + (1u << SLACK_SHIFT) - 1) >> SLACK_SHIFT, SLACK_LAST);
 }
 
-static void write_cone(const tl_navmesh *navmesh, const tl_nav_visibility_graph *graph, const tl_nav_corner_cone *cone,
-                       uint32_t at)
+// Steps a metre of a direction; 0 where it has no length, or so little that it leads anywhere.
+static double steps_a_metre(float x, float z, double rounding)
 {
-    const tl_nav_corner_cones *cones = &graph->cones;
-    const tl_nav_corner_vertex *vertex = &graph->vertices[cone->vertex];
-    const tl_nav_ring ring = tl_nav_ring_at(navmesh, cone->slot, cone->polygon);
-    double size = 0.0;
+    const double largest = tl_max_f64(fabs((double)x), fabs((double)z));
+    return largest > rounding ? TL_NAV_CONE_STEPS / largest : 0.0;
+}
+
+static int16_t whole_steps(double steps)
+{
+    return (int16_t)lrint(steps);
+}
+
+// The rounding of coordinates in a polygon.
+static double polygon_rounding(const tl_navmesh *navmesh, const tl_nav_visibility_graph *graph, uint32_t slot,
+                               uint32_t polygon)
+{
+    const tl_nav_ring ring = tl_nav_ring_at(navmesh, slot, polygon);
     double largest = 0.0;
     for (uint32_t i = 0; i < ring.count; i++) {
-        double x = (double)ring.points[i].x;
-        double z = (double)ring.points[i].z;
-        size = tl_max_f64(size, fabs(x - (double)vertex->x) + fabs(z - (double)vertex->z));
-        largest = tl_max_f64(largest, tl_max_f64(fabs(x), fabs(z)));
+        const tl_vec3 corner = ring.points[i];
+        largest = tl_max_f64(largest, tl_max_f64(fabs((double)corner.x), fabs((double)corner.z)));
     }
-    double rounding = fmax(graph->rounding, TL_NAV_ON_LINE * largest);
-    cones->left_x[at] = cone->left_x;
-    cones->left_z[at] = cone->left_z;
-    cones->left_min[at] = plane_min(vertex, (double)cone->left_x, (double)cone->left_z, size, rounding);
-    cones->right_x[at] = -cone->right_x;
-    cones->right_z[at] = -cone->right_z;
-    cones->right_min[at] = plane_min(vertex, -(double)cone->right_x, -(double)cone->right_z, size, rounding);
-    cones->vertex[at] = cone->vertex;
+    return tl_max_f64(graph->rounding, TL_NAV_ON_LINE * largest);
+}
+
+static void write_cone(const tl_navmesh *navmesh, tl_nav_visibility_graph *graph, const tl_nav_corner_cone *cone,
+                       uint32_t at)
+{
+    tl_nav_corner_cones *cones = &graph->cones;
+    const double rounding = polygon_rounding(navmesh, graph, cone->slot, cone->polygon);
+    const double left = steps_a_metre(cone->left_x, cone->left_z, rounding);
+    const double right = steps_a_metre(cone->right_x, cone->right_z, rounding);
+    cones->left_x[at] = whole_steps((double)cone->left_x * left);
+    cones->left_z[at] = whole_steps((double)cone->left_z * left);
+    cones->right_x[at] = whole_steps(-(double)cone->right_x * right);
+    cones->right_z[at] = whole_steps(-(double)cone->right_z * right);
+    const uint32_t slack = slack_code(CONE_LEAST_SLACK + 4.0 * rounding * tl_max_f64(left, right));
+    cones->vertex[at] = cone->vertex | slack << SLACK_CODE_SHIFT;
+    cones->rounding = tl_max_f64(cones->rounding, rounding);
 }
 
 // Room for `capacity` cones.
 static bool allocate_cones(const tl_allocator *allocator, tl_nav_corner_cones *cones, uint32_t capacity)
 {
-    const uint64_t places = (uint64_t)capacity + TL_NAV_CONES_AT_ONCE;
-    cones->size = 7 * places;
-    cones->block = tl_allocate_array(allocator, cones->size, sizeof *cones->block);
+    // An even number, so that each array of halves is whole words.
+    cones->places = ((uint64_t)capacity + TL_NAV_CONES_AT_ONCE + 1) & ~(uint64_t)1;
+    cones->block = tl_allocate_array(allocator, 3 * cones->places, sizeof *cones->block);
     if (cones->block == NULL) {
         return false;
     }
-    float **arrays[6] = { &cones->left_x,  &cones->left_z,  &cones->left_min,
-                          &cones->right_x, &cones->right_z, &cones->right_min };
-    for (uint32_t i = 0; i < 6; i++) {
-        *arrays[i] = cones->block + i * places;
+    cones->vertex = cones->block;
+    int16_t **arrays[4] = { &cones->left_x, &cones->left_z, &cones->right_x, &cones->right_z };
+    for (uint32_t i = 0; i < 4; i++) {
+        *arrays[i] = (int16_t *)(void *)(cones->block + cones->places) + i * cones->places;
     }
-    cones->vertex = (uint32_t *)(void *)(cones->block + 6 * places);
     return true;
 }
 
 // What is read behind the last cone, with it.
 static void clear_behind_cones(const tl_nav_corner_cones *cones)
 {
-    for (uint32_t i = 0; i < 7; i++) {
-        float *end = cones->block + i * (cones->size / 7) + cones->count;
-        memset(end, 0, TL_NAV_CONES_AT_ONCE * sizeof *end);
+    memset(cones->vertex + cones->count, 0, TL_NAV_CONES_AT_ONCE * sizeof *cones->vertex);
+    int16_t *const arrays[4] = { cones->left_x, cones->left_z, cones->right_x, cones->right_z };
+    for (uint32_t i = 0; i < 4; i++) {
+        memset(arrays[i] + cones->count, 0, TL_NAV_CONES_AT_ONCE * sizeof *arrays[i]);
     }
 }
 
@@ -210,13 +244,11 @@ static const uint32_t *old_cones(const tl_navmesh *navmesh, const tl_nav_graph_r
 static void copy_run(const tl_nav_corner_cones *from, uint32_t first, uint32_t count, const tl_nav_corner_cones *to,
                      uint32_t at)
 {
-    const size_t bytes = count * sizeof *from->block;
+    const size_t bytes = count * sizeof *from->left_x;
     memcpy(to->left_x + at, from->left_x + first, bytes);
     memcpy(to->left_z + at, from->left_z + first, bytes);
-    memcpy(to->left_min + at, from->left_min + first, bytes);
     memcpy(to->right_x + at, from->right_x + first, bytes);
     memcpy(to->right_z + at, from->right_z + first, bytes);
-    memcpy(to->right_min + at, from->right_min + first, bytes);
 }
 
 // Copies the cones of a polygon that are reused to the graph's from `at` on: all that follow one another at once.
@@ -228,9 +260,9 @@ static uint32_t copy_cones(const tl_nav_graph_reuse *reuse, const uint32_t *rang
     uint32_t count = 0;
     for (uint32_t i = range[0]; i < range[1]; i++) {
         const uint32_t begin = i;
-        while (i < range[1] && reuse->now[from->vertex[i]] != TL_NAV_NO_VERTEX) {
-            to->vertex[at + count + (i - begin)] = reuse->now[from->vertex[i]];
-            i++;
+        for (; i < range[1] && reuse->now[tl_nav_cone_vertex(from, i)] != TL_NAV_NO_VERTEX; i++) {
+            const uint32_t slack = from->vertex[i] & ~(TL_NAV_MAX_CORNER_VERTICES - 1);
+            to->vertex[at + count + (i - begin)] = reuse->now[tl_nav_cone_vertex(from, i)] | slack;
         }
         copy_run(from, begin, i - begin, to, at + count);
         count += i - begin;
@@ -263,6 +295,7 @@ static uint32_t lay_polygon(const cone_layout *l, uint32_t slot, uint32_t polygo
 static tl_result lay_cones(const cone_layout *l)
 {
     tl_nav_corner_cones *cones = &l->graph->cones;
+    cones->rounding = tl_max_f64(l->graph->rounding, l->reuse->old != NULL ? l->reuse->old->cones.rounding : 0.0);
     uint32_t p = 0;
     for (uint32_t slot = 0; slot < l->graph->slot_count; slot++) {
         const tl_nav_slot *in = &l->navmesh->slots[slot];
@@ -285,7 +318,7 @@ static uint32_t count_reused(const tl_navmesh *navmesh, const tl_nav_graph_reuse
         const uint32_t *first = old_cones(navmesh, reuse, slot, 0);
         const uint32_t end = first != NULL ? first[navmesh->slots[slot].rings.polygon_count] : 0;
         for (uint32_t i = first != NULL ? first[0] : 0; i < end; i++) {
-            count += reuse->now[reuse->old->cones.vertex[i]] != TL_NAV_NO_VERTEX ? 1 : 0;
+            count += reuse->now[tl_nav_cone_vertex(&reuse->old->cones, i)] != TL_NAV_NO_VERTEX ? 1 : 0;
         }
     }
     return count;
@@ -296,7 +329,7 @@ tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, 
 {
     tl_nav_corner_cones *cones = &graph->cones;
     const uint32_t reused = count_reused(navmesh, reuse);
-    if (list->count + reused > UINT32_MAX - TL_NAV_CONES_AT_ONCE) {
+    if (list->count + reused > UINT32_MAX - TL_NAV_CONES_AT_ONCE || graph->vertex_count > TL_NAV_MAX_CORNER_VERTICES) {
         return TL_ERR_LIMIT;
     }
     const uint64_t places = (uint64_t)graph->polygon_count + 1;
@@ -320,7 +353,7 @@ tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, 
 void tl_nav_free_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph)
 {
     tl_release_array(allocator, graph->cones.first, (uint64_t)graph->polygon_count + 1, sizeof *graph->cones.first);
-    tl_release_array(allocator, graph->cones.block, graph->cones.size, sizeof *graph->cones.block);
+    tl_release_array(allocator, graph->cones.block, 3 * graph->cones.places, sizeof *graph->cones.block);
 }
 
 // A point on a polygon.
@@ -336,6 +369,40 @@ static float leg_length(float x, float z, const tl_nav_corner_vertex *vertex)
     return sqrtf(to_x * to_x + to_z * to_z);
 }
 
+// Which of the cones from `base` on a point is in. Simple loops, which compilers make wide.
+static void test_cones(const tl_nav_visibility_graph *graph, uint32_t base, float x, float z,
+                       uint32_t is_in[TL_NAV_CONES_AT_ONCE])
+{
+    enum { N = TL_NAV_CONES_AT_ONCE };
+    const tl_nav_corner_cones *cones = &graph->cones;
+    const uint32_t *words = cones->vertex + base;
+    const int16_t *left_x = cones->left_x + base, *left_z = cones->left_z + base;
+    const int16_t *right_x = cones->right_x + base, *right_z = cones->right_z + base;
+    const float line = (float)(8.0 * TL_NAV_CONE_STEPS * cones->rounding);
+    float dx[N], dz[N], least[N], left[N], right[N];
+    for (uint32_t k = 0; k < N; k++) {
+        const tl_nav_corner_vertex *vertex = &graph->vertices[words[k] & (TL_NAV_MAX_CORNER_VERTICES - 1)];
+        dx[k] = x - vertex->x;
+        dz[k] = z - vertex->z;
+    }
+    for (uint32_t k = 0; k < N; k++) {
+        const union {
+            uint32_t bits;
+            float value;
+        } slack = { (words[k] >> SLACK_CODE_SHIFT << SLACK_SHIFT) + SLACK_LOWEST };
+        least[k] = -(slack.value * (fabsf(dx[k]) + fabsf(dz[k])) + line);
+    }
+    for (uint32_t k = 0; k < N; k++) {
+        left[k] = (float)left_x[k] * dz[k] - (float)left_z[k] * dx[k];
+    }
+    for (uint32_t k = 0; k < N; k++) {
+        right[k] = (float)right_x[k] * dz[k] - (float)right_z[k] * dx[k];
+    }
+    for (uint32_t k = 0; k < N; k++) {
+        is_in[k] = (left[k] >= least[k] ? 1u : 0u) & (right[k] >= least[k] ? 1u : 0u);
+    }
+}
+
 // The corner vertices in whose cones a point lies; `other` is the other end of the path. TL_NAV_NO_NODE: they are more
 // than capacity.
 static uint32_t vertices_in_cones(const tl_nav_visibility_graph *graph, const spot *at, tl_vec3 other,
@@ -348,16 +415,12 @@ static uint32_t vertices_in_cones(const tl_nav_visibility_graph *graph, const sp
     uint32_t count = 0;
     for (uint32_t base = first[0]; base < first[1]; base += TL_NAV_CONES_AT_ONCE) {
         uint32_t is_in[TL_NAV_CONES_AT_ONCE];
-        for (uint32_t k = 0; k < TL_NAV_CONES_AT_ONCE; k++) {
-            uint32_t i = base + k;
-            is_in[k] = (cones->left_x[i] * z - cones->left_z[i] * x >= cones->left_min[i] ? 1u : 0u) &
-                       (cones->right_x[i] * z - cones->right_z[i] * x >= cones->right_min[i] ? 1u : 0u);
-        }
-        if (capacity - count < TL_NAV_CONES_AT_ONCE) {
-            return TL_NAV_NO_NODE;
-        }
+        test_cones(graph, base, x, z, is_in);
         for (uint32_t k = 0; k < TL_NAV_CONES_AT_ONCE && base + k < first[1]; k++) {
-            legs_out[count].vertex = cones->vertex[base + k];
+            if (count == capacity) {
+                return TL_NAV_NO_NODE;
+            }
+            legs_out[count].vertex = tl_nav_cone_vertex(cones, base + k);
             count += is_in[k];
         }
     }

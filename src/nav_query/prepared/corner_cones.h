@@ -11,21 +11,38 @@
 
 typedef struct tl_nav_graph_reuse tl_nav_graph_reuse; // graph_reuse.h
 
-/// So many cones are tested at once.
-enum { TL_NAV_CONES_AT_ONCE = 8 };
+/// So many cones are tested at once: more than loops that compilers write out, and so leave without vectors.
+enum { TL_NAV_CONES_AT_ONCE = 24 };
 
-/// The cones from which a path may go straight to a corner vertex and turn there, by polygon. Point (x, z) is in cone i
-/// when left_x * z - left_z * x >= left_min, and the same on the right. The arrays have TL_NAV_CONES_AT_ONCE more
-/// entries than cones, so that a whole batch can be read.
+/// Of a graph, at most: a corner vertex's number shares a word with a cone's slack.
+#define TL_NAV_MAX_CORNER_VERTICES (1u << 24)
+
+/// Steps of the larger component of a cone's direction.
+#define TL_NAV_CONE_STEPS 32767.0
+
+/// The cones from which a path may go straight to a corner vertex and turn there, by polygon: 12 bytes each. A cone is
+/// two directions from its vertex in whole steps, and a slack for their rounding (corner_cones.c). The arrays have
+/// TL_NAV_CONES_AT_ONCE more entries than cones, so that a whole batch can be read.
 typedef struct tl_nav_corner_cones {
     uint32_t *first; ///< [polygon_count + 1]
-    float *left_x, *left_z, *left_min;
-    float *right_x, *right_z, *right_min;
-    uint32_t *vertex;
+    int16_t *left_x, *left_z, *right_x, *right_z;
+    uint32_t *vertex; ///< its corner vertex, and in the high 8 bits the code of its slack
     uint32_t count;
-    uint64_t size; ///< of the block, in floats
-    float *block;  ///< that all arrays but the first stand in
+    uint64_t places; ///< of each array
+    uint32_t *block; ///< that all arrays but the first stand in
+    double rounding; ///< metres within which the line of a direction is where it should be
 } tl_nav_corner_cones;
+
+/// Bytes of the cones, and of where they stand.
+static inline uint64_t tl_nav_cones_size(const tl_nav_corner_cones *cones, uint32_t polygon_count)
+{
+    return ((uint64_t)polygon_count + 1) * sizeof *cones->first + 3 * cones->places * sizeof *cones->block;
+}
+
+static inline uint32_t tl_nav_cone_vertex(const tl_nav_corner_cones *cones, uint32_t cone)
+{
+    return cones->vertex[cone] & (TL_NAV_MAX_CORNER_VERTICES - 1);
+}
 
 /// A cone as it is found: between two directions from a corner vertex, in one polygon.
 typedef struct tl_nav_corner_cone {

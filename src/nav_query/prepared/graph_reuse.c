@@ -75,7 +75,7 @@ static void drop_onlookers(const tl_navmesh *navmesh, const uint32_t *vertex_of,
                 continue;
             }
             for (uint32_t i = old->cones.first[p]; i < old->cones.first[p + 1]; i++) {
-                reuse->now[old->cones.vertex[i]] = TL_NAV_NO_VERTEX;
+                reuse->now[tl_nav_cone_vertex(&old->cones, i)] = TL_NAV_NO_VERTEX;
             }
         }
     }

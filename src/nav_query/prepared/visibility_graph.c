@@ -339,8 +339,7 @@ uint64_t tl_nav_visibility_graph_size(const tl_nav_visibility_graph *graph)
     return sizeof *graph + (uint64_t)graph->vertex_count * vertex_size + sizeof *graph->vertices +
            (uint64_t)graph->edge_count * sizeof *graph->edges +
            (uint64_t)graph->slot_count * (sizeof *graph->slot_first + sizeof *graph->slot_salt) +
-           ((uint64_t)graph->polygon_count + 1) * sizeof *graph->cones.first +
-           graph->cones.size * sizeof *graph->cones.block;
+           tl_nav_cones_size(&graph->cones, graph->polygon_count);
 }
 
 void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibility_graph *graph)
