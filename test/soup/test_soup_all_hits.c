@@ -227,6 +227,49 @@ static void test_parity_of_ball(void **state)
     }
 }
 
+// Thousands of hits on triangles as large as the level, of which splits store many copies: more than any table of what
+// was reported holds.
+static void test_long_answers(void **state)
+{
+    (void)state;
+    enum { TRIANGLES = 12000 };
+    static tl_ray_hit expected[TRIANGLES], hits[TRIANGLES];
+    test_random random = { 41 };
+    model m = { 0 };
+    for (uint32_t i = 0; i < TRIANGLES; i++) {
+        uint32_t corners[3];
+        for (uint32_t k = 0; k < 3; k++) {
+            tl_vec3 p = test_random_point(&random, vec(-100, -5, -100), vec(100, 5, 100));
+            corners[k] = model_vertex(&m, p.x, p.y, p.z);
+        }
+        model_triangle(&m, corners[0], corners[1], corners[2]);
+    }
+    tl_ray ray = { { 3, 50, 2 }, { 0.01f, -1, 0.02f }, INFINITY };
+    uint32_t count, split = 0;
+    tl_result inside = TL_OK;
+    for (model_storage storage = MODEL_BOXES; storage < MODEL_STORAGES; storage++) {
+        tl_soup_def def = model_soup_def(storage);
+        tl_soup *soup = model_soup(&m, &def);
+        tl_soup_stats stats = tl_soup_get_stats(soup);
+        split += stats.reference_count > 2 * TRIANGLES;
+        tl_soup_location location;
+        const bool is_first = storage == MODEL_BOXES;
+        const uint32_t before = is_first ? 0 : count;
+        TEST_RESULT(
+            tl_soup_cast_ray_all(soup, &ray, TL_HITS_TOUCHED, NULL, is_first ? expected : hits, TRIANGLES, &count),
+            TL_OK);
+        const tl_result located = tl_soup_locate(soup, vec(3, 0, 2), &location);
+        TEST_CHECK(is_first || (count == before && located == inside));
+        for (uint32_t i = 0; !is_first && i < count; i++) {
+            TEST_CHECK(same_hit(&hits[i], &expected[i]));
+        }
+        inside = located;
+        tl_blob_free(soup);
+    }
+    TEST_CHECK(count > 2000 && split > 0);
+    model_free(&m);
+}
+
 static void test_refused_by_name(void **state)
 {
     (void)state;
@@ -251,9 +294,8 @@ static void test_refused_by_name(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_each_triangle),
-        cmocka_unit_test(test_parity),
-        cmocka_unit_test(test_parity_of_ball),
+        cmocka_unit_test(test_against_each_triangle), cmocka_unit_test(test_parity),
+        cmocka_unit_test(test_parity_of_ball),        cmocka_unit_test(test_long_answers),
         cmocka_unit_test(test_refused_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -16,6 +16,13 @@ typedef bool tl_region_belongs_fn(const tl_walk_triangle *triangle, void *user);
 /// Called once for each triangle that belongs and has a point in a box that is entered; false ends the walk.
 typedef bool tl_region_found_fn(const tl_walk_triangle *triangle, void *user);
 
+/// Memory of a walk for long answers: with it the triangles behind the first ones are found in passes, a share of them
+/// each.
+enum { TL_REGION_SLOTS = 1024 };
+typedef struct tl_region_memory {
+    uint32_t first[TL_REGION_SLOTS], pass[TL_REGION_SLOTS];
+} tl_region_memory;
+
 typedef struct tl_region {
     /// The region is a box: only triangles whose own boxes share a point with it are asked about. NULL: `enter` tells.
     const tl_aabb *box;
@@ -25,6 +32,7 @@ typedef struct tl_region {
     tl_region_belongs_fn *belongs;
     tl_region_found_fn *found;
     void *user;
+    tl_region_memory *memory; ///< NULL: little, on the stack. Filled by the walk
 } tl_region;
 
 /// Returns false when `found` ended the walk. The order is not specified, but always the same. `scale` may be NULL.

@@ -90,9 +90,13 @@ tl_result tl_soup_cast_ray_all(const tl_soup *soup, const tl_ray *ray, tl_hit_ru
     if (tl_ray_prepare(&c.job, ray->origin, ray->direction)) {
         tl_line_region line;
         tl_line_region_make(ray, &line);
-        tl_region region = {
-            .enter = tl_region_enter_line, .region = &line, .belongs = is_hit, .found = collect_hit, .user = &c
-        };
+        tl_region_memory memory;
+        tl_region region = { .enter = tl_region_enter_line,
+                             .region = &line,
+                             .belongs = is_hit,
+                             .found = collect_hit,
+                             .user = &c,
+                             .memory = &memory };
         tl_region_walk(soup, &region);
     }
     sort_hits(hits_out, tl_min_u32(c.count, capacity));

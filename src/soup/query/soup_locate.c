@@ -98,9 +98,13 @@ static crossings count_crossings(const tl_soup *soup, tl_vec3 point, tl_vec3 dir
         tl_ray ray = { point, direction, INFINITY };
         tl_line_region line;
         tl_line_region_make(&ray, &line);
-        tl_region region = {
-            .enter = tl_region_enter_line, .region = &line, .belongs = is_crossed, .found = count_crossing, .user = &c
-        };
+        tl_region_memory memory;
+        tl_region region = { .enter = tl_region_enter_line,
+                             .region = &line,
+                             .belongs = is_crossed,
+                             .found = count_crossing,
+                             .user = &c,
+                             .memory = &memory };
         tl_region_walk(soup, &region);
     }
     return c.found;
