@@ -51,8 +51,8 @@ typedef enum tl_nav_partition {
 
 /// What to bake, in metres. Fields have the names and defaults that users of Recast know.
 typedef struct tl_nav_def {
-    float cell_size;       ///< metres, > 0: edge of a voxel on x and z. Default 0.3
-    float cell_height;     ///< metres, > 0: height of a voxel. Default 0.2
+    float cell_size;       ///< metres, >= TL_NAV_MIN_CELL: edge of a voxel on x and z. Default 0.3
+    float cell_height;     ///< metres, >= TL_NAV_MIN_CELL: height of a voxel. Default 0.2
     float agent_height;    ///< metres, > 0: free height that an agent needs, rounded up to whole voxels. Default 2
     float agent_radius;    ///< metres, >= 0: the walkable area is eroded by it, rounded up to whole cells. Default 0.6
     float agent_max_climb; ///< metres, >= 0: highest step, rounded down to whole voxels. Default 0.9

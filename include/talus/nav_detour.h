@@ -68,7 +68,7 @@ typedef struct tl_detour_tiles {
 } tl_detour_tiles;
 
 typedef struct tl_detour_read_def {
-    /// Metres a lattice step of height, > 0. Detour's tiles do not keep their cell height, so the corners' heights are
+    /// Metres a lattice step of height, >= TL_NAV_MIN_CELL. Detour's tiles do not keep their cell height, so the corners' heights are
     /// rounded to this. Default 1/1024, which no agent notices.
     float cell_height;
     const tl_allocator *allocator; ///< NULL: malloc

@@ -69,6 +69,9 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail);
 #define TL_NAV_MAX_TILE_INDEX    (1 << 24)  ///< |tile_x| and |tile_z|
 #define TL_NAV_MAX_LAYER         0xffffu    ///< of the tiles at one place
 #define TL_NAV_MAX_TILE_DEPTH    40         ///< of the BVH: log2 of the polygons, with reserve
+/// Metres, of cell_size and cell_height: the square of a cell's area is a normal float, and so is that of the rounding
+/// of its side. Of smaller lengths squares would underflow, and distances be taken as equal.
+#define TL_NAV_MIN_CELL 1e-9f
 
 // ---------------------------------------------------------------------------------------------------------
 // The layout. Offsets are bytes from the start of the blob, multiples of 8, in the order of the fields; all padding is
@@ -130,8 +133,8 @@ typedef struct tl_nav_tile {
                           ///< the layer across, then tl_nav_cut_compare. Read them through tl_nav_tile_side_first
     double area;          ///< square metres in the plane, of all polygons
     tl_vec3 origin;       ///< metres: lattice point (0, 0, 0) of tile (0, 0); the same in all tiles of a navmesh
-    float cell_size;      ///< metres
-    float cell_height;    ///< metres
+    float cell_size;      ///< metres, >= TL_NAV_MIN_CELL
+    float cell_height;    ///< metres, >= TL_NAV_MIN_CELL
     float agent_height, agent_radius, agent_max_climb; ///< metres
     tl_aabb bounds;                                    ///< metres, of the surface
     uint32_t wide;                                     ///< TL_NAV_WIDE_... bits

@@ -132,8 +132,8 @@ static tl_result read_any(const void *bytes, uint64_t size, const tl_detour_read
 {
     TL_TRY(tl_def_check(def->cookie, "begin with tl_default_detour_read_def()", &report->base));
     TL_REFUSE_NULL(bytes, &report->base);
-    if (!(def->cell_height > 0.0f) || !isfinite(def->cell_height)) {
-        return tl_report_field(&report->base, TL_ERR_ARGUMENT, "cell_height", "make it > 0");
+    if (!(def->cell_height >= TL_NAV_MIN_CELL) || !isfinite(def->cell_height)) {
+        return tl_report_field(&report->base, TL_ERR_ARGUMENT, "cell_height", "make it >= TL_NAV_MIN_CELL");
     }
     tl_detour_bytes open;
     tl_result result = tl_detour_open_bytes(bytes, size, def->allocator, &open);

@@ -23,17 +23,19 @@ static tl_result check_settings(const tl_nav_tile_source *source, tl_report *rep
     const struct {
         const char *name;
         float value;
-        bool may_be_zero;
+        bool is_sound;
+        const char *advice;
     } sizes[] = {
-        { "cell_size", polygons->cell_size, false },          { "cell_height", polygons->cell_height, false },
-        { "agent_height", source->agent_height, false },      { "agent_radius", source->agent_radius, true },
-        { "agent_max_climb", source->agent_max_climb, true },
+        { "cell_size", polygons->cell_size, polygons->cell_size >= TL_NAV_MIN_CELL, "make it >= TL_NAV_MIN_CELL" },
+        { "cell_height", polygons->cell_height, polygons->cell_height >= TL_NAV_MIN_CELL,
+          "make it >= TL_NAV_MIN_CELL" },
+        { "agent_height", source->agent_height, source->agent_height > 0.0f, "make it > 0" },
+        { "agent_radius", source->agent_radius, source->agent_radius >= 0.0f, "make it >= 0" },
+        { "agent_max_climb", source->agent_max_climb, source->agent_max_climb >= 0.0f, "make it >= 0" },
     };
     for (size_t i = 0; i < TL_COUNT_OF(sizes); i++) {
-        if (!(sizes[i].value >= 0.0f) || !isfinite(sizes[i].value) ||
-            (sizes[i].value == 0.0f && !sizes[i].may_be_zero)) {
-            return tl_report_field(report, TL_ERR_ARGUMENT, sizes[i].name,
-                                   sizes[i].may_be_zero ? "make it >= 0" : "make it > 0");
+        if (!sizes[i].is_sound || !isfinite(sizes[i].value)) {
+            return tl_report_field(report, TL_ERR_ARGUMENT, sizes[i].name, sizes[i].advice);
         }
     }
     if (source->tile_size > TL_MAX_CONTOUR_COORDINATE) {

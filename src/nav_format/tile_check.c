@@ -26,6 +26,11 @@ static bool is_positive(float value)
     return value > 0.0f && isfinite(value);
 }
 
+static bool is_cell(float value)
+{
+    return value >= TL_NAV_MIN_CELL && isfinite(value);
+}
+
 static bool is_place(float value)
 {
     return value >= -TL_MAX_COORDINATE && value <= TL_MAX_COORDINATE;
@@ -50,7 +55,7 @@ static tl_result check_scalars(const tl_nav_tile *tile, tl_report *report)
                  tile->tile_z >= -TL_NAV_MAX_TILE_INDEX && tile->tile_z <= TL_NAV_MAX_TILE_INDEX &&
                  tile->tile_size <= TL_MAX_CONTOUR_COORDINATE &&
                  (tile->tile_size > 0 || (tile->tile_x == 0 && tile->tile_z == 0));
-    bool sizes = is_positive(tile->cell_size) && is_positive(tile->cell_height) && is_positive(tile->agent_height) &&
+    bool sizes = is_cell(tile->cell_size) && is_cell(tile->cell_height) && is_positive(tile->agent_height) &&
                  tile->agent_radius >= 0.0f && isfinite(tile->agent_radius) && tile->agent_max_climb >= 0.0f &&
                  isfinite(tile->agent_max_climb) && isfinite(tile->origin.x) && isfinite(tile->origin.y) &&
                  isfinite(tile->origin.z);

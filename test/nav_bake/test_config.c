@@ -113,8 +113,17 @@ static void every_field_is_checked(void **state)
         }
     }
     tl_nav_def def = tl_default_nav_def();
-    def.agent_max_slope = 90.0f;
     tl_nav_config config;
+    tl_report report;
+    def.cell_size = 0.9f * TL_NAV_MIN_CELL;
+    TEST_RESULT(tl_nav_config_from_def(&def, LEVEL, 0, 0, &config, &report), TL_ERR_ARGUMENT);
+    assert_string_equal(report.field, "cell_size");
+    def.cell_size = 0.3f;
+    def.cell_height = 0.9f * TL_NAV_MIN_CELL;
+    TEST_RESULT(tl_nav_config_from_def(&def, LEVEL, 0, 0, &config, &report), TL_ERR_ARGUMENT);
+    assert_string_equal(report.field, "cell_height");
+    def = tl_default_nav_def();
+    def.agent_max_slope = 90.0f;
     TEST_RESULT(tl_nav_config_from_def(&def, LEVEL, 0, 0, &config, NULL), TL_ERR_ARGUMENT);
     for (uint32_t verts = 0; verts < 70; verts++) {
         def = tl_default_nav_def();

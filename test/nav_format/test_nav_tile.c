@@ -116,6 +116,11 @@ static void check_widths(const fixture_mesh *mesh, uint32_t expected)
     }
     tile->wide |= 2 * TL_NAV_WIDE_CORNERS;
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_CORRUPT);
+    tile->wide = expected;
+    tl_report report;
+    tile->cell_height = 0.9f * TL_NAV_MIN_CELL;
+    TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, &report), TL_ERR_CORRUPT);
+    assert_string_equal(report.element, "header");
     free(keep);
     tl_blob_free(again);
     tl_blob_free(tile);
@@ -188,6 +193,8 @@ static void test_bad_sources(void **state)
     REFUSE(m.mesh.polygon_count = 0, TL_ERR_EMPTY, "polygon");
     REFUSE(m.mesh.cell_size = 0.0f, TL_ERR_ARGUMENT, "cell_size");
     REFUSE(m.mesh.cell_height = NAN, TL_ERR_ARGUMENT, "cell_height");
+    REFUSE(m.mesh.cell_size = 0.9f * TL_NAV_MIN_CELL, TL_ERR_ARGUMENT, "cell_size");
+    REFUSE(m.mesh.cell_height = 0.9f * TL_NAV_MIN_CELL, TL_ERR_ARGUMENT, "cell_height");
     REFUSE(s.agent_height = 0.0f, TL_ERR_ARGUMENT, "agent_height");
     REFUSE(s.agent_max_climb = -1.0f, TL_ERR_ARGUMENT, "agent_max_climb");
     REFUSE(s.tile_x = 1, TL_ERR_ARGUMENT, "tile_x"); // without a tile size

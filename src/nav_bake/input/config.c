@@ -74,8 +74,10 @@ static tl_result check_fields(const tl_nav_def *def, tl_report *report)
     TL_TRY(tl_def_check(def->cookie, "begin with tl_default_nav_def()", report));
     const float max = TL_MAX_COORDINATE;
     const field_rule rules[] = {
-        { "cell_size", def->cell_size, 0, max, true, false, "use a third to a half of the agent's radius, in metres" },
-        { "cell_height", def->cell_height, 0, max, true, false, "use about half of the cell size, in metres" },
+        { "cell_size", def->cell_size, TL_NAV_MIN_CELL, max, false, false,
+          "use a third to a half of the agent's radius, in metres" },
+        { "cell_height", def->cell_height, TL_NAV_MIN_CELL, max, false, false,
+          "use about half of the cell size, in metres" },
         { "agent_height", def->agent_height, 0, max, true, false, "use the agent's height in metres, above 0" },
         { "agent_radius", def->agent_radius, 0, max, false, false, "use the agent's radius in metres, 0 or more" },
         { "agent_max_climb", def->agent_max_climb, 0, max, false, false, "use the highest step in metres, 0 or more" },
