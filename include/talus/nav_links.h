@@ -24,6 +24,10 @@ extern "C" {
 /// Most landings that are tried: each place times the steps of two cells, up to `max_jump` or across the navmesh.
 #define TL_NAV_LINKS_MAX_LANDINGS (1u << 27)
 
+/// Least spacing of places, in cells of the navmesh: its outlines are a cell off the true ledges, and places that are
+/// nearer to each other find the same links in more time.
+#define TL_NAV_LINKS_MIN_SPACING 0.03125f
+
 typedef enum tl_nav_link_kind {
     TL_NAV_LINK_DROP,  ///< a step over a ledge and a fall straight down: one way
     TL_NAV_LINK_JUMP,  ///< a parabola over a gap or an obstacle; both ways where the agent jumps high enough for it
@@ -62,7 +66,8 @@ static inline const tl_nav_jump_link *tl_nav_links_array(const tl_nav_links *lin
 
 /// What an agent can do. Lengths in metres, >= 0; a limit of 0 turns its kind of link off.
 typedef struct tl_nav_links_def {
-    float spacing;     ///< between two places that are tried along a ledge, > 0. Default 0.5
+    float spacing;     ///< between two places that are tried along a ledge, > 0, at least TL_NAV_LINKS_MIN_SPACING
+                       ///< cells. Default 0.5
     float max_drop;    ///< down, also at the end of a jump. Default 4
     float max_jump;    ///< horizontally, from take-off to landing. Default 3
     float jump_height; ///< of a jump's highest point above its start. Default 1
@@ -106,9 +111,10 @@ typedef struct tl_nav_links_report {
 /// count as paths. The same input gives the same bytes for any number of workers. `def` NULL: the default one.
 /// `*links_out` is freed with tl_blob_free; NULL on failure. `report_out` may be NULL. TL_ERR_ARGUMENT,
 /// TL_ERR_NOT_FINITE (fields of the def), TL_ERR_EMPTY (the navmesh has no tile), TL_ERR_LIMIT (`spacing` is too fine
-/// for the navmesh: more than TL_NAV_LINKS_MAX_PLACES or TL_NAV_LINKS_MAX_LANDINGS), TL_ERR_MEMORY, TL_ERR_CANCELLED.
-/// Sources: Mononen, Automatic Annotations in Killzone 3 and Beyond (Paris Game AI
-/// Conference 2011), for sampling ledges; the proof by sweeps is our own.
+/// for the navmesh: under TL_NAV_LINKS_MIN_SPACING cells, or more than TL_NAV_LINKS_MAX_PLACES or
+/// TL_NAV_LINKS_MAX_LANDINGS), TL_ERR_MEMORY, TL_ERR_CANCELLED. Some 10 us a place. Sources: Mononen, Automatic
+/// Annotations in Killzone 3 and Beyond (Paris Game AI Conference 2011), for sampling ledges; the proof by sweeps is
+/// our own.
 TL_API tl_result tl_nav_links_find(const tl_nav_links_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
                                    tl_nav_links **links_out, tl_nav_links_report *report_out);
 

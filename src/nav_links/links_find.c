@@ -183,6 +183,10 @@ static tl_result find_jump_links(link_search *s, const tl_nav_tile *tile, tl_nav
 {
     const tl_nav_links_def *def = s->landing.def;
     uint64_t edges = 0;
+    if (def->spacing < TL_NAV_LINKS_MIN_SPACING * tile->cell_size) {
+        return tl_report_field(&report->base, TL_ERR_LIMIT, "spacing",
+                               "make it larger: places a 32nd of a cell apart find the same links");
+    }
     TL_TRY(tl_stage_begin(&s->stage, &def->host, "ledges", 1));
     tl_result counted =
         tl_nav_sample_ledges(s->landing.navmesh, def->spacing, &s->stage, NULL, 0, &s->place_count, &edges);

@@ -320,9 +320,16 @@ static void test_scales(void **state)
         TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, &report), TL_ERR_LIMIT);
         TEST_CHECK(links == NULL && strcmp(report.base.field, "spacing") == 0);
     }
+    const float cell = tl_navmesh_slot_tile(level.navmesh, 0)->cell_size;
+    def.spacing = 0.9f * TL_NAV_LINKS_MIN_SPACING * cell;
+    TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, &report), TL_ERR_LIMIT);
+    TEST_CHECK(links == NULL && strcmp(report.base.field, "spacing") == 0);
+    def.spacing = 1.1f * TL_NAV_LINKS_MIN_SPACING * cell;
+    TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, &report), TL_OK);
+    tl_blob_free(links);
     free_level(&level);
     def = tl_default_nav_links_def();
-    make_scaled_level(&level, 1e-12f);
+    make_scaled_level(&level, 1e-8f);
     TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, &report), TL_OK);
     tl_blob_free(links);
     free_level(&level);
