@@ -24,6 +24,10 @@ extern "C" {
 /// squared lengths fit 64 bits.
 #define TL_MAX_CONTOUR_COORDINATE (1 << 29)
 
+/// A contour with more crossings of its edges than this is a scribble, and refused: TL_CONTOUR_FAULT_REFUSED. Crossings
+/// of those below it take some 4 us and 700 bytes each.
+#define TL_MAX_CONTOUR_CROSSINGS (1 << 20)
+
 /// Flags of a contour vertex, beside the neighbour region in the low 16 bits.
 #define TL_CONTOUR_REGION_MASK   0xffffu
 #define TL_CONTOUR_BORDER_VERTEX 0x10000u ///< on a tile's border, where two regions meet; removed after merging
@@ -69,7 +73,7 @@ typedef struct tl_contour_set {
     0x20u ///< winds around floor more than once (which is covered once) or backwards (which is not)
 #define TL_CONTOUR_FAULT_PINCH                                                                                         \
     0x40u ///< meets itself in a vertex, so that its interior is not connected; divided part by part
-#define TL_CONTOUR_FAULT_REFUSED 0x80u ///< too many crossings to repair; nothing of it is in the mesh
+#define TL_CONTOUR_FAULT_REFUSED 0x80u ///< over TL_MAX_CONTOUR_CROSSINGS crossings; nothing of it is in the mesh
 
 /// A contour that was not divided as given. Bridges to holes are no fault.
 typedef struct tl_contour_note {

@@ -19,8 +19,7 @@
 
 #include <string.h>
 
-// More crossings than this refuse the contour: it is a scribble, and its pieces would be too.
-enum { MAX_CROSSINGS = 1 << 20, MAX_ROUNDS = 16 };
+enum { MAX_ROUNDS = 16 };
 
 // From this many segments on it pays to ask first, by a sweep, whether there is any contact at all.
 enum { SMALLEST_SWEEP = 128 };
@@ -166,7 +165,7 @@ static tl_result test_pair(edge_splitter *s, uint32_t first, uint32_t second)
         return TL_OK;
     }
     note_contact(s, first, second);
-    if (++s->crossings > MAX_CROSSINGS) {
+    if (++s->crossings > TL_MAX_CONTOUR_CROSSINGS) {
         return TL_OK;
     }
     return add_crossing(s, first, second);
@@ -256,7 +255,7 @@ static tl_result test_pairs_by_tree(edge_splitter *s, const tl_sort_item *order)
     if (!tl_packed_boxes_build(&tree, s->arena, boxes, count)) {
         return TL_ERR_MEMORY;
     }
-    for (uint32_t i = 0; i < count && s->crossings <= MAX_CROSSINGS; i++) {
+    for (uint32_t i = 0; i < count && s->crossings <= TL_MAX_CONTOUR_CROSSINGS; i++) {
         TL_TRY(test_pairs_of(s, order, i, &tree, &found));
     }
     return TL_OK;
@@ -265,7 +264,7 @@ static tl_result test_pairs_by_tree(edge_splitter *s, const tl_sort_item *order)
 static tl_result test_pairs_along_x(edge_splitter *s, const tl_sort_item *order)
 {
     const uint32_t count = s->segment_count;
-    for (uint32_t i = 0; i < count && s->crossings <= MAX_CROSSINGS; i++) {
+    for (uint32_t i = 0; i < count && s->crossings <= TL_MAX_CONTOUR_CROSSINGS; i++) {
         const tl_lattice_box e = segment_box(s, order[i].value);
         for (uint32_t j = i + 1; j < count && order[j].key <= order[i].extra; j++) {
             const tl_lattice_box f = segment_box(s, order[j].value);
@@ -483,7 +482,7 @@ tl_result tl_outline_split_contacts(tl_arena *arena, tl_outline_nodes *nodes, tl
         } else {
             TL_TRY(test_all_pairs(&s));
         }
-        if (s.crossings > MAX_CROSSINGS) {
+        if (s.crossings > TL_MAX_CONTOUR_CROSSINGS) {
             break;
         }
         if (round == 0 && s.first_contact != UINT32_MAX) {
