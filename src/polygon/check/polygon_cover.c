@@ -15,18 +15,19 @@
 
 #include <string.h>
 
+typedef struct lattice_box {
+    int32_t min_x, max_x, min_z, max_z;
+} lattice_box;
+
 // Polygons of one contour: a range of `order`. Those of several contours are parted into pieces that hang together by
 // edges: two pieces are different floors, which may lie over one another.
 typedef struct cover {
     tl_polygon_checker *checker;
     tl_sort_item *order; // polygons by group, then by their lowest x
+    lattice_box *boxes;  // of each polygon
     tl_sort_item *vertices;
     uint32_t first, end;
 } cover;
-
-typedef struct lattice_box {
-    int32_t min_x, max_x, min_z, max_z;
-} lattice_box;
 
 static lattice_box polygon_box(const tl_polygon_mesh *mesh, uint32_t p)
 {
@@ -108,9 +109,9 @@ static void check_overlaps(cover *c)
 {
     const tl_polygon_mesh *mesh = c->checker->mesh;
     for (uint32_t i = c->first; i < c->end; i++) {
-        lattice_box a = polygon_box(mesh, c->order[i].value);
+        const lattice_box a = c->boxes[c->order[i].value];
         for (uint32_t j = i + 1; j < c->end && group_x(c->order[j].key) < x_key(a.max_x); j++) {
-            lattice_box b = polygon_box(mesh, c->order[j].value);
+            const lattice_box b = c->boxes[c->order[j].value];
             if (a.min_z < b.max_z && b.min_z < a.max_z &&
                 !has_separating_edge(mesh, c->order[i].value, c->order[j].value) &&
                 !has_separating_edge(mesh, c->order[j].value, c->order[i].value) &&
@@ -157,7 +158,7 @@ static void check_t_junctions(cover *c)
     }
     for (uint32_t i = c->first; i < c->end; i++) {
         uint32_t p = c->order[i].value;
-        lattice_box box = polygon_box(mesh, p);
+        const lattice_box box = c->boxes[p];
         uint32_t low = 0;
         for (uint32_t rest = count; rest > 0;) {
             uint32_t half = rest / 2;
@@ -198,15 +199,17 @@ static tl_result sort_polygons(cover *c)
     const tl_polygon_mesh *mesh = c->checker->mesh;
     tl_arena *arena = &c->checker->arena;
     c->order = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)mesh->polygon_count);
+    c->boxes = TL_PUSH(arena, lattice_box, mesh->polygon_count);
     c->vertices = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)mesh->index_count);
     uint32_t *pieces = join_polygon_pieces(mesh, arena);
-    if (c->order == NULL || c->vertices == NULL || pieces == NULL) {
+    if (c->order == NULL || c->boxes == NULL || c->vertices == NULL || pieces == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t p = 0; p < mesh->polygon_count; p++) {
         bool is_shared = mesh->contours[p] == TL_SEVERAL_CONTOURS;
         uint64_t group = is_shared ? ((uint64_t)1 << 32) + tl_disjoint_sets_find(pieces, p) : mesh->contours[p];
-        tl_sort_item item = { group << GROUP_SHIFT | x_key(polygon_box(mesh, p).min_x), p, 0 };
+        c->boxes[p] = polygon_box(mesh, p);
+        tl_sort_item item = { group << GROUP_SHIFT | x_key(c->boxes[p].min_x), p, 0 };
         c->order[p] = item;
     }
     tl_radix_sort(c->order, c->order + mesh->polygon_count, mesh->polygon_count);
