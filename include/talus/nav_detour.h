@@ -68,8 +68,8 @@ typedef struct tl_detour_tiles {
 } tl_detour_tiles;
 
 typedef struct tl_detour_read_def {
-    /// Metres a lattice step of height, >= TL_NAV_MIN_CELL. Detour's tiles do not keep their cell height, so the corners' heights are
-    /// rounded to this. Default 1/1024, which no agent notices.
+    /// Metres a lattice step of height, >= TL_NAV_MIN_CELL. Detour's tiles do not keep their cell height, so the
+    /// corners' heights are rounded to this. Default 1/1024, which no agent notices.
     float cell_height;
     const tl_allocator *allocator; ///< NULL: malloc
     uint32_t cookie;               ///< TL_DEF_COOKIE, by tl_default_detour_read_def

@@ -148,9 +148,9 @@ tl_nav_def tl_pack_navmesh_def(const tl_pack_navmesh *navmesh)
 static bool are_sound_settings(const tl_pack_navmesh *navmesh)
 {
     return navmesh->cell_size >= TL_NAV_MIN_CELL && isfinite(navmesh->cell_size) &&
-           navmesh->cell_height >= TL_NAV_MIN_CELL && isfinite(navmesh->cell_height) && navmesh->partition <= TL_NAV_LAYERS &&
-           navmesh->polygon_method <= TL_PARTITION_DELAUNAY && navmesh->filters <= 7 &&
-           navmesh->max_verts_per_poly <= MAX_MAX_VERTS && navmesh->tile_height >= 0.0f &&
+           navmesh->cell_height >= TL_NAV_MIN_CELL && isfinite(navmesh->cell_height) &&
+           navmesh->partition <= TL_NAV_LAYERS && navmesh->polygon_method <= TL_PARTITION_DELAUNAY &&
+           navmesh->filters <= 7 && navmesh->max_verts_per_poly <= MAX_MAX_VERTS && navmesh->tile_height >= 0.0f &&
            isfinite(navmesh->tile_height) &&
            (navmesh->tile_height > 0.0f || navmesh->tile_count <= (uint64_t)navmesh->tiles_x * navmesh->tiles_z);
 }
