@@ -8,6 +8,8 @@
 #include "math/simd.h"
 #include "math/simd2d.h"
 
+#include <math.h>
+
 #if TL_SIMD_LEVEL >= 2
 
 typedef __m256d tl_f64x4;
@@ -65,10 +67,75 @@ static inline tl_f64x4 tl_f64x4_max(tl_f64x4 a, tl_f64x4 b)
     return _mm256_max_pd(a, b);
 }
 
+/// The second where one is no number.
+static inline tl_f64x4 tl_f64x4_min(tl_f64x4 a, tl_f64x4 b)
+{
+    return _mm256_min_pd(a, b);
+}
+
+static inline tl_f64x4 tl_f64x4_div(tl_f64x4 a, tl_f64x4 b)
+{
+    return _mm256_div_pd(a, b);
+}
+
+/// Doubles 0 .. 3 of places in a row.
+static inline tl_f64x4 tl_f64x4_gather(const double *row, const uint32_t at[4])
+{
+    __m128d low = _mm_loadh_pd(_mm_load_sd(row + at[0]), row + at[1]),
+            high = _mm_loadh_pd(_mm_load_sd(row + at[2]), row + at[3]);
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(low), high, 1);
+}
+
+static inline __m128 tl_f64x4_two_floats(const float *p, const float *q)
+{
+    return _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd((const double *)(const void *)p), (const double *)(const void *)q));
+}
+
+/// Points of three floats at four places of a row, as doubles.
+static inline void tl_f64x4_gather_points(const float *row, const uint32_t at[4], tl_f64x4 *x, tl_f64x4 *y, tl_f64x4 *z)
+{
+    const float *p = row + 3 * (size_t)at[0], *q = row + 3 * (size_t)at[1], *r = row + 3 * (size_t)at[2],
+                *s = row + 3 * (size_t)at[3];
+    int32_t height[4]; // as integers: see tl_f64x4_gather_three
+    memcpy(&height[0], p + 2, sizeof height[0]);
+    memcpy(&height[1], q + 2, sizeof height[1]);
+    memcpy(&height[2], r + 2, sizeof height[2]);
+    memcpy(&height[3], s + 2, sizeof height[3]);
+    __m128i z4 = _mm_insert_epi32(
+        _mm_insert_epi32(_mm_insert_epi32(_mm_cvtsi32_si128(height[0]), height[1], 1), height[2], 2), height[3], 3);
+    __m128 low = tl_f64x4_two_floats(p, q), high = tl_f64x4_two_floats(r, s);
+    *x = _mm256_cvtps_pd(_mm_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)));
+    *y = _mm256_cvtps_pd(_mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)));
+    *z = _mm256_cvtps_pd(_mm_castsi128_ps(z4));
+}
+
 /// Bit k: lane k of a equals that of b.
 static inline uint32_t tl_f64x4_equal(tl_f64x4 a, tl_f64x4 b)
 {
     return (uint32_t)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_EQ_OQ));
+}
+
+static inline tl_f64x4 tl_f64x4_sqrt(tl_f64x4 a)
+{
+    return _mm256_sqrt_pd(a);
+}
+
+/// Lanes of x where a is less than b, else of y.
+static inline tl_f64x4 tl_f64x4_where_less(tl_f64x4 a, tl_f64x4 b, tl_f64x4 x, tl_f64x4 y)
+{
+    return _mm256_blendv_pd(y, x, _mm256_cmp_pd(a, b, _CMP_LT_OQ));
+}
+
+/// Bit k: lane k of a is less than that of b.
+static inline uint32_t tl_f64x4_less(tl_f64x4 a, tl_f64x4 b)
+{
+    return (uint32_t)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LT_OQ));
+}
+
+/// Lanes 1, 2, 3 of a and 0 of b.
+static inline tl_f64x4 tl_f64x4_next(tl_f64x4 a, tl_f64x4 b)
+{
+    return _mm256_shuffle_pd(a, _mm256_permute2f128_pd(a, b, 0x21), 5);
 }
 
 /// Four points, x y z x y z ..., as doubles.
@@ -182,9 +249,61 @@ static inline tl_f64x4 tl_f64x4_max(tl_f64x4 a, tl_f64x4 b)
     return tl_f64x4_make(tl_f64x2_max(a.low, b.low), tl_f64x2_max(a.high, b.high));
 }
 
+static inline tl_f64x4 tl_f64x4_min(tl_f64x4 a, tl_f64x4 b)
+{
+    return tl_f64x4_make(tl_f64x2_min(a.low, b.low), tl_f64x2_min(a.high, b.high));
+}
+
+static inline tl_f64x4 tl_f64x4_div(tl_f64x4 a, tl_f64x4 b)
+{
+    return tl_f64x4_make(tl_f64x2_div(a.low, b.low), tl_f64x2_div(a.high, b.high));
+}
+
+static inline tl_f64x4 tl_f64x4_gather(const double *row, const uint32_t at[4])
+{
+    const double four[4] = { row[at[0]], row[at[1]], row[at[2]], row[at[3]] };
+    return tl_f64x4_make(tl_f64x2_load(four), tl_f64x2_load(four + 2));
+}
+
+static inline void tl_f64x4_gather_points(const float *row, const uint32_t at[4], tl_f64x4 *x, tl_f64x4 *y, tl_f64x4 *z)
+{
+    float four[12];
+    for (int i = 0; i < 4; i++) {
+        memcpy(&four[3 * i], row + 3 * (size_t)at[i], 3 * sizeof *row);
+    }
+    tl_f64x2 x2[2], y2[2], z2[2];
+    tl_f64x2_load_points(four, x2, y2, z2);
+    *x = tl_f64x4_make(x2[0], x2[1]);
+    *y = tl_f64x4_make(y2[0], y2[1]);
+    *z = tl_f64x4_make(z2[0], z2[1]);
+}
+
 static inline uint32_t tl_f64x4_equal(tl_f64x4 a, tl_f64x4 b)
 {
     return tl_f64x2_two_masks(tl_f64x2_where_equal(a.low, b.low), tl_f64x2_where_equal(a.high, b.high));
+}
+
+static inline tl_f64x4 tl_f64x4_sqrt(tl_f64x4 a)
+{
+    const double four[4] = { sqrt(tl_f64x2_get_x(a.low)), sqrt(tl_f64x2_get_y(a.low)), sqrt(tl_f64x2_get_x(a.high)),
+                             sqrt(tl_f64x2_get_y(a.high)) };
+    return tl_f64x4_make(tl_f64x2_load(four), tl_f64x2_load(four + 2));
+}
+
+static inline tl_f64x4 tl_f64x4_where_less(tl_f64x4 a, tl_f64x4 b, tl_f64x4 x, tl_f64x4 y)
+{
+    return tl_f64x4_make(tl_f64x2_select(tl_f64x2_where_less(a.low, b.low), x.low, y.low),
+                         tl_f64x2_select(tl_f64x2_where_less(a.high, b.high), x.high, y.high));
+}
+
+static inline uint32_t tl_f64x4_less(tl_f64x4 a, tl_f64x4 b)
+{
+    return tl_f64x2_two_masks(tl_f64x2_where_less(a.low, b.low), tl_f64x2_where_less(a.high, b.high));
+}
+
+static inline tl_f64x4 tl_f64x4_next(tl_f64x4 a, tl_f64x4 b)
+{
+    return tl_f64x4_make(tl_f64x2_yx(a.low, a.high), tl_f64x2_yx(a.high, b.low));
 }
 
 static inline void tl_f64x4_load_points(const float *points, tl_f64x4 *x, tl_f64x4 *y, tl_f64x4 *z)
@@ -309,6 +428,73 @@ static inline tl_f64x4 tl_f64x4_max(tl_f64x4 a, tl_f64x4 b)
     for (int i = 0; i < 4; i++) {
         r.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
     }
+    return r;
+}
+
+static inline tl_f64x4 tl_f64x4_min(tl_f64x4 a, tl_f64x4 b)
+{
+    tl_f64x4 r;
+    for (int i = 0; i < 4; i++) {
+        r.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i];
+    }
+    return r;
+}
+
+static inline tl_f64x4 tl_f64x4_div(tl_f64x4 a, tl_f64x4 b)
+{
+    tl_f64x4 r;
+    for (int i = 0; i < 4; i++) {
+        r.v[i] = a.v[i] / b.v[i];
+    }
+    return r;
+}
+
+static inline tl_f64x4 tl_f64x4_gather(const double *row, const uint32_t at[4])
+{
+    tl_f64x4 r = { { row[at[0]], row[at[1]], row[at[2]], row[at[3]] } };
+    return r;
+}
+
+static inline void tl_f64x4_gather_points(const float *row, const uint32_t at[4], tl_f64x4 *x, tl_f64x4 *y, tl_f64x4 *z)
+{
+    for (int i = 0; i < 4; i++) {
+        const float *p = row + 3 * (size_t)at[i];
+        x->v[i] = (double)p[0];
+        y->v[i] = (double)p[1];
+        z->v[i] = (double)p[2];
+    }
+}
+
+static inline tl_f64x4 tl_f64x4_sqrt(tl_f64x4 a)
+{
+    tl_f64x4 r;
+    for (int i = 0; i < 4; i++) {
+        r.v[i] = sqrt(a.v[i]);
+    }
+    return r;
+}
+
+static inline tl_f64x4 tl_f64x4_where_less(tl_f64x4 a, tl_f64x4 b, tl_f64x4 x, tl_f64x4 y)
+{
+    tl_f64x4 r;
+    for (int i = 0; i < 4; i++) {
+        r.v[i] = a.v[i] < b.v[i] ? x.v[i] : y.v[i];
+    }
+    return r;
+}
+
+static inline uint32_t tl_f64x4_less(tl_f64x4 a, tl_f64x4 b)
+{
+    uint32_t mask = 0;
+    for (int i = 0; i < 4; i++) {
+        mask |= (a.v[i] < b.v[i] ? 1u : 0u) << i;
+    }
+    return mask;
+}
+
+static inline tl_f64x4 tl_f64x4_next(tl_f64x4 a, tl_f64x4 b)
+{
+    tl_f64x4 r = { { a.v[1], a.v[2], a.v[3], b.v[0] } };
     return r;
 }
 

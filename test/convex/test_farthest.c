@@ -95,8 +95,103 @@ static void test_scans(void **state)
     }
 }
 
+#if TL_CPU_LEVELS >= 2
+
+enum { MOST_FACES = 44 };
+
+// Differences of random pairs of vertices, and the faces between them: what tl_scan_place_avx2 and tl_scan_nearest_avx2
+// find, one by one.
+static void check_polytope(test_random *random, const cloud *c)
+{
+    uint16_t vertices[TL_KEPT_POINTS][2];
+    uint8_t corners[MOST_FACES][3];
+    const uint32_t count = 4 + test_random_below(random, TL_KEPT_POINTS - 3),
+                   faces = 4 + test_random_below(random, MOST_FACES - 3);
+    tl_placed_points points;
+    for (uint32_t i = 0; i < count; i++) {
+        vertices[i][0] = (uint16_t)test_random_below(random, c->count);
+        vertices[i][1] = (uint16_t)test_random_below(random, c->count);
+    }
+    tl_scan_place_avx2(&c->map, c->points, c->points, (const uint16_t(*)[2])vertices, count, &points);
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_vec3d w = tl_vec3d_sub(tl_vec3d_from(c->points[vertices[i][0]]),
+                                        tl_frame_point(&c->map, tl_vec3d_from(c->points[vertices[i][1]])));
+        TEST_CHECK(same_bits(points.x[i], w.x) && same_bits(points.y[i], w.y) && same_bits(points.z[i], w.z));
+    }
+    double nearness[MOST_FACES], least = (double)INFINITY;
+    uint32_t nearest = faces;
+    for (uint32_t f = 0; f < faces; f++) {
+        for (uint32_t i = 0; i < 3; i++) {
+            corners[f][i] = (uint8_t)((test_random_below(random, count - 2) + i) % count);
+        }
+    }
+    const uint32_t found =
+        tl_scan_nearest_avx2(&points, (const uint8_t(*)[3])corners, faces, -1.0 - c->map.origin.x, nearness);
+    for (uint32_t f = 0; f < faces; f++) {
+        tl_vec3d w[3];
+        for (uint32_t i = 0; i < 3; i++) {
+            w[i] = tl_vec3d_make(points.x[corners[f][i]], points.y[corners[f][i]], points.z[corners[f][i]]);
+        }
+        const tl_vec3d normal = tl_vec3d_cross(tl_vec3d_sub(w[0], w[2]), tl_vec3d_sub(w[1], w[2]));
+        const double offset = tl_vec3d_dot(normal, w[2]) - (-1.0 - c->map.origin.x),
+                     plain = offset * fabs(offset) / tl_vec3d_dot(normal, normal);
+        TEST_CHECK(same_bits(nearness[f], plain) || (isnan(nearness[f]) && isnan(plain)));
+        least = plain < least ? plain : least;
+    }
+    for (uint32_t f = faces; f-- > 0;) {
+        nearest = nearness[f] == least ? f : nearest;
+    }
+    TEST_CHECK(found == (least > 0.0 ? nearest : faces));
+}
+
+static void test_polytopes(void **state)
+{
+    (void)state;
+    test_random random = { 73 };
+    for (int i = 0; i < 20000 && tl_cpu_has_avx2(); i++) {
+        cloud c;
+        make_cloud(&random, &c);
+        check_polytope(&random, &c);
+    }
+}
+
+// Blocks of eight planes, of a few planes 4 or 6, of which some have the same normal.
+static void test_planes(void **state)
+{
+    (void)state;
+    test_random random = { 74 };
+    for (int i = 0; i < 20000 && tl_cpu_has_avx2(); i++) {
+        double blocks[4 * TL_SCAN_PLANES + 8] = { 0.0 };
+        const uint32_t count = 4 + test_random_below(&random, TL_SCAN_PLANES - 3),
+                       lanes = count > 6 ? 8 : (count + 1) / 2 * 2;
+        const tl_vec3d d = tl_vec3d_from(random_place(&random, true));
+        uint32_t best = 0;
+        double most = -2.0;
+        for (uint32_t k = 0; k < count; k++) {
+            tl_vec3d n = tl_vec3d_from(random_place(&random, true));
+            n = tl_vec3d_scale(n, k == count / 2 && tl_vec3d_dot(n, d) < 0.0 ? -1.0 : 1.0);
+            double *at = blocks + 32 * (size_t)(k / 8) + k % 8;
+            at[0] = n.x;
+            at[lanes] = n.y;
+            at[2 * (size_t)lanes] = n.z;
+            best = tl_vec3d_dot(n, d) > most ? k : best;
+            most = tl_vec3d_dot(n, d) > most ? tl_vec3d_dot(n, d) : most;
+        }
+        // As in a hull, some normal looks along the direction: lanes without a plane are zero.
+        TEST_CHECK(most <= 0.0 || tl_scan_planes_avx2(blocks, count, lanes, &d) == best);
+    }
+}
+
+#endif
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_scans) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_scans),
+#if TL_CPU_LEVELS >= 2
+        cmocka_unit_test(test_polytopes),
+        cmocka_unit_test(test_planes),
+#endif
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -135,34 +135,64 @@ static void climb(candidate *best)
     }
 }
 
-static TL_ALWAYS_INLINE void keep_facet_corner(tl_face *face, uint32_t at, uint32_t k)
+static inline tl_vec3d place_corner(const tl_frame *frame, tl_vec3 p)
 {
-    const tl_hull *hull = face->facet.hull;
-    const uint32_t twin = tl_hull_edge_twin(hull, at), vertex = tl_hull_edge_origin(hull, at);
-    face->corners[k] = tl_vec3d_from(tl_hull_vertices(hull)[vertex]);
-    face->vertices[k] = TL_FEATURE_VERTEX | vertex;
-    face->edges[k] = TL_FEATURE_EDGE | (at < twin ? at : twin);
+    return frame != NULL ? tl_frame_point(frame, tl_vec3d_from(p)) : tl_vec3d_from(p);
 }
 
-// The corners of a facet that has few, to be walked no more. Those of one face lie one behind the other.
+static inline void keep_hull_corner(tl_face *face, uint32_t k, tl_vec3d p, uint32_t vertex, uint32_t edge,
+                                    uint32_t twin)
+{
+    face->corners[k] = p;
+    face->vertices[k] = TL_FEATURE_VERTEX | vertex;
+    face->edges[k] = TL_FEATURE_EDGE | (edge < twin ? edge : twin);
+}
+
+// The corners of one face, which lie one behind the other, from a half-edge on. What is written might be the hull, as
+// far as a compiler knows, so all that is read of it is fetched before.
+static TL_ALWAYS_INLINE void keep_face_corners(tl_face *face, uint32_t first, uint32_t count, const tl_frame *frame)
+{
+    const tl_hull *hull = face->facet.hull;
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    if (hull->index_bytes == 1) {
+        const uint8_t *words = (const uint8_t *)(const void *)(vertices + hull->vertex_count) + 3 * (size_t)first;
+        for (uint32_t k = 0; k < count; k++, words += 3) {
+            keep_hull_corner(face, k, place_corner(frame, vertices[words[0]]), words[0], first + k, words[1]);
+        }
+        return;
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t vertex = tl_hull_edge_origin(hull, first + k);
+        keep_hull_corner(face, k, place_corner(frame, vertices[vertex]), vertex, first + k,
+                         tl_hull_edge_twin(hull, first + k));
+    }
+}
+
+// The corners of a facet that has few, in A's frame, to be walked no more.
 static void keep_corners(tl_face *face)
 {
     const tl_facet *facet = &face->facet;
+    const tl_hull *hull = facet->hull;
     uint32_t at = facet->first, count = 0;
     if (facet->alone) {
-        count = tl_hull_face_first(facet->hull, facet->face + 1) - at;
+        count = tl_hull_face_first(hull, facet->face + 1) - at;
         if (count > TL_FACE_CORNERS) {
             return;
         }
-        for (uint32_t k = 0; k < count; k++) {
-            keep_facet_corner(face, at + k, k);
+        if (face->frame != NULL) {
+            const tl_frame frame = *face->frame;
+            keep_face_corners(face, at, count, &frame);
+        } else {
+            keep_face_corners(face, at, count, NULL);
         }
     } else {
         do {
             if (count == TL_FACE_CORNERS) {
                 return;
             }
-            keep_facet_corner(face, at, count++);
+            const uint32_t vertex = tl_hull_edge_origin(hull, at);
+            keep_hull_corner(face, count++, place_corner(face->frame, tl_hull_vertices(hull)[vertex]), vertex, at,
+                             tl_hull_edge_twin(hull, at));
             at = tl_facet_next(facet, at);
         } while (at != facet->first);
     }
@@ -170,19 +200,30 @@ static void keep_corners(tl_face *face)
     face->count = count;
 }
 
+static void find_best_face(candidate *best)
+{
+#if TL_CPU_LEVELS >= 2
+    if (best->hull->face_count <= TL_SCAN_PLANES && tl_cpu_has_avx2()) {
+        best->face = tl_scan_planes_avx2(best->planes, best->hull->face_count, best->lanes, &best->direction);
+        return;
+    }
+#endif
+    if (best->hull->face_count > SCANNED_FACES) {
+        climb(best);
+    } else {
+        consider_faces(best);
+    }
+}
+
 static void hull_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
 {
     candidate best = { shape->hull, tl_hull_plane_block(shape->hull, 0), tl_hull_plane_lanes(shape->hull), 0, d, -2.0 };
-    if (shape->hull->face_count > SCANNED_FACES) {
-        climb(&best);
-    } else {
-        consider_faces(&best);
-    }
+    find_best_face(&best);
     tl_facet_around(shape->hull, best.face, &face->facet);
     face->first = face->facet.first;
     face->feature = TL_FEATURE_FACE | best.face;
-    const double *n = face->facet.plane.normal;
-    face->normal = tl_vec3d_make(n[0], n[1], n[2]);
+    const double *n = best.planes + 32 * (size_t)(best.face / 8) + best.face % 8;
+    face->normal = tl_vec3d_make(n[0], n[best.lanes], n[2 * best.lanes]);
     keep_corners(face);
 }
 
@@ -331,12 +372,19 @@ bool tl_face_along(const tl_convex *shape, const tl_frame *frame, tl_vec3d direc
     face->shape = shape;
     face->frame = frame;
     face->first = face->count = 0;
-    if (!find_face(shape, d, face) || (tl_vec3d_dot(face->normal, d) < MIN_COSINE && !find_edge(shape, d, face))) {
+    bool is_placed = shape->kind == TL_CONVEX_HULL;
+    if (!find_face(shape, d, face)) {
         return false;
+    }
+    if (tl_vec3d_dot(face->normal, d) < MIN_COSINE) {
+        is_placed = false;
+        if (!find_edge(shape, d, face)) {
+            return false;
+        }
     }
     if (frame != NULL) {
         face->normal = tl_frame_rotate(frame, face->normal);
-        for (uint32_t i = 0; i < face->count; i++) {
+        for (uint32_t i = 0; !is_placed && i < face->count; i++) {
             face->corners[i] = tl_frame_point(frame, face->corners[i]);
         }
     }

@@ -45,9 +45,6 @@ static bool holds_beside(const tl_facet *facet, uint32_t edge)
 
 static bool is_alone(const tl_facet *facet)
 {
-    if ((facet->hull->flags & TL_HULL_HAS_SIDES) == 0) {
-        return true;
-    }
     const uint32_t end = tl_hull_face_first(facet->hull, facet->face + 1);
     for (uint32_t edge = facet->first; edge < end; edge++) {
         if (holds_beside(facet, edge)) {
@@ -91,11 +88,15 @@ static uint32_t farther_neighbour(const tl_facet *facet, tl_vec3d direction, uin
 
 void tl_facet_around(const tl_hull *hull, uint32_t face, tl_facet *facet)
 {
-    tl_vec3 size = tl_max(tl_abs(hull->bounds.min), tl_abs(hull->bounds.max));
     facet->hull = hull;
     facet->face = face;
-    facet->plane = tl_hull_face_plane(hull, face);
     facet->first = tl_hull_face_first(hull, face);
+    facet->alone = (hull->flags & TL_HULL_HAS_SIDES) == 0;
+    if (facet->alone) {
+        return;
+    }
+    tl_vec3 size = tl_max(tl_abs(hull->bounds.min), tl_abs(hull->bounds.max));
+    facet->plane = tl_hull_face_plane(hull, face);
     facet->gap = TL_HULL_SIDE_GAP * (double)tl_maxf(size.x, tl_maxf(size.y, size.z));
     facet->alone = is_alone(facet);
     if (facet->alone || !holds_beside(facet, facet->first)) {

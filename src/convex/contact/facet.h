@@ -9,11 +9,11 @@
 
 typedef struct tl_facet {
     const tl_hull *hull;
-    uint32_t face; // the one that the others lie in a plane with
-    tl_hull_plane plane;
-    double gap;     // metres that a corner may lie below it
-    uint32_t first; // a half-edge of the outline
-    bool alone;     // no neighbour lies in its plane
+    uint32_t face;       // the one that the others lie in a plane with
+    uint32_t first;      // a half-edge of the outline
+    bool alone;          // no neighbour lies in its plane
+    tl_hull_plane plane; // of one that may have such neighbours
+    double gap;          // metres that a corner may lie below it
 } tl_facet;
 
 void tl_facet_around(const tl_hull *hull, uint32_t face, tl_facet *facet_out);

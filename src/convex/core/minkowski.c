@@ -490,6 +490,18 @@ static void place_rows(const tl_frame *b_to_a, const tl_vec3 *row_a, const tl_ve
 
 #endif
 
+static void place_all(const tl_frame *b_to_a, const tl_vec3 *row_a, const tl_vec3 *row_b, const uint16_t (*vertices)[2],
+                      uint32_t count, tl_placed_points *points)
+{
+#if TL_CPU_LEVELS >= 2
+    if (count >= 4 && tl_cpu_has_avx2()) {
+        tl_scan_place_avx2(b_to_a, row_a, row_b, vertices, count, points);
+        return;
+    }
+#endif
+    place_rows(b_to_a, row_a, row_b, vertices, count, points);
+}
+
 static bool are_vertices(const uint16_t (*vertices)[2], uint32_t count, uint32_t count_a, uint32_t count_b)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -517,7 +529,7 @@ bool tl_minkowski_place(tl_minkowski *pair, const uint16_t (*vertices)[2], uint3
     if (!are_vertices(vertices, count, count_a, count_b)) {
         return false;
     }
-    place_rows(&pair->b_to_a, row_a, row_b, vertices, count, points);
+    place_all(&pair->b_to_a, row_a, row_b, vertices, count, points);
     const double scale = size_of_used(pair->a, row_a, vertices, count, 0) +
                          size_of_used(pair->b, row_b, vertices, count, 1) + pair->origin_size;
     pair->scale = scale > pair->scale ? scale : pair->scale;

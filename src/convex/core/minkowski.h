@@ -6,7 +6,7 @@
 #ifndef TALUS_SRC_CONVEX_MINKOWSKI_H
 #define TALUS_SRC_CONVEX_MINKOWSKI_H
 
-#include "math/vec3d.h"
+#include "convex/core/scan_four.h"
 
 #include <talus/convex.h>
 
@@ -60,11 +60,6 @@ bool tl_minkowski_simplex(tl_minkowski *pair, const tl_simplex_cache *cache, tl_
 // The same of many.
 bool tl_minkowski_vertices(tl_minkowski *pair, const uint16_t (*vertices)[2], uint32_t count,
                            tl_minkowski_point *points_out);
-
-// Points of A - B by their coordinates.
-typedef struct tl_placed_points {
-    double x[TL_KEPT_POINTS], y[TL_KEPT_POINTS], z[TL_KEPT_POINTS];
-} tl_placed_points;
 
 // The same of w alone, of 2 .. TL_KEPT_POINTS.
 bool tl_minkowski_place(tl_minkowski *pair, const uint16_t (*vertices)[2], uint32_t count,

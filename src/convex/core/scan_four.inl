@@ -94,3 +94,113 @@ double TL_SCAN_IMAGE_SQ(const tl_vec3 *points, uint32_t count, const tl_frame *m
     }
     return tl_f64x4_get_x(four_largest(most));
 }
+
+static inline four_points four_image(const four_points rows[3], four_points origin, four_points p)
+{
+    const four_points image = { tl_f64x4_add(four_dots(rows[0], p), origin.x),
+                                tl_f64x4_add(four_dots(rows[1], p), origin.y),
+                                tl_f64x4_add(four_dots(rows[2], p), origin.z) };
+    return image;
+}
+
+static inline four_points four_sub(four_points a, four_points b)
+{
+    const four_points r = { tl_f64x4_sub(a.x, b.x), tl_f64x4_sub(a.y, b.y), tl_f64x4_sub(a.z, b.z) };
+    return r;
+}
+
+static inline four_points four_vertices(const tl_vec3 *row, const uint16_t (*pairs)[2], int side)
+{
+    const uint32_t at[4] = { pairs[0][side], pairs[1][side], pairs[2][side], pairs[3][side] };
+    four_points p;
+    tl_f64x4_gather_points(&row->x, at, &p.x, &p.y, &p.z);
+    return p;
+}
+
+void TL_SCAN_PLACE(const tl_frame *b_to_a, const tl_vec3 *row_a, const tl_vec3 *row_b, const uint16_t (*vertices)[2],
+                   uint32_t count, tl_placed_points *points)
+{
+    const four_points rows[3] = { four_of(b_to_a->rows[0]), four_of(b_to_a->rows[1]), four_of(b_to_a->rows[2]) },
+                      origin = four_of(b_to_a->origin);
+    for (uint32_t i = 0; i < count; i += 4) {
+        const uint32_t at = i + 4 <= count ? i : count - 4;
+        const four_points on_b = four_image(rows, origin, four_vertices(row_b, vertices + at, 1)),
+                          w = four_sub(four_vertices(row_a, vertices + at, 0), on_b);
+        tl_f64x4_store(&points->x[at], w.x);
+        tl_f64x4_store(&points->y[at], w.y);
+        tl_f64x4_store(&points->z[at], w.z);
+    }
+}
+
+static inline four_points four_corners(const tl_placed_points *points, const uint8_t (*faces)[3], int corner)
+{
+    const uint32_t at[4] = { faces[0][corner], faces[1][corner], faces[2][corner], faces[3][corner] };
+    const four_points p = { tl_f64x4_gather(points->x, at), tl_f64x4_gather(points->y, at),
+                            tl_f64x4_gather(points->z, at) };
+    return p;
+}
+
+static inline tl_f64x4 four_minor(tl_f64x4 a, tl_f64x4 b, tl_f64x4 c, tl_f64x4 d)
+{
+    return tl_f64x4_sub(tl_f64x4_mul(a, b), tl_f64x4_mul(c, d));
+}
+
+// The first of the faces that is as near as the least.
+static inline uint32_t first_nearest(const double *nearness, uint32_t count, tl_f64x4 least)
+{
+    uint64_t mask = 0;
+    for (uint32_t i = 0; i < count; i += 4) {
+        const uint32_t at = i + 4 <= count ? i : count - 4;
+        mask |= (uint64_t)tl_f64x4_equal(tl_f64x4_load(&nearness[at]), least) << at;
+    }
+    return mask != 0 && tl_f64x4_get_x(least) > 0.0 ? tl_lowest_bit(mask) : count;
+}
+
+uint32_t TL_SCAN_NEAREST(const tl_placed_points *points, const uint8_t (*corners)[3], uint32_t count, double turned,
+                         double *nearness)
+{
+    const tl_f64x4 turned_four = tl_f64x4_all(turned), zero = tl_f64x4_all(0.0);
+    tl_f64x4 least = tl_f64x4_all((double)INFINITY);
+    for (uint32_t i = 0; i < count; i += 4) {
+        const uint32_t at = i + 4 <= count ? i : count - 4; // of the last four some may be computed again
+        const four_points last = four_corners(points, corners + at, 2),
+                          p = four_sub(four_corners(points, corners + at, 0), last),
+                          q = four_sub(four_corners(points, corners + at, 1), last);
+        const four_points normal = { four_minor(p.y, q.z, p.z, q.y), four_minor(p.z, q.x, p.x, q.z),
+                                     four_minor(p.x, q.y, p.y, q.x) };
+        const tl_f64x4 offset = tl_f64x4_sub(four_dots(normal, last), turned_four),
+                       size = tl_f64x4_max(offset, tl_f64x4_sub(zero, offset)),
+                       near_four = tl_f64x4_div(tl_f64x4_mul(offset, size), four_dots(normal, normal));
+        tl_f64x4_store(&nearness[at], near_four);
+        least = tl_f64x4_min(near_four, least);
+    }
+    least = tl_f64x4_min(least, tl_f64x4_swap_halves(least));
+    return first_nearest(nearness, count, tl_f64x4_min(least, tl_f64x4_swap_lanes(least)));
+}
+
+static inline tl_f64x4 four_planes(const double *rows, uint32_t lanes, four_points d)
+{
+    const four_points normals = { tl_f64x4_load(rows), tl_f64x4_load(rows + lanes),
+                                  tl_f64x4_load(rows + 2 * (size_t)lanes) };
+    return four_dots(d, normals);
+}
+
+uint32_t TL_SCAN_FACES(const double *blocks, uint32_t count, uint32_t lanes, const tl_vec3d *direction)
+{
+    const four_points d = four_of(*direction);
+    const uint32_t second = lanes - 4; // of six lanes two are looked at twice
+    tl_f64x4 dots[TL_SCAN_PLANES / 4], best = tl_f64x4_all(-2.0);
+    for (uint32_t i = 0; i < count; i += 8) {
+        const double *rows = blocks + 4 * (size_t)i;
+        tl_f64x4 *two = &dots[i / 4];
+        two[0] = four_planes(rows, lanes, d);
+        two[1] = four_planes(rows + second, lanes, d);
+        best = tl_f64x4_max(best, tl_f64x4_max(two[0], two[1]));
+    }
+    best = four_largest(best);
+    uint64_t mask = 0;
+    for (uint32_t i = 0; i < count; i += 8) {
+        mask |= (uint64_t)(tl_f64x4_equal(dots[i / 4], best) | tl_f64x4_equal(dots[i / 4 + 1], best) << second) << i;
+    }
+    return mask != 0 ? tl_lowest_bit(mask) : 0;
+}

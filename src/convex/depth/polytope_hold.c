@@ -108,16 +108,22 @@ static double find_nearness(kept_body *body, double turned)
 
 #endif
 
-// The nearest; TL_KEPT_FACES when the origin is outside of one.
+// The nearest; the number of faces when the origin is outside of one.
 static uint32_t nearest_face(kept_body *body, double turned)
 {
+    const uint32_t count = body->cache->face_count;
+#if TL_CPU_LEVELS >= 2
+    if (tl_cpu_has_avx2()) {
+        return tl_scan_nearest_avx2(&body->points, body->cache->corners, count, turned, body->nearness);
+    }
+#endif
     const double least = find_nearness(body, turned);
-    for (uint32_t f = 0; least > 0.0 && f < body->cache->face_count; f++) {
+    for (uint32_t f = 0; least > 0.0 && f < count; f++) {
         if (body->nearness[f] == least) {
             return f;
         }
     }
-    return TL_KEPT_FACES;
+    return count;
 }
 
 // The size of A - B.
@@ -166,7 +172,7 @@ bool tl_polytope_holds(tl_minkowski *pair, const tl_polytope_cache *cache, tl_co
     }
     const double error = TL_POLYTOPE_ERROR * pair->scale;
     const uint32_t nearest = nearest_face(&body, 4.0 * error * pair->scale * pair->scale);
-    if (nearest == TL_KEPT_FACES) {
+    if (nearest == cache->face_count) {
         return false;
     }
     const tl_polytope_plane plane = kept_plane(&body, nearest);

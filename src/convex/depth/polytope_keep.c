@@ -110,6 +110,7 @@ void tl_polytope_keep(tl_polytope *p, uint32_t nearest, double lower, tl_polytop
         return;
     }
     uint32_t count = 0;
+    memset(cache->corners, 0, sizeof cache->corners); // epa.c looks at all of them
     for (uint32_t f = 0; f < p->face_count && count < TL_KEPT_FACES; f++) {
         if (is_alive(p, f)) {
             memcpy(cache->corners[count++], &p->origins[4 * (size_t)f], 3);
