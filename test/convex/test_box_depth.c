@@ -4,7 +4,11 @@
 
 #include "talus_test.h"
 
+#include "base/cpu.h"
+#include "convex/contact/box_axes.h"
 #include "convex/contact/contact_axis.h"
+
+#include <string.h>
 
 static tl_quat random_rotation(test_random *random, float spread)
 {
@@ -80,9 +84,52 @@ static void test_hulls_of_boxes(void **state)
     }
 }
 
+#if TL_CPU_LEVELS >= 2
+
+static void random_vector(test_random *random, double out[4])
+{
+    for (int i = 0; i < 3; i++) {
+        out[i] = (double)(float)test_random_range(random, -1.0f, 1.0f);
+    }
+    out[3] = 0.0;
+}
+
+// Plain C and AVX2 find the same bits.
+static void test_levels(void **state)
+{
+    (void)state;
+    test_random random = { 72 };
+    for (int i = 0; i < 20000 && tl_cpu_has_avx2(); i++) {
+        tl_box_axes base, best;
+        memset(&base, 0, sizeof base);
+        random_vector(&random, base.half_a);
+        random_vector(&random, base.half_b);
+        random_vector(&random, base.apart);
+        for (int k = 0; k < 3; k++) {
+            random_vector(&random, base.turn[k]);
+            random_vector(&random, base.columns[k]);
+        }
+        if (i % 3 == 0) { // parallel to an axis
+            memset(base.turn, 0, sizeof base.turn);
+            base.turn[0][1] = base.turn[1][2] = base.turn[2][0] = 1.0;
+        }
+        best = base;
+        tl_box_axes_base(&base);
+        tl_box_axes_avx2(&best);
+        for (int k = 0; k < TL_BOX_AXES; k++) {
+            TEST_CHECK(memcmp(&base.depths[k / 3][k % 3], &best.depths[k / 3][k % 3], sizeof(double)) == 0);
+        }
+    }
+}
+
+#endif
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+#if TL_CPU_LEVELS >= 2
+        cmocka_unit_test(test_levels),
+#endif
         cmocka_unit_test(test_depth),
         cmocka_unit_test(test_hulls_of_boxes),
     };

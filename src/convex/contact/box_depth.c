@@ -9,14 +9,16 @@
 
 #include "convex/contact/contact_axis.h"
 
+#include "base/cpu.h"
+#include "convex/contact/box_axes.h"
 #include "math/simd2d.h"
 #include "math/tolerance.h"
 
+#define TL_FIND_BOX_AXES tl_box_axes_base
+#include "convex/contact/box_axes.inl"
+
 // As good as equal, as in EPA.
 #define AXIS_GAP (4.0 * (double)TL_FLOAT_ROUNDING)
-
-// Edges whose cross product is shorter are parallel, and then the faces' normals are as shallow to so much of the size.
-#define PARALLEL 1e-7
 
 // Where edges that are so nearly parallel cross cannot be told.
 #define LEVEL     1e-4
@@ -25,13 +27,10 @@
 
 typedef struct box_pair {
     const tl_box *a, *b;
-    double half_a[3], half_b[3];
-    double turn[3][3], size[3][3]; // axis of A . axis of B, and its absolute value
-    double apart[3];               // from A's middle to B's, along A's axes
-    double best, least;            // depth of the axis chosen, and of any
-    double scale, noise;           // coordinates, and what rounding leaves of them
-    int axis;                      // 0 .. 2 faces of A, 3 .. 5 of B, then 3 i + j
-    tl_vec3d normal;
+    tl_box_axes axes;
+    double best, least;  // depth of the axis chosen, and of any
+    double scale, noise; // coordinates, and what rounding leaves of them
+    int axis;            // as in tl_box_axes
 } box_pair;
 
 // Whether eight points, none of which is outside of a box, are its corners: each coordinate is on one of two sides.
@@ -94,90 +93,89 @@ bool tl_box_of(const tl_convex *shape, tl_box *box)
     return true;
 }
 
-static void load_half(tl_vec3d half, double out[3])
+static void load_vector(tl_vec3d v, double out[4])
 {
-    out[0] = half.x;
-    out[1] = half.y;
-    out[2] = half.z;
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.z;
+    out[3] = 0.0;
 }
 
 static void load_boxes(const tl_minkowski *pair, const tl_box *a, const tl_box *b, box_pair *p)
 {
+    tl_box_axes *x = &p->axes;
+    const tl_vec3d *rows = pair->b_to_a.rows;
     p->a = a;
     p->b = b;
-    tl_vec3d middle_b = tl_frame_point(&pair->b_to_a, b->middle);
-    tl_vec3d apart = tl_vec3d_sub(middle_b, a->middle);
-    load_half(a->half, p->half_a);
-    load_half(b->half, p->half_b);
-    p->apart[0] = apart.x;
-    p->apart[1] = apart.y;
-    p->apart[2] = apart.z;
+    load_vector(a->half, x->half_a);
+    load_vector(b->half, x->half_b);
+    load_vector(tl_vec3d_sub(tl_frame_point(&pair->b_to_a, b->middle), a->middle), x->apart);
     for (int i = 0; i < 3; i++) {
-        p->turn[i][0] = pair->b_to_a.rows[i].x;
-        p->turn[i][1] = pair->b_to_a.rows[i].y;
-        p->turn[i][2] = pair->b_to_a.rows[i].z;
-        for (int j = 0; j < 3; j++) {
-            p->size[i][j] = fabs(p->turn[i][j]);
-        }
+        load_vector(rows[i], x->turn[i]);
     }
-    double reach = p->half_a[0] + p->half_a[1] + p->half_a[2] + p->half_b[0] + p->half_b[1] + p->half_b[2];
+    load_vector(tl_vec3d_make(rows[0].x, rows[1].x, rows[2].x), x->columns[0]);
+    load_vector(tl_vec3d_make(rows[0].y, rows[1].y, rows[2].y), x->columns[1]);
+    load_vector(tl_vec3d_make(rows[0].z, rows[1].z, rows[2].z), x->columns[2]);
+    double reach = x->half_a[0] + x->half_a[1] + x->half_a[2] + x->half_b[0] + x->half_b[1] + x->half_b[2];
     p->scale = reach + tl_vec3d_size(a->middle) + tl_vec3d_size(b->middle) + tl_vec3d_size(pair->b_to_a.origin);
     p->noise = BOX_ERROR * p->scale;
-    p->best = p->least = (double)INFINITY;
-    p->axis = 0;
 }
 
-static void try_box_axis(box_pair *p, int axis, double depth, double gap, tl_vec3d normal)
+static void find_depths(tl_box_axes *axes)
 {
-    p->least = depth < p->least ? depth : p->least;
-    if (depth < p->best - (p->axis < 6 ? gap : 0.0)) { // of two edges the better one, or their points lie elsewhere
-        p->best = depth;
-        p->axis = axis;
-        p->normal = normal;
+#if TL_CPU_LEVELS >= 2
+    if (tl_cpu_has_avx2()) {
+        tl_box_axes_avx2(axes);
+        return;
     }
+#endif
+    tl_box_axes_base(axes);
+}
+
+// Which axis is shallowest is as good as random to a branch predictor, so it is chosen without a branch.
+static void choose_axis(box_pair *p, double gap)
+{
+    double best = (double)INFINITY, least = best, gap_now = gap;
+    int axis = 0;
+    for (int k = 0; k < TL_BOX_AXES; k++) {
+        const double depth = p->axes.depths[k / 3][k % 3];
+        const bool better = depth < best - gap_now; // of two edges the better one, or their points lie elsewhere
+        least = depth < least ? depth : least;
+        best = better ? depth : best;
+        axis = better ? k : axis;
+        gap_now = axis < 6 ? gap : 0.0;
+    }
+    p->best = best;
+    p->least = least;
+    p->axis = axis;
 }
 
 static tl_vec3d column(const box_pair *p, int j)
 {
-    return tl_vec3d_make(p->turn[0][j], p->turn[1][j], p->turn[2][j]);
+    const double *c = p->axes.columns[j];
+    return tl_vec3d_make(c[0], c[1], c[2]);
 }
 
-static void try_faces(box_pair *p, double gap)
+// Of the axis chosen, from A to B.
+static tl_vec3d axis_normal(const box_pair *p)
 {
-    for (int i = 0; i < 3; i++) {
-        double reach = p->half_b[0] * p->size[i][0] + p->half_b[1] * p->size[i][1] + p->half_b[2] * p->size[i][2];
-        double side = p->apart[i] < 0.0 ? -1.0 : 1.0;
-        tl_vec3d normal = { i == 0 ? side : 0.0, i == 1 ? side : 0.0, i == 2 ? side : 0.0 };
-        try_box_axis(p, i, p->half_a[i] + reach - side * p->apart[i], gap, normal);
+    const double *apart = p->axes.apart;
+    if (p->axis < 3) {
+        const double side = apart[p->axis] < 0.0 ? -1.0 : 1.0;
+        return tl_vec3d_make(p->axis == 0 ? side : 0.0, p->axis == 1 ? side : 0.0, p->axis == 2 ? side : 0.0);
     }
-    for (int j = 0; j < 3; j++) {
-        double reach = p->half_a[0] * p->size[0][j] + p->half_a[1] * p->size[1][j] + p->half_a[2] * p->size[2][j];
-        double along = p->apart[0] * p->turn[0][j] + p->apart[1] * p->turn[1][j] + p->apart[2] * p->turn[2][j];
-        try_box_axis(p, 3 + j, p->half_b[j] + reach - fabs(along), gap,
-                     tl_vec3d_scale(column(p, j), along < 0 ? -1 : 1));
+    if (p->axis < 6) {
+        const tl_vec3d c = column(p, p->axis - 3);
+        const double along = apart[0] * c.x + apart[1] * c.y + apart[2] * c.z;
+        return tl_vec3d_scale(c, along < 0 ? -1 : 1);
     }
-}
-
-// a_i x b_j, of A's axis i and B's axis j.
-static void try_edges(box_pair *p, double gap)
-{
-    for (int i = 0; i < 3; i++) {
-        int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-        for (int j = 0; j < 3; j++) {
-            int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-            double n1 = -p->turn[i2][j], n2 = p->turn[i1][j], length_sq = n1 * n1 + n2 * n2;
-            if (!(length_sq > PARALLEL * PARALLEL)) {
-                continue;
-            }
-            double reach = p->half_a[i1] * p->size[i2][j] + p->half_a[i2] * p->size[i1][j] +
-                           p->half_b[j1] * p->size[i][j2] + p->half_b[j2] * p->size[i][j1];
-            double along = n1 * p->apart[i1] + n2 * p->apart[i2], scale = 1.0 / sqrt(length_sq);
-            double side = along < 0.0 ? -scale : scale, n[3] = { 0.0 };
-            n[i1] = n1 * side;
-            n[i2] = n2 * side;
-            try_box_axis(p, 6 + 3 * i + j, (reach - fabs(along)) * scale, gap, tl_vec3d_make(n[0], n[1], n[2]));
-        }
-    }
+    const int i = (p->axis - 6) / 3, j = (p->axis - 6) % 3, i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+    const double n1 = -p->axes.turn[i2][j], n2 = p->axes.turn[i1][j], scale = 1.0 / sqrt(n1 * n1 + n2 * n2),
+                 side = n1 * apart[i1] + n2 * apart[i2] < 0.0 ? -scale : scale;
+    double n[3] = { 0.0 };
+    n[i1] = n1 * side;
+    n[i2] = n2 * side;
+    return tl_vec3d_make(n[0], n[1], n[2]);
 }
 
 // The edge along axis i of a box that is farthest along a direction, by the bits of its first vertex.
@@ -200,14 +198,14 @@ static tl_vec3d edge_middle(tl_vec3d center, const double half[3], uint32_t bits
 }
 
 // The points of both edges that are nearest to one another; of edges that are nearly parallel a search knows better.
-static void edge_points(const tl_minkowski *pair, const box_pair *p, tl_deepest *out)
+static void edge_points(const tl_minkowski *pair, const box_pair *p, tl_vec3d normal, tl_deepest *out)
 {
     int i = (p->axis - 6) / 3, j = (p->axis - 6) % 3;
-    tl_vec3d n = p->normal, nb = tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, n));
+    tl_vec3d n = normal, nb = tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, n));
     const double da[3] = { n.x, n.y, n.z }, db[3] = { nb.x, nb.y, nb.z };
     uint32_t bits_a = edge_along(da, i), bits_b = edge_along(db, j);
-    tl_vec3d a = edge_middle(p->a->middle, p->half_a, bits_a, i);
-    tl_vec3d b = tl_frame_point(&pair->b_to_a, edge_middle(p->b->middle, p->half_b, bits_b, j));
+    tl_vec3d a = edge_middle(p->a->middle, p->axes.half_a, bits_a, i);
+    tl_vec3d b = tl_frame_point(&pair->b_to_a, edge_middle(p->b->middle, p->axes.half_b, bits_b, j));
     tl_vec3d u = { i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0 }, v = column(p, j);
     tl_vec3d apart = tl_vec3d_sub(b, a), cross = tl_vec3d_cross(u, v);
     double length_sq = tl_vec3d_dot(cross, cross);
@@ -216,8 +214,8 @@ static void edge_points(const tl_minkowski *pair, const box_pair *p, tl_deepest 
     }
     double s = tl_vec3d_dot(tl_vec3d_cross(apart, v), cross) / length_sq,
            t = tl_vec3d_dot(tl_vec3d_cross(apart, u), cross) / length_sq;
-    out->on_a = tl_vec3d_mul_add(a, u, fmin(fmax(s, -p->half_a[i]), p->half_a[i]));
-    out->on_b = tl_vec3d_mul_add(b, v, fmin(fmax(t, -p->half_b[j]), p->half_b[j]));
+    out->on_a = tl_vec3d_mul_add(a, u, fmin(fmax(s, -p->axes.half_a[i]), p->axes.half_a[i]));
+    out->on_b = tl_vec3d_mul_add(b, v, fmin(fmax(t, -p->axes.half_b[j]), p->axes.half_b[j]));
     // Edges of hulls have other numbers.
     bool boxes = pair->a->kind == TL_CONVEX_BOX && pair->b->kind == TL_CONVEX_BOX;
     out->features[0] = boxes ? TL_FEATURE_EDGE | (bits_a * 8 + (bits_a | 1u << i)) : 0;
@@ -230,11 +228,10 @@ void tl_box_depth(tl_minkowski *pair, const tl_box *a, const tl_box *b, tl_deepe
     box_pair p;
     load_boxes(pair, a, b, &p);
     pair->scale = fmax(pair->scale, p.scale);
-    double gap = AXIS_GAP * (p.half_a[0] + p.half_a[1] + p.half_a[2] + p.half_b[0] + p.half_b[1] + p.half_b[2]);
-    p.normal = tl_vec3d_make(1.0, 0.0, 0.0);
-    try_faces(&p, gap);
-    try_edges(&p, gap);
-    out->normal = p.normal;
+    const double *half_a = p.axes.half_a, *half_b = p.axes.half_b;
+    find_depths(&p.axes);
+    choose_axis(&p, AXIS_GAP * (half_a[0] + half_a[1] + half_a[2] + half_b[0] + half_b[1] + half_b[2]));
+    out->normal = axis_normal(&p);
     out->separation = -p.best;
     out->lower_depth = p.least - p.noise;
     out->has_points = false;
@@ -242,6 +239,6 @@ void tl_box_depth(tl_minkowski *pair, const tl_box *a, const tl_box *b, tl_deepe
     if (p.least < 0.0) {
         out->separation = -p.least - p.noise;
     } else if (p.axis >= 6) {
-        edge_points(pair, &p, out);
+        edge_points(pair, &p, out->normal, out);
     }
 }
