@@ -7,6 +7,8 @@
 
 #include "convex/contact/face_patch.h"
 
+#include <string.h>
+
 enum { MAX_CORNERS = 12 };
 
 // In the plane y = 0, counter-clockwise seen from above (normal +y), or from below.
@@ -108,6 +110,28 @@ static double area_of(const tl_point2 *p, uint32_t count)
     return 0.5 * sum;
 }
 
+// Plain C and the processor's own level find the same bits.
+static void check_levels(const tl_face *a, const tl_face *b, const tl_patch *patch)
+{
+    static const tl_patch_heights heights[2] = { { 0.1, 0.2, -0.3 }, { 0.2, 0.1, 0.4 } };
+    static tl_patch base, best;
+    if (a->count > TL_SMALL_FACE || b->count > TL_SMALL_FACE) {
+        return;
+    }
+    base = best = *patch;
+    base.count = best.count = 0;
+    base.limit = best.limit = 0.5;
+    TEST_CHECK(tl_face_clip_base(a, b, heights, &base) == tl_face_clip(a, b, heights, &best));
+    TEST_CHECK(base.count == best.count);
+    for (uint32_t i = 0; i < base.count; i++) {
+        const tl_patch_point *p = &base.points[i], *q = &best.points[i];
+        const double of_base[4] = { p->x, p->y, p->on_a, p->on_b }, of_best[4] = { q->x, q->y, q->on_a, q->on_b };
+        TEST_CHECK(memcmp(of_base, of_best, sizeof of_base) == 0);
+        TEST_CHECK(p->features[0] == q->features[0] && p->features[1] == q->features[1] && p->previous == q->previous);
+        TEST_CHECK(p->on_b - p->on_a <= base.limit);
+    }
+}
+
 // Each corner found lies on both faces, and each corner of the intersection is found.
 static void check_patch(const tl_patch *patch, const tl_point2 *clipped, uint32_t count)
 {
@@ -149,6 +173,7 @@ static void test_polygons(void **state)
         tl_vec3d normal = tl_vec3d_make(0.0, 1.0, 0.0);
         tl_patch_start(&patch, normal);
         tl_patch_find(&face_a, &face_b, 1.0, NULL, &patch);
+        check_levels(&face_a, &face_b, &patch);
         uint32_t count = clip(a, a_count, b, b_count, both);
         // Small faces are cut; swept they have the same corners.
         static const tl_patch_heights flat[2];

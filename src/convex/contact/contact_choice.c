@@ -306,15 +306,15 @@ void tl_patch_choose(tl_patch *patch, uint32_t lowest_at, double slack)
     uint32_t count = last_count >= 4 ? keep_last(patch, kept) : 0;
     if (count == 0) {
         choice c = { { NULL }, 0 };
-        if (patch->in_order && patch->count <= DIRECTIONS) {
+        if (patch->count <= DIRECTIONS) {
             for (; c.count < patch->count; c.count++) {
                 c.points[c.count] = &patch->points[c.count];
             }
         } else {
             add_extremes(patch, &c);
             add_known(patch, &c);
-            sort_around(&c);
         }
+        sort_around(&c);
         count = keep_largest(&c, patch->gap * extent_of_patch(patch), kept);
     }
     const tl_patch_point *lowest = &patch->points[lowest_at];

@@ -92,6 +92,9 @@ void tl_face_sweep(const tl_face *a, const tl_face *b, const tl_patch_heights he
 // rounding leaves a part that is not convex.
 enum { TL_SMALL_FACE = 8 };
 bool tl_face_clip(const tl_face *a, const tl_face *b, const tl_patch_heights heights[2], tl_patch *patch);
+// The same for each level of instructions.
+bool tl_face_clip_base(const tl_face *a, const tl_face *b, const tl_patch_heights heights[2], tl_patch *patch);
+bool tl_face_clip_avx2(const tl_face *a, const tl_face *b, const tl_patch_heights heights[2], tl_patch *patch);
 
 // contact_choice.c
 // Chooses at most four points, which are the last ones where these still do, and one more, which is at `lowest`, where
