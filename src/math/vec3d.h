@@ -93,7 +93,8 @@ static inline tl_vec3d tl_vec3d_perpendicular(tl_vec3d d)
 {
     // Across the axis that d is least along; chosen without a branch, since it is as good as random.
     double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
-    double along_x = x <= y && x <= z ? 1.0 : 0.0, along_y = y <= z ? 1.0 - along_x : 0.0;
+    int least_x = (x <= y) & (x <= z), least_y = (y <= z) & (1 - least_x);
+    double along_x = (double)least_x, along_y = (double)least_y;
     tl_vec3d axis = tl_vec3d_make(along_x, along_y, 1.0 - along_x - along_y);
     tl_vec3d p = tl_vec3d_cross(d, axis);
     return tl_vec3d_scale(p, 1.0 / tl_vec3d_length(p));

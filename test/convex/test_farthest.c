@@ -112,7 +112,14 @@ static void check_polytope(test_random *random, const cloud *c)
         vertices[i][0] = (uint16_t)test_random_below(random, c->count);
         vertices[i][1] = (uint16_t)test_random_below(random, c->count);
     }
-    tl_scan_place_avx2(&c->map, c->points, c->points, (const uint16_t(*)[2])vertices, count, &points);
+    const tl_vertex_row row = { c->points, c->count };
+    TEST_CHECK(tl_scan_place_avx2(&c->map, row, row, (const uint16_t(*)[2])vertices, count, &points));
+    const uint32_t wrong = test_random_below(random, count), side = test_random_below(random, 2);
+    const uint16_t right = vertices[wrong][side];
+    vertices[wrong][side] = (uint16_t)c->count;
+    TEST_CHECK(!tl_scan_place_avx2(&c->map, row, row, (const uint16_t(*)[2])vertices, count, &points));
+    vertices[wrong][side] = right;
+    TEST_CHECK(tl_scan_place_avx2(&c->map, row, row, (const uint16_t(*)[2])vertices, count, &points));
     for (uint32_t i = 0; i < count; i++) {
         const tl_vec3d w = tl_vec3d_sub(tl_vec3d_from(c->points[vertices[i][0]]),
                                         tl_frame_point(&c->map, tl_vec3d_from(c->points[vertices[i][1]])));

@@ -27,6 +27,7 @@
 #include "math/tolerance.h"
 
 #include <float.h>
+#include <string.h>
 
 // A corner of the patch within so many float roundings of the coordinates is the deepest point: sides are plane to
 // eight roundings, and so are their planes.
@@ -330,11 +331,8 @@ static bool start_search(contact_search *s, const tl_convex *a, const tl_transfo
     s->tolerance = limits != NULL ? (double)limits->tolerance : 0.0;
     s->slack = 0.0;
     s->cache = NULL;
-    // Contacts beyond the count are zeroed once that is known.
-    s->out->count = 0;
-    s->out->normal = tl_vec3_make(0.0f, 0.0f, 0.0f);
-    s->out->separation = 0.0f;
-    s->out->status = TL_CONVEX_CONVERGED;
+    // All of it: how many contacts there will be is as good as random, and a loop over the others a wrong guess.
+    memset(s->out, 0, sizeof *s->out);
     if (!tl_minkowski_init(&s->pair, a, pose_a, b, pose_b) || isnan(s->margin) || isnan(s->tolerance)) {
         s->out->status = TL_CONVEX_NOT_FINITE;
         return false;
@@ -344,15 +342,6 @@ static bool start_search(contact_search *s, const tl_convex *a, const tl_transfo
     return true;
 }
 
-static uint32_t zero_the_rest(contact_search *s)
-{
-    static const tl_contact none = { 0 };
-    for (uint32_t i = s->out->count; i < TL_MAX_CONTACTS; i++) {
-        s->out->contacts[i] = none;
-    }
-    return s->out->count;
-}
-
 uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                             const tl_contact_limits *limits, tl_contact_cache *cache, tl_contact_manifold *manifold_out)
 {
@@ -360,7 +349,7 @@ uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_co
     contact_search s;
     s.out = manifold_out;
     if (!start_search(&s, a, &pose_a, b, &pose_b, limits)) {
-        return zero_the_rest(&s);
+        return manifold_out->count;
     }
     if (cache != NULL && cache->count > TL_MAX_CONTACTS) {
         cache->count = 0; // not what a call left there
@@ -371,7 +360,7 @@ uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_co
     if (cache != NULL) {
         cache->count = manifold_out->count;
     }
-    return zero_the_rest(&s);
+    return manifold_out->count;
 }
 
 // B's farthest point on A's face, when it lies over that.
@@ -408,13 +397,13 @@ uint32_t tl_convex_contacts_along(const tl_convex *a, tl_transform pose_a, const
     contact_search s;
     s.out = manifold_out;
     if (!start_search(&s, a, &pose_a, b, &pose_b, limits)) {
-        return zero_the_rest(&s);
+        return manifold_out->count;
     }
     tl_vec3d along = tl_frame_rotate_back(&s.pair.a_to_world, tl_vec3d_from(normal));
     double length = tl_vec3d_length(along);
     if (!(length > 0.0 && length <= DBL_MAX)) {
         manifold_out->status = TL_CONVEX_NOT_FINITE;
-        return zero_the_rest(&s);
+        return manifold_out->count;
     }
     tl_deepest deepest;
     deepest.normal = tl_vec3d_scale(along, 1.0 / length);
@@ -436,5 +425,5 @@ uint32_t tl_convex_contacts_along(const tl_convex *a, tl_transform pose_a, const
         tl_patch_choose(&s.patch, tl_patch_lowest(&s.patch), DEEPEST_GAP * s.pair.scale);
         write_manifold(&s, &deepest);
     }
-    return zero_the_rest(&s);
+    return manifold_out->count;
 }

@@ -161,8 +161,11 @@ static void patch_of_edges(tl_patch *patch, const tl_face faces[2])
 void tl_patch_find(const tl_face *a, const tl_face *b, double limit, const tl_contact_cache *last, tl_patch *patch)
 {
     patch->last = last;
+    static const tl_contact_cache none = { .count = 0 };
+    const tl_contact_cache *known = last != NULL ? last : &none;
     for (uint32_t i = 0; i < TL_MAX_CONTACTS; i++) {
-        patch->known[i] = last != NULL && i < last->count ? tl_patch_key(last->features[i]) : 0;
+        const uint64_t key = tl_patch_key(known->features[i]);
+        patch->known[i] = i < known->count ? key : 0;
     }
     patch->limit = limit;
     patch->count = 0;

@@ -202,20 +202,8 @@ void tl_minkowski_set_hints(tl_minkowski *pair, uint32_t vertex_a, uint32_t vert
     set_hints(pair, vertex_a, vertex_b);
 }
 
-// What is not finite survives a sum, so one test will do for all.
-static double sum_point(tl_vec3 p)
-{
-    return (double)p.x + (double)p.y + (double)p.z;
-}
-
-static double sum_pose(const tl_transform *pose)
-{
-    tl_quat r = pose->rotation;
-    return sum_point(pose->position) + (((double)r.x + (double)r.y) + ((double)r.z + (double)r.w));
-}
-
 // Of what a shape holds itself, by the exponents: they have all bits set in what is not finite.
-static bool is_finite_shape(const tl_convex *shape)
+static bool corners_are_finite(const tl_convex *shape)
 {
     uint32_t bits[9], full = 0;
     static_assert(sizeof bits == sizeof shape->corners, "three points");
@@ -223,17 +211,26 @@ static bool is_finite_shape(const tl_convex *shape)
     for (int i = 0; i < 9; i++) {
         full |= (bits[i] & 0x7fffffffu) + 0x00800000u;
     }
-    return (full & 0x80000000u) == 0 && isfinite(shape->radius);
+    return (full & 0x80000000u) == 0;
+}
+
+// What is not finite survives a sum, so one test will do for both poses and radii. Every component of both rotations is
+// in each one of the rotation between them, but a w of NaN, which tl_quatd_from takes for zero; floats cannot overflow
+// in doubles on the way there.
+static bool is_finite_pair(const tl_minkowski *pair, const tl_transform *pose_a, const tl_transform *pose_b)
+{
+    const tl_vec3d origin = pair->a_to_world.origin;
+    const double rotations = pair->b_to_a.rows[0].x + ((double)pose_a->rotation.w + (double)pose_b->rotation.w),
+                 positions = pair->origin_size + (origin.x + origin.y + origin.z),
+                 radii = (double)pair->a->radius + (double)pair->b->radius;
+    return isfinite(rotations + positions + radii) && corners_are_finite(pair->a) && corners_are_finite(pair->b);
 }
 
 bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, const tl_transform *pose_a, const tl_convex *b,
                        const tl_transform *pose_b)
 {
-    if (!isfinite(sum_pose(pose_a) + sum_pose(pose_b)) || !is_finite_shape(a) || !is_finite_shape(b)) {
-        return false;
-    }
-    tl_quatd rotation_a = tl_quatd_from(pose_a->rotation), rotation_b = tl_quatd_from(pose_b->rotation);
-    tl_vec3d position_a = tl_vec3d_from(pose_a->position), position_b = tl_vec3d_from(pose_b->position);
+    const tl_quatd rotation_a = tl_quatd_from(pose_a->rotation), rotation_b = tl_quatd_from(pose_b->rotation);
+    const tl_vec3d position_a = tl_vec3d_from(pose_a->position), position_b = tl_vec3d_from(pose_b->position);
     pair->a = a;
     pair->b = b;
     tl_frame_set(&pair->a_to_world, rotation_a, position_a);
@@ -242,6 +239,9 @@ bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, const tl_transfor
     pair->origin_size = tl_vec3d_size(pair->b_to_a.origin);
     pair->scale = 0.0;
     pair->depth_steps = UINT32_MAX;
+    if (!is_finite_pair(pair, pose_a, pose_b)) {
+        return false;
+    }
     set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
     return true;
 }
@@ -490,18 +490,6 @@ static void place_rows(const tl_frame *b_to_a, const tl_vec3 *row_a, const tl_ve
 
 #endif
 
-static void place_all(const tl_frame *b_to_a, const tl_vec3 *row_a, const tl_vec3 *row_b, const uint16_t (*vertices)[2],
-                      uint32_t count, tl_placed_points *points)
-{
-#if TL_CPU_LEVELS >= 2
-    if (count >= 4 && tl_cpu_has_avx2()) {
-        tl_scan_place_avx2(b_to_a, row_a, row_b, vertices, count, points);
-        return;
-    }
-#endif
-    place_rows(b_to_a, row_a, row_b, vertices, count, points);
-}
-
 static bool are_vertices(const uint16_t (*vertices)[2], uint32_t count, uint32_t count_a, uint32_t count_b)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -509,6 +497,22 @@ static bool are_vertices(const uint16_t (*vertices)[2], uint32_t count, uint32_t
             return false;
         }
     }
+    return true;
+}
+
+// False where a row has no such vertex.
+static bool place_all(const tl_frame *b_to_a, tl_vertex_row row_a, tl_vertex_row row_b, const uint16_t (*vertices)[2],
+                      uint32_t count, tl_placed_points *points)
+{
+#if TL_CPU_LEVELS >= 2
+    if (count >= 4 && tl_cpu_has_avx2()) {
+        return tl_scan_place_avx2(b_to_a, row_a, row_b, vertices, count, points);
+    }
+#endif
+    if (!are_vertices(vertices, count, row_a.count, row_b.count)) {
+        return false;
+    }
+    place_rows(b_to_a, row_a.points, row_b.points, vertices, count, points);
     return true;
 }
 
@@ -526,10 +530,10 @@ bool tl_minkowski_place(tl_minkowski *pair, const uint16_t (*vertices)[2], uint3
         }
         return true;
     }
-    if (!are_vertices(vertices, count, count_a, count_b)) {
+    const tl_vertex_row a = { row_a, count_a }, b = { row_b, count_b };
+    if (!place_all(&pair->b_to_a, a, b, vertices, count, points)) {
         return false;
     }
-    place_all(&pair->b_to_a, row_a, row_b, vertices, count, points);
     const double scale = size_of_used(pair->a, row_a, vertices, count, 0) +
                          size_of_used(pair->b, row_b, vertices, count, 1) + pair->origin_size;
     pair->scale = scale > pair->scale ? scale : pair->scale;

@@ -32,7 +32,7 @@ typedef struct tl_minkowski {
     uint32_t depth_steps;    // budget of the search for a depth
 } tl_minkowski;
 
-// False, and the pair is not set, when a pose or what a shape holds itself is not finite.
+// False when a pose or what a shape holds itself is not finite; the pair is of no use then.
 bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, const tl_transform *pose_a, const tl_convex *b,
                        const tl_transform *pose_b);
 

@@ -117,19 +117,33 @@ static inline four_points four_vertices(const tl_vec3 *row, const uint16_t (*pai
     return p;
 }
 
-void TL_SCAN_PLACE(const tl_frame *b_to_a, const tl_vec3 *row_a, const tl_vec3 *row_b, const uint16_t (*vertices)[2],
+// Whether all four pairs have vertices; a branch for all of them.
+static inline bool are_in_rows(const uint16_t (*pairs)[2], uint32_t count_a, uint32_t count_b)
+{
+    uint32_t beyond = 0;
+    for (int k = 0; k < 4; k++) {
+        beyond |= (uint32_t)(pairs[k][0] >= count_a) | (uint32_t)(pairs[k][1] >= count_b);
+    }
+    return beyond == 0;
+}
+
+bool TL_SCAN_PLACE(const tl_frame *b_to_a, tl_vertex_row row_a, tl_vertex_row row_b, const uint16_t (*vertices)[2],
                    uint32_t count, tl_placed_points *points)
 {
     const four_points rows[3] = { four_of(b_to_a->rows[0]), four_of(b_to_a->rows[1]), four_of(b_to_a->rows[2]) },
                       origin = four_of(b_to_a->origin);
     for (uint32_t i = 0; i < count; i += 4) {
         const uint32_t at = i + 4 <= count ? i : count - 4;
-        const four_points on_b = four_image(rows, origin, four_vertices(row_b, vertices + at, 1)),
-                          w = four_sub(four_vertices(row_a, vertices + at, 0), on_b);
+        if (!are_in_rows(vertices + at, row_a.count, row_b.count)) {
+            return false;
+        }
+        const four_points on_b = four_image(rows, origin, four_vertices(row_b.points, vertices + at, 1)),
+                          w = four_sub(four_vertices(row_a.points, vertices + at, 0), on_b);
         tl_f64x4_store(&points->x[at], w.x);
         tl_f64x4_store(&points->y[at], w.y);
         tl_f64x4_store(&points->z[at], w.z);
     }
+    return true;
 }
 
 static inline four_points four_corners(const tl_placed_points *points, const uint8_t (*faces)[3], int corner)
