@@ -43,10 +43,10 @@ static bool leads_on(const tl_navmesh *navmesh, const all_polygons *all, tl_nav_
         for (uint32_t k = 0; k < ring.count; k++) {
             const bool is_edge = at.slot == edge.slot && at.polygon == edge.polygon && k == edge.edge;
             const bool is_twin = at.slot == twin.slot && at.polygon == twin.polygon && k == twin.edge;
-            if (!tl_nav_ring_is_open(&ring.edges[k]) || is_edge || is_twin) {
+            if (!tl_nav_ring_is_open(tl_nav_ring_to(&ring, k)) || is_edge || is_twin) {
                 continue;
             }
-            const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, at.slot, ring.edges[k].to);
+            const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, at.slot, tl_nav_ring_to(&ring, k));
             bool *met = &is_met[all->first[to.slot] + to.polygon];
             if (!*met) {
                 *met = true;
@@ -67,13 +67,13 @@ static uint32_t check_steps(const tl_navmesh *navmesh, const all_polygons *all, 
     uint32_t astray = 0;
     const tl_nav_ring ring = tl_nav_ring_at(navmesh, from.slot, from.polygon);
     for (uint32_t k = 0; k < ring.count; k++) {
-        if (!tl_nav_ring_is_open(&ring.edges[k])) {
+        if (!tl_nav_ring_is_open(tl_nav_ring_to(&ring, k))) {
             continue;
         }
         const tl_nav_ring_place edge = { from.slot, from.polygon, k };
         const tl_nav_ring_place twin = tl_nav_ring_twin(navmesh, from.slot, from.polygon, &ring, k);
         const bool is_astray =
-            tl_nav_leads_astray(navmesh, from, tl_nav_ring_across(navmesh, from.slot, ring.edges[k].to), goal);
+            tl_nav_leads_astray(navmesh, from, tl_nav_ring_across(navmesh, from.slot, tl_nav_ring_to(&ring, k)), goal);
         const bool is_on = leads_on(navmesh, all, edge, twin, goal);
         TEST_CHECK(!(is_astray && is_on));
         TEST_CHECK(navmesh->tile_count > 1 || is_astray || is_on);

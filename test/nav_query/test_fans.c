@@ -29,9 +29,11 @@ static void seams_know_their_twins(void **state)
             for (uint32_t p = 0; p < rings->polygon_count; p++) {
                 const tl_nav_ring ring = tl_nav_ring_of(rings, p);
                 for (uint32_t k = 0; k < ring.count; k++) {
-                    if (tl_nav_ring_is_seam(&ring.edges[k])) {
+                    if (tl_nav_ring_is_seam(tl_nav_ring_to(&ring, k))) {
                         const tl_nav_ring_place twin = tl_nav_ring_twin(navmesh, slot, p, &ring, k);
-                        TEST_CHECK(tl_nav_ring_twin_hint(&ring.edges[k]) == twin.edge);
+                        const tl_nav_ring across = tl_nav_ring_at(navmesh, twin.slot, twin.polygon);
+                        const tl_nav_ring_edge edge = tl_nav_ring_edge_at(&ring, k);
+                        TEST_CHECK(tl_nav_seam_twin_hint(rings, edge, across.count) == twin.edge);
                         seams += twin.edge > 0;
                     }
                 }
@@ -65,24 +67,29 @@ static void rings_have_no_room_to_spare(void **state)
         tl_navmesh *navmesh = fixture_build(&level, NULL);
         for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
             const tl_nav_rings *rings = &navmesh->slots[slot].rings;
-            const uint64_t edges = rings->cells[rings->polygon_count].first, polygons = rings->polygon_count;
+            const tl_nav_tile *tile = navmesh->slots[slot].tile;
+            const uint64_t edges = rings->edge_count, polygons = rings->polygon_count;
             uint64_t seams = 0, points = 0;
             for (uint64_t k = 0; k < edges; k++) {
-                seams += tl_nav_ring_is_seam(&rings->edges[k]);
-                const uint32_t walls = rings->edges[k].mark >> TL_NAV_RING_TWIN_BITS;
-                TEST_CHECK(walls < rings->walls_count && (rings->edges[k].turn == 0 || walls >= TL_NAV_WALLS_FIRST));
+                const tl_nav_ring_edge edge = tl_nav_edge_of(rings, k);
+                const uint32_t walls = tl_nav_walls_number(edge);
+                seams += tl_nav_ring_is_seam(edge.to);
+                TEST_CHECK(walls < rings->walls_count);
+                TEST_CHECK(walls >= TL_NAV_WALLS_FIRST || tl_nav_turn_of(rings, edge) == 0);
             }
             for (uint32_t p = 0; p < polygons; p++) {
-                points += own_points_of(navmesh->slots[slot].tile, rings, p);
+                points += own_points_of(tile, rings, p);
             }
             seams_in_all += seams;
             points_in_all += points;
             edges_in_all += edges;
             walls_in_all += rings->walls_count - TL_NAV_WALLS_FIRST;
-            TEST_CHECK(tl_nav_rings_size(rings) ==
-                       edges * sizeof *rings->edges + points * sizeof(tl_vec3) + seams * sizeof *rings->seams +
-                           (polygons + 1) * sizeof *rings->cells +
-                           (2 * polygons + navmesh->slots[slot].tile->node_count) * sizeof(uint16_t));
+            TEST_CHECK(tl_nav_rings_size(rings) == edges * sizeof *rings->edges.narrow + points * sizeof(tl_vec3) +
+                                                       seams * sizeof *rings->seams +
+                                                       (points > 0 ? 2 * (polygons + 1) * sizeof *rings->first : 0) +
+                                                       (3 * polygons + tile->node_count) * sizeof(uint16_t));
+            TEST_CHECK(!rings->has_wide_edges);
+            TEST_CHECK((rings->first == tl_nav_tile_at(tile, tile->first_corner)) == (points == 0));
         }
         tl_navmesh_destroy(navmesh);
     }
@@ -104,11 +111,12 @@ static void far_twins_are_found(void **state)
         points[k].x = (float)k;
         edges[k].to = TL_NAV_RING_WALL;
     }
-    tl_nav_ring_cell cells[3] = { { 0, 0, 0 }, { 3, 3 * sizeof(tl_vec3), 0 }, { 3 + CORNERS, 0, 0 } };
+    const uint32_t first[3] = { 0, 3, 3 + CORNERS };
     tl_nav_slot slot;
     memset(&slot, 0, sizeof slot);
-    slot.rings.cells = cells;
-    slot.rings.edges = edges;
+    slot.rings.first = slot.rings.first_point = first;
+    slot.rings.edges.wide = edges;
+    slot.rings.has_wide_edges = true;
     slot.rings.points[0] = points;
     slot.rings.polygon_count = 2;
     tl_navmesh navmesh;
@@ -117,7 +125,7 @@ static void far_twins_are_found(void **state)
     for (uint32_t twin = 0; twin < CORNERS; twin++) {
         const tl_nav_ring ring = tl_nav_ring_of(&slot.rings, 0);
         edges[1].to = 1;
-        tl_nav_set_ring_twin(&edges[1], twin);
+        edges[1] = tl_nav_with_twin(edges[1], twin);
         edges[3 + twin].to = 0;
         points[3 + twin].x = points[2].x; // where the edge ends
         TEST_CHECK(tl_nav_ring_twin(&navmesh, 0, 0, &ring, 1).edge == twin);
@@ -140,50 +148,55 @@ static void seam_twins_are_near(void **state)
             tl_nav_rings rings;
             memset(&rings, 0, sizeof rings);
             rings.seams = &seam;
-            tl_nav_ring_edge edge = { TL_NAV_RING_SEAM, 0, 77u << TL_NAV_RING_TWIN_BITS };
+            tl_nav_short_edge edges[2] = { { 0, 0 }, { -3, 77u << TL_NAV_RING_TWIN_BITS } }; // seam 0
+            rings.edges.narrow = edges;
             const uint32_t twin = i == 0 ? COUNTS[c] - 1 : test_random_below(&random, COUNTS[c]);
-            tl_nav_set_seam_twin(&rings, &edge, 0, COUNTS[c]);
-            tl_nav_set_seam_twin(&rings, &edge, twin, COUNTS[c]);
-            const uint32_t near = tl_nav_seam_twin_hint(&rings, &edge, COUNTS[c]);
-            TEST_CHECK(near <= twin && twin - near <= COUNTS[c] >> 17);
+            tl_nav_set_seam_twin(&rings, 1, 0, COUNTS[c]);
+            tl_nav_set_seam_twin(&rings, 1, twin, COUNTS[c]);
+            const tl_nav_ring_edge edge = tl_nav_edge_of(&rings, 1);
+            const uint32_t near = tl_nav_seam_twin_hint(&rings, edge, COUNTS[c]);
+            TEST_CHECK(near <= twin && twin - near <= COUNTS[c] >> 14);
             TEST_CHECK(tl_nav_ring_seam_of(&rings, edge.to).slot == TL_NAV_MAX_TILES - 1);
-            TEST_CHECK(edge.mark >> TL_NAV_RING_TWIN_BITS == 77);
+            TEST_CHECK(tl_nav_walls_number(edge) == 77);
         }
     }
 }
 
-enum { HUB_STRIPS = 1000 };
-
 // Whichever comes first, the hub or its strips, each strip knows where it lies in the hub's ring.
-static void strips_know_their_place_in_a_hub(void **state)
+static void check_hub(uint32_t strips)
 {
-    (void)state;
     for (uint32_t hub = 0; hub < 2; hub++) {
         tl_navmesh *navmesh = NULL;
         TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
-        TEST_RESULT(
-            tl_navmesh_add_tile(navmesh, nav_row_tile(hub == 0 ? 1 : HUB_STRIPS, HUB_STRIPS, 0), TL_NAV_TILE_OWNED),
-            TL_OK);
-        TEST_RESULT(
-            tl_navmesh_add_tile(navmesh, nav_row_tile(hub == 1 ? 1 : HUB_STRIPS, HUB_STRIPS, 1), TL_NAV_TILE_OWNED),
-            TL_OK);
+        TEST_RESULT(tl_navmesh_add_tile(navmesh, nav_row_tile(hub == 0 ? 1 : strips, strips, 0), TL_NAV_TILE_OWNED),
+                    TL_OK);
+        TEST_RESULT(tl_navmesh_add_tile(navmesh, nav_row_tile(hub == 1 ? 1 : strips, strips, 1), TL_NAV_TILE_OWNED),
+                    TL_OK);
         const tl_nav_rings *rings = &navmesh->slots[1 - hub].rings;
+        TEST_CHECK(!rings->is_wide && rings->has_wide_edges == (strips > TL_NAV_SHORT_WALLS / 2));
         uint32_t seams = 0, hub_edges = 0;
         hub_edges = tl_nav_ring_at(navmesh, hub, 0).count;
-        TEST_CHECK(rings->polygon_count == HUB_STRIPS && hub_edges == HUB_STRIPS + 3);
-        for (uint32_t p = 0; p < HUB_STRIPS; p++) {
+        TEST_CHECK(rings->polygon_count == strips && hub_edges == strips + 3);
+        for (uint32_t p = 0; p < strips; p++) {
             const tl_nav_ring ring = tl_nav_ring_of(rings, p);
             for (uint32_t k = 0; k < ring.count; k++) {
-                if (tl_nav_ring_is_open(&ring.edges[k])) {
+                if (tl_nav_ring_is_open(tl_nav_ring_to(&ring, k))) {
                     const tl_nav_ring_place twin = tl_nav_ring_twin(navmesh, 1 - hub, p, &ring, k);
-                    TEST_CHECK(tl_nav_seam_twin_hint(rings, &ring.edges[k], hub_edges) == twin.edge);
+                    TEST_CHECK(tl_nav_seam_twin_hint(rings, tl_nav_ring_edge_at(&ring, k), hub_edges) == twin.edge);
                     seams++;
                 }
             }
         }
-        TEST_CHECK(seams == HUB_STRIPS);
+        TEST_CHECK(seams == strips);
         tl_navmesh_destroy(navmesh);
     }
+}
+
+static void strips_know_their_place_in_a_hub(void **state)
+{
+    (void)state;
+    check_hub(1000);
+    check_hub(5000); // more vertices on a side than a short edge names walls
 }
 
 // A tile that says it is the next one while its vertices are not: links lead over the seam to edges that are not the
@@ -206,8 +219,8 @@ static void tiles_that_do_not_meet_are_added(void **state)
             TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
         }
         const tl_nav_rings *rings = &navmesh->slots[0].rings;
-        for (uint32_t k = 0; k < rings->cells[rings->polygon_count].first; k++) {
-            apart += tl_nav_ring_is_seam(&rings->edges[k]);
+        for (uint32_t k = 0; k < rings->edge_count; k++) {
+            apart += tl_nav_ring_is_seam(tl_nav_edge_of(rings, k).to);
         }
         tl_navmesh_destroy(navmesh);
     }
@@ -276,7 +289,8 @@ static void large_tiles_have_wide_numbers(void **state)
     tl_nav_tile *tile = make_strips();
     TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
     const tl_nav_slot *slot = &navmesh->slots[0];
-    TEST_CHECK(slot->rings.is_wide && slot->areas.is_wide && slot->rings.component_count == STRIPS);
+    TEST_CHECK(slot->rings.is_wide && slot->rings.has_wide_edges && slot->areas.is_wide &&
+               slot->rings.component_count == STRIPS);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         TEST_CHECK(tl_nav_component_of(&slot->rings, p) == p / STRIP_LENGTH);
         TEST_CHECK(tl_nav_area_before(slot, p + 1) == 2 * (uint64_t)SQUARE * SQUARE * (p + 1));
@@ -418,12 +432,13 @@ static void collapsed_vertices_have_walls(void **state)
         for (uint32_t p = 0; p < SIDE * SIDE; p++) {
             const tl_nav_ring ring = tl_nav_ring_of(rings, p);
             for (uint32_t k = 0; k < ring.count; k++) {
-                TEST_CHECK(ring.edges[k].mark >> TL_NAV_RING_TWIN_BITS < rings->walls_count);
-                if (tl_nav_ring_is_open(&ring.edges[k])) {
+                TEST_CHECK(tl_nav_walls_number(tl_nav_ring_edge_at(&ring, k)) < rings->walls_count);
+                if (tl_nav_ring_is_open(tl_nav_ring_to(&ring, k))) {
                     const uint32_t twin = tl_nav_inner_twin(rings, p, k);
-                    const tl_nav_ring across = tl_nav_ring_of(rings, ring.edges[k].to);
+                    const tl_nav_ring across = tl_nav_ring_of(rings, tl_nav_ring_to(&ring, k));
                     TEST_CHECK(twin < across.count);
-                    astray += across.edges[twin].to != p || tl_nav_inner_twin(rings, ring.edges[k].to, twin) != k;
+                    astray += tl_nav_ring_to(&across, twin) != p ||
+                              tl_nav_inner_twin(rings, tl_nav_ring_to(&ring, k), twin) != k;
                 }
             }
         }

@@ -65,11 +65,11 @@ static void look_for_wall(wall_search *search, uint32_t node)
         const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
         tl_nav_plan_point nearest = tl_nav_nearest_on_edge(&ring.points[i], end, search->x, search->z);
         if (nearest.distance_sq >= search->best_sq || nearest.distance_sq < min_sq ||
-            ring.edges[i].to == TL_NAV_RING_BACK) {
+            tl_nav_ring_to(&ring, i) == TL_NAV_RING_BACK) {
             continue;
         }
-        if (ring.edges[i].to != TL_NAV_RING_WALL) {
-            tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, ring.edges[i].to);
+        if (tl_nav_ring_to(&ring, i) != TL_NAV_RING_WALL) {
+            tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, tl_nav_ring_to(&ring, i));
             if (search->all_pass || tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
                 offer_polygon(search, to, nearest.distance_sq);
                 continue;

@@ -69,10 +69,10 @@ static void expand_polygon(tl_nav_flood *flood, uint32_t index)
         enter_by_links(flood, &node, index);
     }
     for (uint32_t i = 0; i < ring.count; i++) {
-        if (!tl_nav_ring_is_open(&ring.edges[i])) {
+        if (!tl_nav_ring_is_open(tl_nav_ring_to(&ring, i))) {
             continue;
         }
-        tl_nav_ring_seam to = tl_nav_ring_across(flood->navmesh, node.slot, ring.edges[i].to);
+        tl_nav_ring_seam to = tl_nav_ring_across(flood->navmesh, node.slot, tl_nav_ring_to(&ring, i));
         if (parent != NULL && to.polygon == parent->polygon && to.slot == parent->slot) {
             continue; // closed already
         }

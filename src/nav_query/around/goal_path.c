@@ -121,10 +121,10 @@ static goal_way choose_way(const goal_walk *walk)
     goal_way best = over_link(walk);
     const tl_nav_ring ring = tl_nav_ring_at(walk->navmesh, walk->slot, walk->polygon);
     for (uint32_t i = 0; i < ring.count; i++) {
-        if (!tl_nav_ring_is_open(&ring.edges[i])) {
+        if (!tl_nav_ring_is_open(tl_nav_ring_to(&ring, i))) {
             continue;
         }
-        const tl_nav_ring_seam to = tl_nav_ring_across(walk->navmesh, walk->slot, ring.edges[i].to);
+        const tl_nav_ring_seam to = tl_nav_ring_across(walk->navmesh, walk->slot, tl_nav_ring_to(&ring, i));
         const uint32_t entry = find_entry(walk->tree, tl_nav_make_ref(walk->navmesh, to.slot, to.polygon), walk->entry);
         // Where the tree of the one across leads through this polygon, it is no way out.
         if (entry == UINT32_MAX || walk->tree->entries[entry].parent == walk->entry || entry == walk->before ||

@@ -110,10 +110,10 @@ static void leave_polygon(tl_nav_goal_search *search, uint32_t index)
         leave_by_links(search, &node, index);
     }
     for (uint32_t i = 0; i < ring.count; i++) {
-        if (!tl_nav_ring_is_open(&ring.edges[i])) {
+        if (!tl_nav_ring_is_open(tl_nav_ring_to(&ring, i))) {
             continue;
         }
-        const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, node.slot, ring.edges[i].to);
+        const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, node.slot, tl_nav_ring_to(&ring, i));
         if (!search->all_pass && !tl_nav_passes(search->filter, navmesh->slots[to.slot].tile, to.polygon)) {
             continue;
         }

@@ -37,7 +37,7 @@ static bool ring_holds(const tl_nav_ring *ring, double x, double z)
         const tl_vec3 *end = &ring->points[i + 1 < ring->count ? i + 1 : 0];
         double p = ((double)end->x - (double)ring->points[i].x) * (z - (double)ring->points[i].z);
         double q = ((double)end->z - (double)ring->points[i].z) * (x - (double)ring->points[i].x);
-        if (p - q > TL_CROSS_ERROR * (fabs(p) + fabs(q)) && ring->edges[i].to != TL_NAV_RING_BACK) {
+        if (p - q > TL_CROSS_ERROR * (fabs(p) + fabs(q)) && tl_nav_ring_to(ring, i) != TL_NAV_RING_BACK) {
             return false;
         }
     }
@@ -57,11 +57,11 @@ static bool look_for_target(move_search *search, uint32_t node)
     }
     for (uint32_t i = 0; i < ring.count; i++) {
         const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
-        if (ring.edges[i].to == TL_NAV_RING_BACK) {
+        if (tl_nav_ring_to(&ring, i) == TL_NAV_RING_BACK) {
             continue;
         }
-        if (ring.edges[i].to != TL_NAV_RING_WALL) {
-            tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, ring.edges[i].to);
+        if (tl_nav_ring_to(&ring, i) != TL_NAV_RING_WALL) {
+            tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, tl_nav_ring_to(&ring, i));
             if (search->all_pass || tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
                 if (tl_nav_nearest_on_edge(&ring.points[i], end, search->middle_x, search->middle_z).distance_sq <=
                     search->reach_sq) {

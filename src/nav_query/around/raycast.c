@@ -425,7 +425,7 @@ static bool walk_clean(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
         if (ray->navmesh->slots[at.slot].rings.has_back) {
             return false;
         }
-        bool is_way = ring.edges[edge].to != TL_NAV_RING_WALL;
+        bool is_way = tl_nav_ring_to(&ring, edge) != TL_NAV_RING_WALL;
         tl_nav_ring_place twin = { at.slot, at.polygon, 0 };
         if (is_way) {
             twin = tl_nav_ring_twin(ray->navmesh, at.slot, at.polygon, &ring, edge);

@@ -15,14 +15,14 @@
 #include <talus/nav_around.h>
 
 // Whether a ring's edge is wall; then what the filter refuses behind it.
-static bool is_wall(const tl_navmesh *navmesh, const tl_nav_filter *filter, uint32_t slot, const tl_nav_ring_edge *edge,
+static bool is_wall(const tl_navmesh *navmesh, const tl_nav_filter *filter, uint32_t slot, tl_nav_ring_edge edge,
                     tl_nav_ring_seam *to_out, bool *has_polygon_out)
 {
-    *has_polygon_out = tl_nav_ring_is_open(edge);
+    *has_polygon_out = tl_nav_ring_is_open(edge.to);
     if (!*has_polygon_out) {
-        return edge->to == TL_NAV_RING_WALL;
+        return edge.to == TL_NAV_RING_WALL;
     }
-    *to_out = tl_nav_ring_across(navmesh, slot, edge->to);
+    *to_out = tl_nav_ring_across(navmesh, slot, edge.to);
     return !tl_nav_passes(filter, navmesh->slots[to_out->slot].tile, to_out->polygon);
 }
 
@@ -52,7 +52,7 @@ tl_result tl_navmesh_polygon_walls(const tl_navmesh *navmesh, const tl_nav_filte
         const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
         tl_nav_ring_seam to = { 0, 0 };
         bool has_polygon = false;
-        if (is_wall(navmesh, filter, slot, &ring.edges[i], &to, &has_polygon)) {
+        if (is_wall(navmesh, filter, slot, tl_nav_ring_edge_at(&ring, i), &to, &has_polygon)) {
             if (*count_out < capacity) {
                 segments_out[*count_out] = make_segment(navmesh, ring.points[i], *end, polygon, to, has_polygon);
             }
@@ -100,7 +100,7 @@ static void gather_polygon_walls(wall_gathering *walls, uint32_t node)
         }
         tl_nav_ring_seam to = { 0, 0 };
         bool has_polygon = false;
-        if (is_wall(walls->navmesh, walls->filter, slot, &ring.edges[i], &to, &has_polygon)) {
+        if (is_wall(walls->navmesh, walls->filter, slot, tl_nav_ring_edge_at(&ring, i), &to, &has_polygon)) {
             tl_nav_wall_segment segment = make_segment(walls->navmesh, ring.points[i], *end,
                                                        tl_nav_make_ref(walls->navmesh, slot, polygon), to, has_polygon);
             segment.distance = (float)sqrt(distance_sq);

@@ -48,14 +48,14 @@ static inline void look_out(wedge_search *s, uint32_t index, root_holders *gathe
     const wedge_origin root = { wedge.root_x, wedge.root_z, wedge.cost };
     const step_from from = step_from_polygon(s, index, wedge.slot, wedge.polygon);
     for (uint32_t i = 0; i < from.ring.count; i++) {
-        if (!tl_nav_ring_is_open(&from.ring.edges[i])) {
+        if (!tl_nav_ring_is_open(tl_nav_ring_to(&from.ring, i))) {
             continue;
         }
         seen_edge edge = see_edge(&from, i, wedge.root_x, wedge.root_z);
         edge_view v = view_of(s, &edge);
         bool on_edge = v.edge_on && is_root_within(s, &edge);
         if (gathered != NULL && on_edge) {
-            tl_nav_ring_seam to = tl_nav_ring_across(s->navmesh, from.slot, from.ring.edges[i].to);
+            tl_nav_ring_seam to = tl_nav_ring_across(s->navmesh, from.slot, tl_nav_ring_to(&from.ring, i));
             const tl_nav_ring_seam here = { from.slot, from.polygon };
             if (may_go(s, here, to)) {
                 add_holder(s, gathered, to.slot, to.polygon, index);

@@ -66,7 +66,7 @@ static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i,
                              const seen_edge *edge, tl_nav_direction left, tl_nav_direction right)
 {
     const tl_nav_ring_seam here = { from->slot, from->polygon };
-    if (!may_go(s, here, tl_nav_ring_across(s->navmesh, from->slot, from->ring.edges[i].to))) {
+    if (!may_go(s, here, tl_nav_ring_across(s->navmesh, from->slot, tl_nav_ring_to(&from->ring, i)))) {
         return;
     }
     tl_nav_ring_place twin = tl_nav_ring_twin(s->navmesh, from->slot, from->polygon, &from->ring, i);
@@ -124,14 +124,14 @@ static inline edge_view view_of(const wedge_search *s, const seen_edge *edge)
 
 static inline uint64_t corner_number(const step_from *from, uint32_t vertex)
 {
-    return CORNER_NUMBER | (uint64_t)from->slot << 32 | ((uint32_t)(from->ring.edges - from->rings->edges) + vertex);
+    return CORNER_NUMBER | (uint64_t)from->slot << 32 | (from->ring.first + vertex);
 }
 
 // The number of a vertex of the ring in this search, or 0 when no shortest path turns there.
 static inline uint64_t turn_of(const wedge_search *s, const step_from *from, uint32_t vertex)
 {
     if (s->in->filter == NULL) {
-        return from->ring.edges[vertex].turn;
+        return tl_nav_turn_of(from->rings, tl_nav_ring_edge_at(&from->ring, vertex));
     }
     // Walls are where the filter says, so the fan is sought anew. Where floors fork each corner stands for itself.
     tl_nav_ring_place place = { from->slot, from->polygon, vertex };
@@ -147,7 +147,7 @@ static inline uint64_t turn_of(const wedge_search *s, const step_from *from, uin
 // once. Where links run back and forth a polygon has more than one way on from there, and each counts for itself.
 static inline bool may_turn_on(wedge_search *s, const step_from *from, uint32_t i, uint32_t vertex, double cost)
 {
-    const tl_nav_ring_walls *walls = tl_nav_walls_of(from->rings, &from->ring.edges[vertex]);
+    const tl_nav_ring_walls *walls = tl_nav_walls_of(from->rings, tl_nav_ring_edge_at(&from->ring, vertex));
     bool is_walled = walls->first_x != 0.0f || walls->first_z != 0.0f;
     const uint64_t end = from->rings->has_back && vertex != i ? TURNING_NUMBER >> 3 : 0;
     const uint64_t number = TURNING_NUMBER | end | corner_number(from, from->rings->has_back ? i : vertex);
@@ -244,7 +244,7 @@ static inline void add_edge_on(wedge_search *s, const step_from *from, uint32_t 
 static inline bool has_walls_on(const wedge_search *s, const step_from *from, uint32_t vertex, tl_nav_direction limit,
                                 int hand)
 {
-    return may_turn(tl_nav_walls_of(from->rings, &from->ring.edges[vertex]), limit, hand, s->rounding);
+    return may_turn(tl_nav_walls_of(from->rings, tl_nav_ring_edge_at(&from->ring, vertex)), limit, hand, s->rounding);
 }
 
 // Whether the root, which lies on the line of an edge, is between its ends.
@@ -286,7 +286,8 @@ static TL_NOINLINE bool is_wall_beside(const wedge_search *s, const tl_nav_wedge
     const uint32_t before = way.edge > 0 ? way.edge - 1 : holder.ring.count - 1;
     const uint32_t beside = hand > 0 ? vertex_behind(way.edge, holder.ring.count) : before;
     const seen_edge wall = see_edge(&holder, beside, wedge->root_x, wedge->root_z);
-    return !tl_nav_ring_is_open(&holder.ring.edges[beside]) && view_of(s, &wall).edge_on && is_root_within(s, &wall);
+    return !tl_nav_ring_is_open(tl_nav_ring_to(&holder.ring, beside)) && view_of(s, &wall).edge_on &&
+           is_root_within(s, &wall);
 }
 
 // Whether the root lies on a wall that ends in the vertex which a wedge's limit leads to. It does not lie there
@@ -336,7 +337,7 @@ static TL_ALWAYS_INLINE void turn_at_limit(wedge_search *s, const step_from *fro
     bool is_new = true;
     for (uint32_t k = begin; k < end; k++) {
         uint32_t i = wedge->edge + k < from->ring.count ? wedge->edge + k : wedge->edge + k - from->ring.count;
-        if (!tl_nav_ring_is_open(&from->ring.edges[i])) {
+        if (!tl_nav_ring_is_open(tl_nav_ring_to(&from->ring, i))) {
             continue;
         }
         seen_edge edge = see_edge(from, i, x, z);
@@ -391,7 +392,8 @@ static inline entry_ends ends_of_entry(const step_from *from, const tl_nav_wedge
                            { (double)left->x - x, (double)left->z - z } };
     const bool left_is_end = (wedge->left.x == at.left.x) & (wedge->left.z == at.left.z);
     const bool right_is_end = (wedge->right.x == at.right.x) & (wedge->right.z == at.right.z);
-    const entry_ends ends = { from->ring.edges[wedge->edge].turn, from->ring.edges[behind].turn, at, left_is_end,
+    const entry_ends ends = { tl_nav_turn_of(from->rings, tl_nav_ring_edge_at(&from->ring, wedge->edge)),
+                              tl_nav_turn_of(from->rings, tl_nav_ring_edge_at(&from->ring, behind)), at, left_is_end,
                               right_is_end };
     return ends;
 }
@@ -435,7 +437,7 @@ static TL_NOINLINE void turn_within_entry(wedge_search *s, const step_from *from
 {
     for (uint32_t i = 0; i < from->ring.count; i++) {
         const uint32_t ends[2] = { i, vertex_behind(i, from->ring.count) };
-        for (uint32_t k = 0; k < 2 && i != wedge->edge && tl_nav_ring_is_open(&from->ring.edges[i]); k++) {
+        for (uint32_t k = 0; k < 2 && i != wedge->edge && tl_nav_ring_is_open(tl_nav_ring_to(&from->ring, i)); k++) {
             const tl_vec3 *vertex = &from->ring.points[ends[k]];
             const seen_vertex seen = look_at(view, vertex);
             const seen_edge entry = see_edge(from, wedge->edge, vertex->x, vertex->z);
@@ -472,7 +474,7 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
     uint32_t left_is = UINT32_MAX; // the vertex that was looked at last
     for (uint32_t k = 1; k < from.ring.count; k++) {
         i = vertex_behind(i, from.ring.count);
-        if (!tl_nav_ring_is_open(&from.ring.edges[i])) {
+        if (!tl_nav_ring_is_open(tl_nav_ring_to(&from.ring, i))) {
             continue;
         }
         const uint32_t next = vertex_behind(i, from.ring.count);

@@ -68,7 +68,7 @@ static inline bool parts_line(const goal_line *line, const tl_vec3 *a, const tl_
 // Takes the line on over an edge: into a wedge of its own. False: it ends there.
 static inline bool follow_line(wedge_search *s, goal_line *line, uint32_t edge, const tl_nav_ring *ring)
 {
-    if (!tl_nav_ring_is_open(&ring->edges[edge]) ||
+    if (!tl_nav_ring_is_open(tl_nav_ring_to(ring, edge)) ||
         !parts_line(line, &ring->points[edge], &ring->points[edge + 1 < ring->count ? edge + 1 : 0], s->rounding)) {
         return false;
     }

@@ -40,7 +40,7 @@ static void note_met(branch_walk *walk, uint32_t polygon, uint32_t parent, uint3
     walk->low[polygon] = walk->count;
     walk->parent[polygon] = parent;
     walk->back[polygon] = back;
-    walk->next[polygon] = walk->rings->cells[polygon].first;
+    walk->next[polygon] = walk->rings->first[polygon];
 }
 
 // Looks at a polygon's next edge. Returns the polygon to go on with.
@@ -48,8 +48,8 @@ static uint32_t look_over_next_edge(branch_walk *walk, uint32_t polygon)
 {
     const tl_nav_rings *rings = walk->rings;
     const uint32_t edge = walk->next[polygon]++;
-    const uint32_t to = rings->edges[edge].to;
-    if (edge == walk->back[polygon] || !tl_nav_ring_is_open(&rings->edges[edge])) {
+    const uint32_t to = tl_nav_edge_of(rings, edge).to;
+    if (edge == walk->back[polygon] || !tl_nav_ring_is_open(to)) {
         return polygon;
     }
     if ((to & TL_NAV_RING_SEAM) != 0) {
@@ -57,8 +57,8 @@ static uint32_t look_over_next_edge(branch_walk *walk, uint32_t polygon)
     } else if (walk->number[to] != 0) {
         walk->low[polygon] = tl_min_u32(walk->low[polygon], walk->number[to]);
     } else {
-        const uint32_t twin = tl_nav_inner_twin(rings, polygon, edge - rings->cells[polygon].first);
-        note_met(walk, to, polygon, rings->cells[to].first + twin);
+        const uint32_t twin = tl_nav_inner_twin(rings, polygon, edge - rings->first[polygon]);
+        note_met(walk, to, polygon, rings->first[to] + twin);
         return to;
     }
     return polygon;
@@ -69,7 +69,7 @@ static void walk_from(branch_walk *walk, uint32_t polygon, uint32_t back)
 {
     note_met(walk, polygon, NO_POLYGON, back);
     while (polygon != NO_POLYGON) {
-        if (walk->next[polygon] < walk->rings->cells[polygon + 1].first) {
+        if (walk->next[polygon] < walk->rings->first[polygon + 1]) {
             polygon = look_over_next_edge(walk, polygon);
             continue;
         }
@@ -84,8 +84,8 @@ static void walk_from(branch_walk *walk, uint32_t polygon, uint32_t back)
 // A polygon's first open seam, or NO_EDGE.
 static uint32_t first_seam(const tl_nav_rings *rings, uint32_t polygon)
 {
-    for (uint32_t i = rings->cells[polygon].first; i < rings->cells[polygon + 1].first; i++) {
-        if (tl_nav_ring_is_seam(&rings->edges[i])) {
+    for (uint32_t i = rings->first[polygon]; i < rings->first[polygon + 1]; i++) {
+        if (tl_nav_ring_is_seam(tl_nav_edge_of(rings, i).to)) {
             return i;
         }
     }
@@ -101,16 +101,17 @@ static void number_branches(branch_walk *walk, uint32_t *end)
     for (uint32_t i = 0; i < walk->count; i++) {
         const uint32_t polygon = walk->order[i], parent = walk->parent[polygon];
         const bool is_first = walk->low[polygon] == walk->number[polygon];
-        rings->cells[polygon].branch = is_first ? branches++ : parent != NO_POLYGON ? rings->cells[parent].branch : 0;
-        end[rings->cells[polygon].branch] = branches;
+        const uint32_t branch = is_first ? branches++ : parent != NO_POLYGON ? tl_nav_branch_of(rings, parent) : 0;
+        tl_nav_set_ring_number(rings, rings->branch, polygon, branch);
+        end[branch] = branches;
     }
     rings->branch_count = branches;
     end[0] = branches;
     for (uint32_t i = walk->count; i > 0; i--) {
         const uint32_t polygon = walk->order[i - 1], parent = walk->parent[polygon];
         if (parent != NO_POLYGON) {
-            uint32_t *above = &end[rings->cells[parent].branch];
-            *above = tl_max_u32(*above, end[rings->cells[polygon].branch]);
+            uint32_t *above = &end[tl_nav_branch_of(rings, parent)];
+            *above = tl_max_u32(*above, end[tl_nav_branch_of(rings, polygon)]);
         }
     }
 }
@@ -147,7 +148,8 @@ bool tl_nav_leads_astray_over_seam(const tl_navmesh *navmesh, tl_nav_ring_seam f
                                    tl_nav_ring_seam goal)
 {
     const tl_nav_slot *out = &navmesh->slots[from.slot], *in = &navmesh->slots[to.slot];
-    const uint32_t branch = out->rings.cells[from.polygon].branch, into = in->rings.cells[to.polygon].branch;
+    const uint32_t branch = tl_nav_branch_of(&out->rings, from.polygon);
+    const uint32_t into = tl_nav_branch_of(&in->rings, to.polygon);
     // All other branches that are beside a seam hang on what lies beyond, which is numbered 0.
     return (branch != 0 && out->anchor_count == 0 && goal.slot == from.slot &&
             tl_nav_is_on_branch(&out->rings, branch, goal.polygon)) ||

@@ -20,8 +20,9 @@
 #include <string.h>
 
 typedef struct vertex_fan {
-    tl_nav_ring_edge *members[TL_NAV_MAX_FAN];
-    tl_nav_ring_walls *walls[TL_NAV_MAX_FAN]; // of the members; NULL: they have none of their own
+    // The polygons around the vertex have these walls of their own, and this name for it; NULL: they have none.
+    tl_nav_ring_walls *walls[TL_NAV_MAX_FAN];
+    uint32_t *turns[TL_NAV_MAX_FAN];
     uint32_t count;
     double x, z;             // the vertex
     double first_x, first_z; // along the first edge
@@ -31,18 +32,20 @@ typedef struct vertex_fan {
     bool is_odd; // walls do not tell on which hand to turn: ways fork, or go more than once around, or too many
 } vertex_fan;
 
-// To be written.
-static tl_nav_ring_edge *edge_at(tl_navmesh *navmesh, tl_nav_ring_place place)
+// The rings of a slot, to be written.
+static const tl_nav_rings *rings_to_write(const tl_navmesh *navmesh, uint32_t slot)
 {
-    const tl_nav_rings *rings = &navmesh->slots[place.slot].rings;
-    TL_ASSERT(!tl_nav_is_shared(navmesh->history, rings->edges));
-    return &rings->edges[rings->cells[place.polygon].first + place.edge];
+    const tl_nav_rings *rings = &navmesh->slots[slot].rings;
+    TL_ASSERT(!tl_nav_is_shared(navmesh->history, rings->edges.narrow));
+    return rings;
 }
 
-static tl_nav_ring_walls *own_walls(const tl_nav_rings *rings, const tl_nav_ring_edge *edge)
+static void add_member(tl_navmesh *navmesh, tl_nav_ring_place at, const tl_nav_ring *ring, vertex_fan *f)
 {
-    const uint32_t walls = edge->mark >> TL_NAV_RING_TWIN_BITS;
-    return walls >= TL_NAV_WALLS_FIRST ? &rings->walls[walls] : NULL;
+    const tl_nav_rings *rings = rings_to_write(navmesh, at.slot);
+    const uint32_t walls = tl_nav_walls_number(tl_nav_ring_edge_at(ring, at.edge));
+    f->walls[f->count] = walls >= TL_NAV_WALLS_FIRST ? &rings->walls[walls] : NULL;
+    f->turns[f->count++] = &rings->turns[walls];
 }
 
 static void begin_fan(vertex_fan *f, const tl_vec3 *first, const tl_vec3 *first_end)
@@ -84,7 +87,7 @@ static bool forks_at(const tl_nav_rings *rings, const tl_nav_ring *ring, double 
         const tl_vec3 *end = &ring->points[i + 1 < ring->count ? i + 1 : 0];
         bool touches = ((double)ring->points[i].x == x && (double)ring->points[i].z == z) ||
                        ((double)end->x == x && (double)end->z == z);
-        if (ring->edges[i].to == TL_NAV_RING_BACK && touches) {
+        if (tl_nav_ring_to(ring, i) == TL_NAV_RING_BACK && touches) {
             return true;
         }
     }
@@ -99,13 +102,12 @@ static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, vertex_fan 
     tl_nav_ring_place at = begin;
     for (;;) {
         tl_nav_note_edit(navmesh, at.slot);
-        f->members[f->count] = edge_at(navmesh, at);
-        f->walls[f->count++] = own_walls(&navmesh->slots[at.slot].rings, &ring.edges[at.edge]);
+        add_member(navmesh, at, &ring, f);
         uint32_t before = at.edge > 0 ? at.edge - 1 : ring.count - 1;
         widen_fan(f, &ring.points[before]);
         f->is_odd =
             f->is_odd || f->count == TL_NAV_MAX_FAN || forks_at(&navmesh->slots[at.slot].rings, &ring, f->x, f->z);
-        if (f->count == TL_NAV_MAX_FAN || !tl_nav_ring_is_open(&ring.edges[before])) {
+        if (f->count == TL_NAV_MAX_FAN || !tl_nav_ring_is_open(tl_nav_ring_to(&ring, before))) {
             return true;
         }
         at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, &ring, before);
@@ -134,7 +136,7 @@ static tile_place tile_place_at(const tl_nav_rings *rings, uint32_t polygon, uin
 // The same edge as the polygon across has it. False: that is none of the tile.
 static inline bool cross_in_tile(const tl_nav_rings *rings, tile_place *at)
 {
-    const uint32_t to = at->ring.edges[at->edge].to;
+    const uint32_t to = tl_nav_ring_to(&at->ring, at->edge);
     if (to >= TL_NAV_RING_SEAM) {
         return false;
     }
@@ -142,9 +144,15 @@ static inline bool cross_in_tile(const tl_nav_rings *rings, tile_place *at)
     return true;
 }
 
-static bool is_ring_portal(const tl_nav_ring_edge *edge)
+// Among all of the tile's.
+static uint64_t edge_of(const tile_place *at)
 {
-    return edge->to != TL_NAV_RING_WALL || tl_nav_ring_twin_hint(edge) == TL_NAV_RING_ON_PORTAL;
+    return (uint64_t)at->ring.first + at->edge;
+}
+
+static bool is_ring_portal(tl_nav_ring_edge edge)
+{
+    return edge.to != TL_NAV_RING_WALL || tl_nav_ring_twin_hint(edge) == TL_NAV_RING_ON_PORTAL;
 }
 
 // Goes to where a fan begins in its tile. True: nowhere, the tile's polygons lie all around. A fan of more polygons
@@ -152,10 +160,10 @@ static bool is_ring_portal(const tl_nav_ring_edge *edge)
 // going around one need not come back.
 static bool goes_around(const tl_nav_rings *rings, tile_place *at)
 {
-    const tl_nav_ring_edge *from = &at->ring.edges[at->edge];
+    const uint64_t from = edge_of(at);
     for (uint32_t i = 1; i < TL_NAV_MAX_FAN && cross_in_tile(rings, at); i++) {
         at->edge = at->edge + 1 < at->ring.count ? at->edge + 1 : 0;
-        if (&at->ring.edges[at->edge] == from) {
+        if (edge_of(at) == from) {
             return true;
         }
     }
@@ -169,27 +177,28 @@ static bool assign_walls(const tl_nav_rings *rings, tile_place from, uint32_t ow
     tile_place at = from;
     const bool is_closed = goes_around(rings, &at);
     const tile_place begin = at;
-    const tl_nav_ring_edge *first = &begin.ring.edges[begin.edge];
+    const uint64_t first = edge_of(&begin);
     vertex_fan f;
     begin_fan(&f, &begin.ring.points[begin.edge],
               &begin.ring.points[begin.edge + 1 < begin.ring.count ? begin.edge + 1 : 0]);
-    bool is_own = !is_closed && is_ring_portal(first);
+    bool is_own = !is_closed && is_ring_portal(tl_nav_edge_of(rings, first));
     do {
-        walls_of[&at.ring.edges[at.edge] - rings->edges] = own;
+        walls_of[edge_of(&at)] = own;
         f.count++;
         at.edge = at.edge > 0 ? at.edge - 1 : at.ring.count - 1;
         widen_fan(&f, &at.ring.points[at.edge]);
-        is_own = is_own || (at.ring.edges[at.edge].to >= TL_NAV_RING_SEAM && is_ring_portal(&at.ring.edges[at.edge]));
-    } while (f.count < TL_NAV_MAX_FAN && cross_in_tile(rings, &at) && &at.ring.edges[at.edge] != first);
+        const tl_nav_ring_edge edge = tl_nav_ring_edge_at(&at.ring, at.edge);
+        is_own = is_own || (edge.to >= TL_NAV_RING_SEAM && is_ring_portal(edge));
+    } while (f.count < TL_NAV_MAX_FAN && cross_in_tile(rings, &at) && edge_of(&at) != first);
     // What is too large to be gathered, or is not met on the way back, counts as a place to turn at: it is not known to
     // be none.
-    uint32_t *const at_from = &walls_of[&from.ring.edges[from.edge] - rings->edges];
+    uint32_t *const at_from = &walls_of[edge_of(&from)];
     if (is_own || *at_from != own || f.count == TL_NAV_MAX_FAN || (!is_closed && (f.is_wide || f.is_odd))) {
         *at_from = own;
         return true;
     }
     for (at = begin; f.count > 0; f.count--) {
-        walls_of[&at.ring.edges[at.edge] - rings->edges] = is_closed ? TL_NAV_WALLS_NONE : TL_NAV_WALLS_CONVEX;
+        walls_of[edge_of(&at)] = is_closed ? TL_NAV_WALLS_NONE : TL_NAV_WALLS_CONVEX;
         at.edge = at.edge > 0 ? at.edge - 1 : at.ring.count - 1;
         cross_in_tile(rings, &at);
     }
@@ -199,11 +208,11 @@ static bool assign_walls(const tl_nav_rings *rings, tile_place from, uint32_t ow
 uint32_t tl_nav_assign_walls(const tl_nav_rings *rings, uint32_t *walls_of)
 {
     uint32_t walls = TL_NAV_WALLS_FIRST;
-    memset(walls_of, 0xff, (size_t)rings->cells[rings->polygon_count].first * sizeof *walls_of);
+    memset(walls_of, 0xff, (size_t)rings->edge_count * sizeof *walls_of);
     for (uint32_t p = 0; p < rings->polygon_count; p++) {
         const tile_place place = tile_place_at(rings, p, 0);
         for (uint32_t i = 0; i < place.ring.count; i++) {
-            if (walls_of[&place.ring.edges[i] - rings->edges] == UINT32_MAX) {
+            if (walls_of[place.ring.first + i] == UINT32_MAX) {
                 walls += assign_walls(rings, tile_place_at(rings, p, i), walls, walls_of) ? 1 : 0;
             }
         }
@@ -227,9 +236,9 @@ static void number_fan(tl_navmesh *navmesh, tl_nav_ring_place begin)
     for (uint32_t i = 0; i < f.count; i++) {
         // Without walls of its own it is no place to turn at; only where tiles do not meet at their portals can others
         // of the fan be.
-        f.members[i]->turn = f.walls[i] != NULL ? number : 0;
         if (f.walls[i] != NULL) {
             *f.walls[i] = walls;
+            *f.turns[i] = number;
         }
     }
 }
@@ -239,7 +248,7 @@ bool tl_nav_find_fan(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_
     const tl_nav_ring_place from = *at;
     for (uint32_t i = 0; i < TL_NAV_MAX_FAN; i++) {
         const tl_nav_ring ring = tl_nav_ring_at(navmesh, at->slot, at->polygon);
-        if (!tl_nav_ring_is_open(&ring.edges[at->edge])) {
+        if (!tl_nav_ring_is_open(tl_nav_ring_to(&ring, at->edge))) {
             return true;
         }
         tl_nav_ring_place next = tl_nav_ring_twin(navmesh, at->slot, at->polygon, &ring, at->edge);
@@ -262,9 +271,10 @@ static void number_fans_of(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
     const tl_nav_ring ring = tl_nav_ring_of(rings, polygon);
     for (uint32_t i = 0; i < ring.count; i++) {
         tl_nav_ring_place place = { slot, polygon, i };
-        if (!tl_nav_ring_is_open(&ring.edges[i])) {
+        const uint32_t to = tl_nav_ring_to(&ring, i);
+        if (!tl_nav_ring_is_open(to)) {
             number_fan(navmesh, place);
-        } else if ((ring.edges[i].to & TL_NAV_RING_SEAM) != 0 || rings->has_back) {
+        } else if ((to & TL_NAV_RING_SEAM) != 0 || rings->has_back) {
             // The fan comes in over a seam: it may begin in a tile that is not looked at.
             tl_nav_find_fan(navmesh, NULL, &place);
             number_fan(navmesh, place);
@@ -278,32 +288,34 @@ static void find_seam_twins(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
 {
     const tl_nav_tile *tile = navmesh->slots[slot].tile;
     const tl_nav_portal *portals = tl_nav_tile_portals(tile);
-    tl_nav_rings *rings = &navmesh->slots[slot].rings;
+    const tl_nav_rings *rings = rings_to_write(navmesh, slot);
     tl_nav_ring_place last = { TL_NAV_NO_SLOT, 0, 0 };
     uint32_t across_count = 0;
     for (uint32_t i = tl_nav_tile_side_first(tile, side); i < tl_nav_tile_side_first(tile, side + 1); i++) {
         tl_nav_ring_place place = { slot, portals[i].polygon, 0 };
         const tl_nav_ring ring = tl_nav_ring_at(navmesh, slot, place.polygon);
-        tl_nav_ring_edge *edges = edge_at(navmesh, place);
         for (uint32_t k = 0; k < ring.count; k++) {
-            if (!tl_nav_ring_is_seam(&edges[k])) {
+            if (!tl_nav_ring_is_seam(tl_nav_ring_to(&ring, k))) {
                 continue;
             }
-            const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, edges[k].to);
+            const uint64_t edge = (uint64_t)ring.first + k;
+            const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, tl_nav_ring_to(&ring, k));
             if (to.slot == last.slot && to.polygon == last.polygon) {
-                tl_nav_set_seam_twin(rings, &edges[k], last.edge > 4 ? last.edge - 4 : 0, across_count);
+                tl_nav_set_seam_twin(rings, edge, last.edge > 4 ? last.edge - 4 : 0, across_count);
             }
             last = tl_nav_ring_twin(navmesh, slot, place.polygon, &ring, k);
-            across_count = tl_nav_ring_at(navmesh, last.slot, last.polygon).count;
-            tl_nav_set_seam_twin(rings, &edges[k], last.edge, across_count);
+            const tl_nav_ring across = tl_nav_ring_at(navmesh, last.slot, last.polygon);
+            across_count = across.count;
+            tl_nav_set_seam_twin(rings, edge, last.edge, across_count);
             // A polygon may reach from side to side: what lies across there keeps its twin where older versions have
             // it. A twin over a seam only says where to look first.
-            if (tl_nav_is_shared(navmesh->history, navmesh->slots[last.slot].rings.edges)) {
+            if (tl_nav_is_shared(navmesh->history, navmesh->slots[last.slot].rings.edges.narrow)) {
                 continue;
             }
             // Where tiles do not meet at their portals no edge across is the twin, and any may stand there.
-            if (last.edge < across_count && tl_nav_ring_is_seam(edge_at(navmesh, last))) {
-                tl_nav_set_seam_twin(&navmesh->slots[last.slot].rings, edge_at(navmesh, last), k, ring.count);
+            if (last.edge < across_count && tl_nav_ring_is_seam(tl_nav_ring_to(&across, last.edge))) {
+                tl_nav_set_seam_twin(rings_to_write(navmesh, last.slot), (uint64_t)across.first + last.edge, k,
+                                     ring.count);
             }
         }
     }

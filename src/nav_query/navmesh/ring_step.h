@@ -32,23 +32,24 @@ static inline tl_nav_ring_seam tl_nav_ring_across(const tl_navmesh *navmesh, uin
 static inline tl_nav_ring_place tl_nav_ring_twin(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon,
                                                  const tl_nav_ring *ring, uint32_t edge)
 {
-    tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, ring->edges[edge].to);
-    tl_nav_ring_place twin = { to.slot, to.polygon, tl_nav_ring_twin_hint(&ring->edges[edge]) };
-    if ((ring->edges[edge].to & TL_NAV_RING_SEAM) != 0 || twin.edge == TL_NAV_RING_FAR_TWIN) {
+    const tl_nav_ring_edge from = tl_nav_ring_edge_at(ring, edge);
+    const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, from.to);
+    tl_nav_ring_place twin = { to.slot, to.polygon, tl_nav_ring_twin_hint(from) };
+    if ((from.to & TL_NAV_RING_SEAM) != 0 || twin.edge == TL_NAV_RING_FAR_TWIN) {
         // Rings of other tiles change as tiles come and go. A seam's ends have the same bits in both. Where nothing
         // runs back no two edges of a ring start in one place: the search may begin anywhere.
         const tl_vec3 *end = &ring->points[edge + 1 < ring->count ? edge + 1 : 0];
         const tl_nav_ring across = tl_nav_ring_at(navmesh, to.slot, to.polygon);
-        if ((ring->edges[edge].to & TL_NAV_RING_SEAM) != 0) {
-            twin.edge = tl_nav_seam_twin_hint(&navmesh->slots[slot].rings, &ring->edges[edge], across.count);
+        if ((from.to & TL_NAV_RING_SEAM) != 0) {
+            twin.edge = tl_nav_seam_twin_hint(&navmesh->slots[slot].rings, from, across.count);
         }
         uint32_t k = !navmesh->slots[to.slot].rings.has_back && twin.edge < across.count ? twin.edge : 0;
         for (uint32_t i = 0; i < across.count; i++, k = k + 1 < across.count ? k + 1 : 0) {
-            if (across.points[k].x != end->x || across.points[k].z != end->z ||
-                !tl_nav_ring_is_open(&across.edges[k])) {
+            const uint32_t back_to = tl_nav_ring_to(&across, k);
+            if (across.points[k].x != end->x || across.points[k].z != end->z || !tl_nav_ring_is_open(back_to)) {
                 continue;
             }
-            tl_nav_ring_seam back = tl_nav_ring_across(navmesh, to.slot, across.edges[k].to);
+            tl_nav_ring_seam back = tl_nav_ring_across(navmesh, to.slot, back_to);
             if (back.slot == slot && back.polygon == polygon) {
                 twin.edge = k;
                 break;
@@ -69,8 +70,8 @@ static inline bool tl_nav_leads_astray(const tl_navmesh *navmesh, tl_nav_ring_se
                                        tl_nav_ring_seam goal)
 {
     const tl_nav_slot *slot = &navmesh->slots[from.slot];
-    const uint32_t branch = slot->rings.cells[from.polygon].branch;
-    const uint32_t into = navmesh->slots[to.slot].rings.cells[to.polygon].branch;
+    const uint32_t branch = tl_nav_branch_of(&slot->rings, from.polygon);
+    const uint32_t into = tl_nav_branch_of(&navmesh->slots[to.slot].rings, to.polygon);
     if (from.slot != to.slot) {
         return (branch | into) != 0 && tl_nav_leads_astray_over_seam(navmesh, from, to, goal);
     }

@@ -17,6 +17,16 @@ enum {
     RING_HAS_POINTS = 2 // of its own: they are not its corners
 };
 
+void tl_nav_set_edge(const tl_nav_rings *rings, uint64_t place, tl_nav_ring_edge edge)
+{
+    if (rings->has_wide_edges) {
+        rings->edges.wide[place] = edge;
+    } else {
+        rings->edges.narrow[place].to = (int16_t)(uint16_t)edge.to;
+        rings->edges.narrow[place].mark = (uint16_t)edge.mark;
+    }
+}
+
 static bool is_same_vertex(tl_vec3 a, tl_vec3 b)
 {
     return a.x == b.x && a.z == b.z;
@@ -26,6 +36,8 @@ static bool is_same_vertex(tl_vec3 a, tl_vec3 b)
 // finds which rings have points of their own.
 typedef struct ring_writer {
     tl_nav_rings *rings;
+    uint32_t *first, *first_point; // as the rings', to be written; NULL: they are the tile's
+    tl_vec3 *points;
     uint64_t edge_count, seam_count;
     uint64_t point_count; // of rings that have their own
     // The ring that is being written.
@@ -35,23 +47,17 @@ typedef struct ring_writer {
     bool has_points;
 } ring_writer;
 
-// Where the points stand that are no tile's: behind the edges.
-static tl_vec3 *own_points(const tl_nav_rings *rings)
-{
-    return (tl_vec3 *)(void *)(rings->edges + rings->cells[rings->polygon_count].first);
-}
-
 static inline void add_ring_edge(ring_writer *writer, tl_vec3 start, uint32_t to, uint32_t mark)
 {
     const uint32_t i = writer->count++;
-    if (writer->rings->edges == NULL) {
+    if (writer->rings->edges.wide == NULL) {
         const bool is_corner = i < writer->corner_count && memcmp(&writer->corners[i], &start, sizeof start) == 0;
         writer->has_points = writer->has_points || !is_corner;
     } else {
-        const tl_nav_ring_edge edge = { to, 0, mark };
-        writer->rings->edges[writer->edge_count + i] = edge;
+        const tl_nav_ring_edge edge = { to, mark };
+        tl_nav_set_edge(writer->rings, writer->edge_count + i, edge);
         if (writer->has_points) {
-            own_points(writer->rings)[writer->point_count + i] = start;
+            writer->points[writer->point_count + i] = start;
         }
     }
 }
@@ -61,7 +67,7 @@ static uint32_t add_ring_seam(ring_writer *writer, tl_nav_ring_seam seam)
     if (writer->rings->seams != NULL) {
         writer->rings->seams[writer->seam_count] = seam;
     }
-    return TL_NAV_RING_SEAM | (uint32_t)writer->seam_count++;
+    return TL_NAV_RING_BACK - 1 - (uint32_t)writer->seam_count++; // tl_nav_ring_seam_number
 }
 
 // An edge without a way from `at` to `point`, unless they are one. `ahead` is the edge's direction.
@@ -118,24 +124,24 @@ static void add_ring(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_
             add_seam_edge(writer, tile, portal, corners[k], corners[k + 1 < count ? k + 1 : 0], sides[side]);
         }
     }
-    if (writer->rings->edges == NULL) {
+    if (writer->rings->edges.wide == NULL) {
         writer->has_points = writer->has_points || writer->count != count;
     }
 }
 
-// Vertices that a polygon had before keep their turns, and their walls: for now by their place among the old ones.
-static void copy_turns(tl_nav_rings *rings, const tl_nav_rings *old, uint32_t polygon)
+// Vertices that a polygon had before keep their walls: for now by their place among the old ones.
+static void copy_walls(tl_nav_rings *rings, const tl_nav_rings *old, uint32_t polygon)
 {
     const tl_nav_ring before = tl_nav_ring_of(old, polygon), now = tl_nav_ring_of(rings, polygon);
-    tl_nav_ring_edge *edges = rings->edges + rings->cells[polygon].first;
     for (uint32_t k = 0; k < now.count; k++) {
+        tl_nav_ring_edge edge = tl_nav_ring_edge_at(&now, k);
         for (uint32_t i = 0; i < before.count; i++) {
             if (is_same_vertex(before.points[i], now.points[k])) {
-                edges[k].turn = before.edges[i].turn;
-                edges[k].mark =
-                    (before.edges[i].mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) | tl_nav_ring_twin_hint(&edges[k]);
+                edge.mark = (tl_nav_ring_edge_at(&before, i).mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) |
+                            tl_nav_ring_twin_hint(edge);
             }
         }
+        tl_nav_set_edge(rings, now.first + k, edge);
     }
 }
 
@@ -144,20 +150,20 @@ static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t pol
 {
     const tl_nav_ring ring = tl_nav_ring_of(old, polygon);
     tl_nav_rings *rings = writer->rings;
-    writer->has_points = (old->cells[polygon].points & 1) != 0;
+    writer->has_points = (old->first_point[polygon] & TL_NAV_RING_OWN_POINTS) != 0;
     writer->count = ring.count;
     for (uint32_t i = 0; i < ring.count; i++) {
-        tl_nav_ring_edge edge = ring.edges[i];
-        if (tl_nav_ring_is_seam(&edge)) {
-            edge.to = add_ring_seam(writer, old->seams[edge.to & ~TL_NAV_RING_SEAM]);
+        tl_nav_ring_edge edge = tl_nav_ring_edge_at(&ring, i);
+        if (tl_nav_ring_is_seam(edge.to)) {
+            edge.to = add_ring_seam(writer, old->seams[tl_nav_ring_seam_number(edge.to)]);
         }
         rings->has_back = rings->has_back || edge.to == TL_NAV_RING_BACK;
-        if (rings->edges != NULL) {
-            rings->edges[writer->edge_count + i] = edge;
+        if (rings->edges.wide != NULL) {
+            tl_nav_set_edge(rings, writer->edge_count + i, edge);
         }
     }
-    if (rings->edges != NULL && writer->has_points) {
-        memcpy(own_points(rings) + writer->point_count, ring.points, ring.count * sizeof *ring.points);
+    if (rings->edges.wide != NULL && writer->has_points) {
+        memcpy(writer->points + writer->point_count, ring.points, ring.count * sizeof *ring.points);
     }
 }
 
@@ -165,14 +171,20 @@ static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t pol
 static inline uint32_t find_twin(const tl_nav_rings *rings, tl_nav_ring ring, uint32_t polygon, uint32_t edge,
                                  uint32_t from)
 {
-    const tl_nav_ring across = tl_nav_ring_of(rings, ring.edges[edge].to);
+    const tl_nav_ring across = tl_nav_ring_of(rings, tl_nav_ring_to(&ring, edge));
     const tl_vec3 end = ring.points[edge + 1 < ring.count ? edge + 1 : 0];
     uint32_t twin = from;
-    while (twin + 1 < across.count && (across.edges[twin].to != polygon || !is_same_vertex(across.points[twin], end))) {
+    while (twin + 1 < across.count &&
+           (tl_nav_ring_to(&across, twin) != polygon || !is_same_vertex(across.points[twin], end))) {
         twin++;
     }
-    TL_ASSERT(across.edges[twin].to == polygon);
+    TL_ASSERT(tl_nav_ring_to(&across, twin) == polygon);
     return twin;
+}
+
+static void set_twin(const tl_nav_rings *rings, uint64_t place, uint32_t twin)
+{
+    tl_nav_set_edge(rings, place, tl_nav_with_twin(tl_nav_edge_of(rings, place), twin));
 }
 
 // Within a tile: where each edge of a polygon stands in the ring across it, and that one in this.
@@ -180,28 +192,19 @@ static void find_twins(tl_nav_rings *rings, uint32_t polygon)
 {
     const tl_nav_ring ring = tl_nav_ring_of(rings, polygon);
     for (uint32_t i = 0; i < ring.count; i++) {
-        const uint32_t to = ring.edges[i].to;
+        const uint32_t to = tl_nav_ring_to(&ring, i);
         if (to >= TL_NAV_RING_SEAM) {
             continue;
         }
         const uint32_t twin = find_twin(rings, ring, polygon, i, 0);
-        tl_nav_set_ring_twin(&rings->edges[rings->cells[polygon].first + i], twin);
-        tl_nav_set_ring_twin(&rings->edges[rings->cells[to].first + twin], i);
+        set_twin(rings, (uint64_t)ring.first + i, twin);
+        set_twin(rings, (uint64_t)rings->first[to] + twin, i);
     }
 }
 
 uint32_t tl_nav_find_far_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge)
 {
     return find_twin(rings, tl_nav_ring_of(rings, polygon), polygon, edge, TL_NAV_RING_FAR_TWIN);
-}
-
-static void set_number(const tl_nav_rings *rings, tl_nav_ring_numbers numbers, uint32_t i, uint32_t number)
-{
-    if (rings->is_wide) {
-        numbers.wide[i] = number;
-    } else {
-        numbers.narrow[i] = (uint16_t)number;
-    }
 }
 
 static size_t number_size(const tl_nav_rings *rings)
@@ -221,16 +224,17 @@ static void label_components(tl_nav_rings *rings, uint32_t *stack)
         uint32_t label = rings->component_count++;
         uint32_t depth = 0;
         stack[depth++] = p;
-        set_number(rings, rings->component, p, label);
-        set_number(rings, rings->component, rings->polygon_count + p, p);
+        tl_nav_set_ring_number(rings, rings->component, p, label);
+        tl_nav_set_ring_number(rings, rings->component, rings->polygon_count + p, p);
         while (depth > 0) {
             const tl_nav_ring ring = tl_nav_ring_of(rings, stack[--depth]);
             for (uint32_t i = 0; i < ring.count; i++) {
-                uint32_t to = ring.edges[i].to;
+                const uint32_t to = tl_nav_ring_to(&ring, i);
                 if (to < TL_NAV_RING_SEAM && tl_nav_component_of(rings, to) == none) {
-                    set_number(rings, rings->component, to, label);
-                    set_number(rings, rings->component, rings->polygon_count + to, tl_nav_next_member(rings, p));
-                    set_number(rings, rings->component, rings->polygon_count + p, to);
+                    tl_nav_set_ring_number(rings, rings->component, to, label);
+                    tl_nav_set_ring_number(rings, rings->component, rings->polygon_count + to,
+                                           tl_nav_next_member(rings, p));
+                    tl_nav_set_ring_number(rings, rings->component, rings->polygon_count + p, to);
                     stack[depth++] = to;
                 }
             }
@@ -252,59 +256,64 @@ static void label_tree_nodes(const tl_nav_tile *tile, tl_nav_rings *rings)
         const uint32_t node = i - 1;
         if ((nodes[node].link & TL_NAV_NODE_LEAF) != 0) {
             const uint32_t polygon = nodes[node].link & ~TL_NAV_NODE_LEAF;
-            set_number(rings, rings->node_component, node, tl_nav_component_of(rings, polygon));
+            tl_nav_set_ring_number(rings, rings->node_component, node, tl_nav_component_of(rings, polygon));
         } else {
             const uint32_t first = tl_nav_node_component(rings, node + 1);
             const uint32_t second = tl_nav_node_component(rings, tl_nav_tile_node_skip(nodes, node + 1));
             const uint32_t bits = component_bits(rings, first) | component_bits(rings, second);
             const bool is_one = first == second && (first & TL_NAV_MIXED_COMPONENTS) == 0;
-            set_number(rings, rings->node_component, node, is_one ? first : mixed | (bits & ~TL_NAV_MIXED_COMPONENTS));
+            tl_nav_set_ring_number(rings, rings->node_component, node,
+                                   is_one ? first : mixed | (bits & ~TL_NAV_MIXED_COMPONENTS));
         }
     }
 }
 
-// Where the arrays stand in their block, one behind the other: the widest alignment any of them needs is that of their
-// numbers. `edges`: the bytes of edges and points.
-static void place_arrays(tl_nav_rings *rings, void *block, uint64_t edges, uint64_t seams, uint64_t polygons)
+// Bytes of the edges; what stands behind them has numbers of 32 bits.
+static uint64_t edges_size(const tl_nav_rings *rings)
 {
-    char *at = (char *)block;
-    rings->edges = (tl_nav_ring_edge *)(void *)at;
-    at += edges;
-    rings->seams = (tl_nav_ring_seam *)(void *)at;
-    at += seams * sizeof(tl_nav_ring_seam);
-    rings->cells = (tl_nav_ring_cell *)(void *)at;
-    at += (polygons + 1) * sizeof(tl_nav_ring_cell);
-    const size_t size = polygons * number_size(rings);
-    rings->component.wide = (uint32_t *)(void *)at;
-    rings->node_component.wide = (uint32_t *)(void *)(at + 2 * size); // behind the next members
+    return rings->edge_count * (uint64_t)(rings->has_wide_edges ? sizeof(tl_nav_ring_edge) : sizeof(tl_nav_short_edge));
 }
 
-static uint64_t block_size_of(const tl_nav_rings *rings, uint64_t edges, uint64_t seams)
+// Bytes of `first` and `first_point`, where they are not the tile's.
+static uint64_t firsts_size(const tl_nav_rings *rings)
 {
-    const uint64_t polygons = rings->polygon_count;
-    return edges + seams * sizeof(tl_nav_ring_seam) + (polygons + 1) * sizeof(tl_nav_ring_cell) +
-           (2 * polygons + rings->node_count) * number_size(rings);
+    return rings->point_count > 0 ? 2 * ((uint64_t)rings->polygon_count + 1) * sizeof *rings->first : 0;
+}
+
+static uint64_t block_size_of(const tl_nav_rings *rings)
+{
+    return edges_size(rings) + rings->point_count * (uint64_t)sizeof(tl_vec3) +
+           rings->seam_count * (uint64_t)sizeof(tl_nav_ring_seam) + firsts_size(rings) +
+           (3 * (uint64_t)rings->polygon_count + rings->node_count) * number_size(rings);
 }
 
 uint64_t tl_nav_rings_size(const tl_nav_rings *rings)
 {
-    const uint64_t edges = (uint64_t)((char *)rings->seams - (char *)rings->edges);
-    const uint64_t seams = (uint64_t)((char *)rings->cells - (char *)rings->seams);
-    return block_size_of(rings, edges, seams / sizeof(tl_nav_ring_seam));
+    return block_size_of(rings);
 }
 
-static bool allocate_rings(const tl_allocator *allocator, const ring_writer *counted, tl_nav_rings *rings)
+// Where the arrays stand in their block, one behind the other: the widest alignment any of them needs is that of their
+// numbers. Returns `first` where it is not the tile's, else NULL.
+static uint32_t *place_arrays(tl_nav_rings *rings, void *block)
 {
-    const uint64_t edges = counted->edge_count * sizeof(tl_nav_ring_edge) + counted->point_count * sizeof(tl_vec3);
-    void *block = tl_allocate_array(allocator, block_size_of(rings, edges, counted->seam_count), 1);
-    if (block == NULL) {
-        return false;
+    char *at = (char *)block;
+    rings->edges.wide = (tl_nav_ring_edge *)block;
+    at += edges_size(rings);
+    rings->points[1] = (const tl_vec3 *)(void *)at;
+    at += rings->point_count * sizeof(tl_vec3);
+    rings->seams = (tl_nav_ring_seam *)(void *)at;
+    at += rings->seam_count * sizeof(tl_nav_ring_seam);
+    uint32_t *first = firsts_size(rings) > 0 ? (uint32_t *)(void *)at : NULL;
+    if (first != NULL) {
+        rings->first = first;
+        rings->first_point = first + rings->polygon_count + 1;
     }
-    place_arrays(rings, block, edges, counted->seam_count, rings->polygon_count);
-    const tl_nav_ring_cell end = { (uint32_t)counted->edge_count, 0, 0 };
-    rings->cells[rings->polygon_count] = end;
-    rings->points[1] = own_points(rings);
-    return true;
+    at += firsts_size(rings);
+    const size_t size = rings->polygon_count * number_size(rings);
+    rings->component.wide = (uint32_t *)(void *)at;
+    rings->branch.wide = (uint32_t *)(void *)(at + 2 * size); // behind the next members
+    rings->node_component.wide = (uint32_t *)(void *)(at + 3 * size);
+    return first;
 }
 
 // The polygons whose rings change: those on a side, or without rings from before all.
@@ -323,7 +332,6 @@ static void mark_changed(const tl_nav_tile *tile, uint32_t side, const tl_nav_ri
 static void write_rings(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
                         uint32_t *marks, const tl_nav_rings *old)
 {
-    tl_nav_rings *rings = writer->rings;
     const uint32_t *corners = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         const bool changes = (marks[p] & RING_CHANGES) != 0;
@@ -334,31 +342,50 @@ static void write_rings(ring_writer *writer, const tl_nav_tile *tile, const tl_n
         } else {
             copy_ring(writer, old, p);
         }
-        if (rings->edges != NULL) {
-            rings->cells[p].first = (uint32_t)writer->edge_count;
-            const uint64_t point = writer->has_points ? writer->point_count : corners[p];
-            rings->cells[p].points = (uint32_t)(point * sizeof(tl_vec3)) | (writer->has_points ? 1 : 0);
-            rings->cells[p + 1].first = (uint32_t)writer->edge_count + writer->count;
+        if (writer->first != NULL) {
+            writer->first[p] = (uint32_t)writer->edge_count;
+            writer->first_point[p] =
+                writer->has_points ? (uint32_t)writer->point_count | TL_NAV_RING_OWN_POINTS : corners[p];
         }
         marks[p] |= writer->has_points ? RING_HAS_POINTS : 0;
         writer->edge_count += writer->count;
         writer->point_count += writer->has_points ? writer->count : 0;
     }
+    if (writer->first != NULL) {
+        writer->first[tile->polygon_count] = (uint32_t)writer->edge_count;
+        writer->first_point[tile->polygon_count] = 0;
+    }
 }
 
-static void fill_rings(const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], uint32_t *marks,
-                       const tl_nav_rings *old, tl_nav_rings *rings)
+// `counted`: what a writer without arrays has counted.
+static tl_result fill_rings(const tl_allocator *allocator, const tl_nav_tile *tile,
+                            const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], uint32_t *marks, const tl_nav_rings *old,
+                            const ring_writer *counted, tl_nav_rings *rings)
 {
-    ring_writer writer = { rings, 0, 0, 0, NULL, 0, 0, false };
+    rings->edge_count = (uint32_t)counted->edge_count;
+    rings->seam_count = (uint32_t)counted->seam_count;
+    rings->point_count = (uint32_t)counted->point_count;
+    rings->has_wide_edges = true;
+    void *block = tl_allocate_array(allocator, block_size_of(rings), 1);
+    if (block == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    ring_writer writer;
+    memset(&writer, 0, sizeof writer);
+    writer.rings = rings;
+    writer.first = place_arrays(rings, block);
+    writer.first_point = writer.first != NULL ? writer.first + rings->polygon_count + 1 : NULL;
+    writer.points = (tl_vec3 *)(void *)((char *)block + edges_size(rings));
     write_rings(&writer, tile, sides, marks, old);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         if ((marks[p] & RING_CHANGES) != 0) {
             if (old != NULL) {
-                copy_turns(rings, old, p);
+                copy_walls(rings, old, p);
             }
             find_twins(rings, p);
         }
     }
+    return TL_OK;
 }
 
 // Components do not depend on seams.
@@ -372,13 +399,14 @@ static void copy_components(const tl_nav_rings *old, tl_nav_rings *rings)
 
 static uint64_t walls_size(const tl_nav_rings *rings)
 {
-    return rings->walls_count * (uint64_t)sizeof *rings->walls + rings->component_count * (uint64_t)sizeof(uint32_t) +
-           rings->branch_count * sizeof *rings->branch_end;
+    return rings->walls_count * (uint64_t)(sizeof *rings->walls + sizeof *rings->turns) +
+           rings->component_count * (uint64_t)sizeof(uint32_t) + rings->branch_count * sizeof *rings->branch_end;
 }
 
 static void place_walls(tl_nav_rings *rings, void *block)
 {
     rings->walls = (tl_nav_ring_walls *)block;
+    rings->turns = (uint32_t *)(void *)(rings->walls + rings->walls_count);
     rings->branch_end = tl_nav_ring_islands(rings) + rings->component_count;
 }
 
@@ -386,7 +414,7 @@ static void place_walls(tl_nav_rings *rings, void *block)
 static tl_result make_walls(const tl_allocator *allocator, const tl_nav_rings *old, const uint32_t *branch_end,
                             tl_nav_rings *rings)
 {
-    const uint64_t edges = rings->cells[rings->polygon_count].first;
+    const uint64_t edges = rings->edge_count;
     uint32_t *walls_of = tl_allocate_array(allocator, edges, sizeof *walls_of);
     if (walls_of == NULL) {
         return TL_ERR_MEMORY;
@@ -403,37 +431,69 @@ static tl_result make_walls(const tl_allocator *allocator, const tl_nav_rings *o
         }
         rings->walls[TL_NAV_WALLS_CONVEX].first_x = 1.0f;
         for (uint64_t k = 0; k < edges; k++) {
-            const uint32_t before = rings->edges[k].mark >> TL_NAV_RING_TWIN_BITS;
+            tl_nav_ring_edge edge = tl_nav_edge_of(rings, k);
+            const uint32_t before = tl_nav_walls_number(edge);
             if (old != NULL && before >= TL_NAV_WALLS_FIRST && walls_of[k] >= TL_NAV_WALLS_FIRST) {
                 rings->walls[walls_of[k]] = old->walls[before];
+                rings->turns[walls_of[k]] = old->turns[before];
             }
-            rings->edges[k].mark = walls_of[k] << TL_NAV_RING_TWIN_BITS | tl_nav_ring_twin_hint(&rings->edges[k]);
+            edge.mark = walls_of[k] << TL_NAV_RING_TWIN_BITS | tl_nav_ring_twin_hint(edge);
+            tl_nav_set_edge(rings, k, edge);
         }
     }
     tl_release_array(allocator, walls_of, edges, sizeof *walls_of);
     return rings->walls != NULL ? TL_OK : fits ? TL_ERR_MEMORY : TL_ERR_LIMIT;
 }
 
+// The block of rings, with edges of one kind, in memory of its own. TL_ERR_MEMORY: nothing is changed.
+static tl_result copy_block(const tl_allocator *allocator, bool has_wide_edges, tl_nav_rings *rings)
+{
+    tl_nav_rings copy = *rings;
+    copy.has_wide_edges = has_wide_edges;
+    const uint64_t size = block_size_of(&copy);
+    void *block = tl_allocate_array(allocator, size, 1);
+    if (block == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    place_arrays(&copy, block);
+    const uint64_t old_edges = edges_size(rings), new_edges = edges_size(&copy);
+    memcpy((char *)block + new_edges, (const char *)rings->edges.wide + old_edges, (size_t)(size - new_edges));
+    for (uint32_t k = 0; k < rings->edge_count; k++) {
+        tl_nav_set_edge(&copy, k, tl_nav_edge_of(rings, k));
+    }
+    tl_release_array(allocator, rings->edges.wide, tl_nav_rings_size(rings), 1);
+    *rings = copy;
+    return TL_OK;
+}
+
+// Rings are made with wide edges: how many walls there are is known at the end.
+static tl_result narrow_edges(const tl_allocator *allocator, tl_nav_rings *rings)
+{
+    const bool are_short =
+        !rings->is_wide && rings->seam_count <= TL_NAV_SHORT_SEAMS && rings->walls_count <= TL_NAV_SHORT_WALLS;
+    return are_short ? copy_block(allocator, false, rings) : TL_OK;
+}
+
 static tl_result make_rings(const tl_allocator *allocator, const tl_nav_tile *tile,
                             const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const tl_nav_rings *old,
                             uint32_t *scratch, tl_nav_rings *rings)
 {
-    ring_writer counted = { rings, 0, 0, 0, NULL, 0, 0, false };
+    ring_writer counted;
+    memset(&counted, 0, sizeof counted);
+    counted.rings = rings;
     write_rings(&counted, tile, sides, scratch, old);
     if (counted.edge_count > UINT32_MAX || counted.seam_count >= TL_NAV_RING_BACK - TL_NAV_RING_SEAM ||
-        counted.point_count > UINT32_MAX / sizeof(tl_vec3) ||
-        tile->detail_vertex_count > UINT32_MAX / sizeof(tl_vec3)) {
+        counted.point_count >= TL_NAV_RING_OWN_POINTS || tile->detail_vertex_count >= TL_NAV_RING_OWN_POINTS) {
         return TL_ERR_LIMIT;
     }
     rings->polygon_count = tile->polygon_count;
     rings->node_count = tile->node_count;
     rings->is_wide = tile->polygon_count > TL_NAV_MAX_SHORT_NUMBER;
-    rings->points[0] = old != NULL ? old->points[0] : (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices);
-    if (!allocate_rings(allocator, &counted, rings)) {
-        return TL_ERR_MEMORY;
-    }
-    fill_rings(tile, sides, scratch, old, rings);
-    TL_ASSERT(rings->cells[tile->polygon_count].first == counted.edge_count);
+    rings->first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner);
+    rings->first_point = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex);
+    rings->points[0] = (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices);
+    TL_TRY(fill_rings(allocator, tile, sides, scratch, old, &counted, rings));
+    TL_ASSERT(rings->first[tile->polygon_count] == rings->edge_count);
     if (old != NULL) {
         copy_components(old, rings);
     } else {
@@ -441,7 +501,8 @@ static tl_result make_rings(const tl_allocator *allocator, const tl_nav_tile *ti
         label_tree_nodes(tile, rings);
     }
     const uint32_t *branch_end = tl_nav_find_branches(rings, scratch);
-    return make_walls(allocator, old, branch_end, rings);
+    TL_TRY(make_walls(allocator, old, branch_end, rings));
+    return narrow_edges(allocator, rings);
 }
 
 tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile,
@@ -470,41 +531,33 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
 void tl_nav_rings_free(const tl_allocator *allocator, tl_nav_rings *rings)
 {
     tl_release_array(allocator, rings->walls, walls_size(rings), 1);
-    if (rings->edges != NULL) {
-        tl_release_array(allocator, rings->edges, tl_nav_rings_size(rings), 1);
+    if (rings->edges.wide != NULL) {
+        tl_release_array(allocator, rings->edges.wide, tl_nav_rings_size(rings), 1);
     }
     memset(rings, 0, sizeof *rings);
 }
 
 tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings)
 {
-    const uint64_t size = tl_nav_rings_size(rings);
-    void *block = tl_allocate_array(allocator, size, 1);
     void *walls = tl_allocate_array(allocator, walls_size(rings), 1);
-    if (block == NULL || walls == NULL) {
-        tl_release_array(allocator, block, size, 1);
+    const tl_result result = walls != NULL ? copy_block(allocator, rings->has_wide_edges, rings) : TL_ERR_MEMORY;
+    if (result != TL_OK) {
         tl_release_array(allocator, walls, walls_size(rings), 1);
-        return TL_ERR_MEMORY;
+        return result;
     }
-    const uint64_t edges = (uint64_t)((char *)rings->seams - (char *)rings->edges);
-    const uint64_t seams = (uint64_t)((char *)rings->cells - (char *)rings->seams);
-    memcpy(block, rings->edges, (size_t)size);
     memcpy(walls, rings->walls, (size_t)walls_size(rings));
-    tl_release_array(allocator, rings->edges, size, 1);
     tl_release_array(allocator, rings->walls, walls_size(rings), 1);
     place_walls(rings, walls);
-    place_arrays(rings, block, edges, seams / sizeof(tl_nav_ring_seam), rings->polygon_count);
-    rings->points[1] = own_points(rings);
     return TL_OK;
 }
 
 void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot)
 {
-    for (uint32_t i = 0; i < rings->cells[rings->polygon_count].first; i++) {
-        tl_nav_ring_edge *edge = &rings->edges[i];
-        if (tl_nav_ring_is_seam(edge) && tl_nav_ring_seam_of(rings, edge->to).slot == slot) {
-            edge->to = TL_NAV_RING_WALL;
-            tl_nav_set_ring_twin(edge, TL_NAV_RING_ON_PORTAL);
+    for (uint32_t i = 0; i < rings->edge_count; i++) {
+        tl_nav_ring_edge edge = tl_nav_edge_of(rings, i);
+        if (tl_nav_ring_is_seam(edge.to) && tl_nav_ring_seam_of(rings, edge.to).slot == slot) {
+            edge.to = TL_NAV_RING_WALL;
+            tl_nav_set_edge(rings, i, tl_nav_with_twin(edge, TL_NAV_RING_ON_PORTAL));
         }
     }
 }

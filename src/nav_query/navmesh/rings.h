@@ -12,13 +12,14 @@
 
 #include <talus/nav_query.h>
 
-// Values of tl_nav_ring_edge.to beside polygons of the tile.
-#define TL_NAV_RING_SEAM 0x80000000u       ///< | index of a tl_nav_ring_seam
+// Values of tl_nav_ring_edge.to beside polygons of the tile: below zero as integers, so that those of 16 bits become
+// these by their sign.
+#define TL_NAV_RING_SEAM 0x80000000u       ///< set in all of them; by itself: tl_nav_ring_seam_number
 #define TL_NAV_RING_BACK (UINT32_MAX - 1u) ///< runs back where links of two floors lie over one another: no way
 #define TL_NAV_RING_WALL UINT32_MAX
 
 enum {
-    TL_NAV_RING_TWIN_BITS = 6,                               ///< of tl_nav_ring_edge.mark
+    TL_NAV_RING_TWIN_BITS = 3,                               ///< of tl_nav_ring_edge.mark
     TL_NAV_RING_FAR_TWIN = (1 << TL_NAV_RING_TWIN_BITS) - 1, ///< no less: the twin is looked for from here on
     TL_NAV_SEAM_TWIN_BITS = TL_NAV_RING_TWIN_BITS + 12,      ///< over a seam; 12 are left above TL_NAV_MAX_TILES
 };
@@ -28,12 +29,27 @@ enum {
 
 /// An edge of a polygon, from its point to the next one's. Seen from inside looking out, it starts at its right end.
 typedef struct tl_nav_ring_edge {
-    uint32_t to;   ///< across: a polygon of the tile, or TL_NAV_RING_...
-    uint32_t turn; ///< names the free way around this vertex when a shortest path may turn here, else 0
+    uint32_t to; ///< across: a polygon of the tile, or TL_NAV_RING_...
     /// In the low bits the same edge's place in the ring across, or TL_NAV_RING_FAR_TWIN; over a seam the low bits of
     /// near which it stands there, if anywhere (tl_nav_set_seam_twin). Above them which walls this vertex has.
     uint32_t mark;
 } tl_nav_ring_edge;
+
+/// The same where both fit 16 bits, as in most tiles.
+typedef struct tl_nav_short_edge {
+    int16_t to;
+    uint16_t mark;
+} tl_nav_short_edge;
+
+typedef union tl_nav_ring_edges {
+    tl_nav_short_edge *narrow;
+    tl_nav_ring_edge *wide;
+} tl_nav_ring_edges;
+
+enum {
+    TL_NAV_SHORT_SEAMS = 0x7ffe, ///< so many fit a short edge
+    TL_NAV_SHORT_WALLS = 1 << (16 - TL_NAV_RING_TWIN_BITS)
+};
 
 /// What lies across a seam. In tl_nav_rings.seams the twin's high bits stand above the slot: tl_nav_ring_seam_of.
 typedef struct tl_nav_ring_seam {
@@ -64,42 +80,45 @@ typedef union tl_nav_ring_numbers {
     uint32_t *wide;
 } tl_nav_ring_numbers;
 
-typedef struct tl_nav_ring_cell {
-    uint32_t first;  ///< of the polygon's edges; they end where the next cell's begin
-    uint32_t points; ///< where its first one is: bytes in tl_nav_rings.points, and in the lowest bit in which of them
-    uint32_t branch; ///< of the tile, to which the polygon belongs (branches.c)
-} tl_nav_ring_cell;
+/// In tl_nav_rings.first_point: the ring has points of its own.
+#define TL_NAV_RING_OWN_POINTS 0x80000000u
 
 typedef struct tl_nav_rings {
-    tl_nav_ring_cell *cells; ///< [polygon_count + 1]
-    tl_nav_ring_edge *edges;
-    /// The detail vertices of the tile as it was added; and, behind the edges, the points of the rings that are not all
-    /// corners of their polygon.
+    tl_nav_ring_edges edges;
+    /// By polygon, polygon_count + 1: its first edge, and where its points begin in points[0], or
+    /// TL_NAV_RING_OWN_POINTS | where in points[1]. The tile's own arrays where no ring has points of its own.
+    const uint32_t *first, *first_point;
+    /// The detail vertices of the tile as it was added; and the points of the rings that are not all corners of their
+    /// polygon.
     const tl_vec3 *points[2];
     tl_nav_ring_walls *walls; ///< [walls_count]
+    uint32_t *turns;          ///< by walls: names the free way around their vertex when a shortest path may turn there
     tl_nav_ring_seam *seams;
     uint32_t *branch_end;          ///< by branch: those on it, and on those, are numbered from it up to here
+    tl_nav_ring_numbers branch;    ///< by polygon: of the tile, to which it belongs (branches.c)
     tl_nav_ring_numbers component; ///< by polygon: its connected component within the tile, from 0; tl_nav_next_member
     /// By node of the tile's box tree: the component of all polygons below it, or the highest bit and those of theirs.
     tl_nav_ring_numbers node_component;
-    uint32_t polygon_count, component_count, branch_count, walls_count, node_count;
-    bool has_back; ///< some edge is a TL_NAV_RING_BACK
-    bool is_wide;  ///< its numbers have 32 bits
+    uint32_t polygon_count, component_count, branch_count, walls_count, node_count, edge_count, seam_count;
+    uint32_t point_count; ///< of rings with points of their own
+    bool has_back;        ///< some edge is a TL_NAV_RING_BACK
+    bool is_wide;         ///< its numbers have 32 bits
+    bool has_wide_edges;
 } tl_nav_rings;
 
-/// Bytes of the block that begins with `edges` and holds all arrays but walls, islands and ends of branches.
+/// Bytes of the block that begins with `edges` and holds all arrays but walls, turns, islands and ends of branches.
 uint64_t tl_nav_rings_size(const tl_nav_rings *rings);
 
 /// By component: a node of the navmesh's islands (islands.c).
 static inline uint32_t *tl_nav_ring_islands(const tl_nav_rings *rings)
 {
-    return (uint32_t *)(void *)(rings->walls + rings->walls_count);
+    return rings->turns + rings->walls_count;
 }
 
 typedef struct tl_nav_side_links tl_nav_side_links;
 
-/// Rings of a tile with these links on its sides. `old`: its rings from before the links of one side changed, from
-/// which all but the polygons on that side are copied, or NULL. TL_ERR_MEMORY.
+/// Rings of a tile, as it was added, with these links on its sides; they point into it. `old`: its rings from before
+/// the links of one side changed, from which all but the polygons on that side are copied, or NULL. TL_ERR_MEMORY.
 tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile,
                             const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const tl_nav_rings *old,
                             uint32_t changed_side, tl_nav_rings *rings_out);
@@ -110,6 +129,23 @@ tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings);
 /// Makes walls of all ways to a slot. The cuts in the edges stay.
 void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot);
 
+/// The edge at a place. `is_wide`: of which kind they are.
+static inline tl_nav_ring_edge tl_nav_edge_at(tl_nav_ring_edges edges, bool is_wide, uint64_t place)
+{
+    if (is_wide) {
+        return edges.wide[place];
+    }
+    const tl_nav_ring_edge edge = { (uint32_t)(int32_t)edges.narrow[place].to, edges.narrow[place].mark };
+    return edge;
+}
+
+/// The edge at a place among all of a tile's; and to write it.
+static inline tl_nav_ring_edge tl_nav_edge_of(const tl_nav_rings *rings, uint64_t place)
+{
+    return tl_nav_edge_at(rings->edges, rings->has_wide_edges, place);
+}
+void tl_nav_set_edge(const tl_nav_rings *rings, uint64_t place, tl_nav_ring_edge edge);
+
 /// The place of an edge in the ring of the polygon across, which is of the same tile and has more edges than fit a
 /// mark.
 uint32_t tl_nav_find_far_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge);
@@ -117,7 +153,7 @@ uint32_t tl_nav_find_far_twin(const tl_nav_rings *rings, uint32_t polygon, uint3
 /// The same of any two polygons of one tile.
 static inline uint32_t tl_nav_inner_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge)
 {
-    const uint32_t twin = rings->edges[rings->cells[polygon].first + edge].mark & TL_NAV_RING_FAR_TWIN;
+    const uint32_t twin = tl_nav_edge_of(rings, (uint64_t)rings->first[polygon] + edge).mark & TL_NAV_RING_FAR_TWIN;
     return twin < TL_NAV_RING_FAR_TWIN ? twin : tl_nav_find_far_twin(rings, polygon, edge);
 }
 
@@ -131,9 +167,24 @@ static inline uint32_t tl_nav_ring_number(const tl_nav_rings *rings, tl_nav_ring
     return rings->is_wide ? numbers.wide[i] : numbers.narrow[i];
 }
 
+static inline void tl_nav_set_ring_number(const tl_nav_rings *rings, tl_nav_ring_numbers numbers, uint32_t i,
+                                          uint32_t number)
+{
+    if (rings->is_wide) {
+        numbers.wide[i] = number;
+    } else {
+        numbers.narrow[i] = (uint16_t)number;
+    }
+}
+
 static inline uint32_t tl_nav_component_of(const tl_nav_rings *rings, uint32_t polygon)
 {
     return tl_nav_ring_number(rings, rings->component, polygon);
+}
+
+static inline uint32_t tl_nav_branch_of(const tl_nav_rings *rings, uint32_t polygon)
+{
+    return tl_nav_ring_number(rings, rings->branch, polygon);
 }
 
 /// The next polygon of the same component, around.
@@ -159,37 +210,44 @@ static inline uint32_t tl_nav_node_component(const tl_nav_rings *rings, uint32_t
 /// Whether a polygon lies in a branch, or in one that hangs on it.
 static inline bool tl_nav_is_on_branch(const tl_nav_rings *rings, uint32_t branch, uint32_t polygon)
 {
-    const uint32_t of_polygon = rings->cells[polygon].branch;
+    const uint32_t of_polygon = tl_nav_branch_of(rings, polygon);
     return of_polygon >= branch && of_polygon < rings->branch_end[branch];
 }
 
-/// Whether an edge may be crossed.
-static inline bool tl_nav_ring_is_open(const tl_nav_ring_edge *edge)
+/// Whether an edge may be crossed that leads there.
+static inline bool tl_nav_ring_is_open(uint32_t to)
 {
-    return edge->to < TL_NAV_RING_BACK;
+    return to < TL_NAV_RING_BACK;
 }
 
 /// Whether an edge leads over a seam.
-static inline bool tl_nav_ring_is_seam(const tl_nav_ring_edge *edge)
+static inline bool tl_nav_ring_is_seam(uint32_t to)
 {
-    return (edge->to & TL_NAV_RING_SEAM) != 0 && tl_nav_ring_is_open(edge);
+    return (to & TL_NAV_RING_SEAM) != 0 && tl_nav_ring_is_open(to);
 }
 
-static inline void tl_nav_set_ring_twin(tl_nav_ring_edge *edge, uint32_t twin)
+/// The number of a seam, in tl_nav_rings.seams, by the `to` of its edge; and back.
+static inline uint32_t tl_nav_ring_seam_number(uint32_t to)
 {
-    edge->mark = (edge->mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) |
-                 (twin < TL_NAV_RING_FAR_TWIN ? twin : (uint32_t)TL_NAV_RING_FAR_TWIN);
+    return TL_NAV_RING_BACK - 1 - to;
 }
 
-static inline uint32_t tl_nav_ring_twin_hint(const tl_nav_ring_edge *edge)
+static inline uint32_t tl_nav_ring_twin_hint(tl_nav_ring_edge edge)
 {
-    return edge->mark & TL_NAV_RING_FAR_TWIN;
+    return edge.mark & TL_NAV_RING_FAR_TWIN;
+}
+
+static inline tl_nav_ring_edge tl_nav_with_twin(tl_nav_ring_edge edge, uint32_t twin)
+{
+    edge.mark = (edge.mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) |
+                (twin < TL_NAV_RING_FAR_TWIN ? twin : (uint32_t)TL_NAV_RING_FAR_TWIN);
+    return edge;
 }
 
 /// The polygon across an edge whose `to` names a seam.
 static inline tl_nav_ring_seam tl_nav_ring_seam_of(const tl_nav_rings *rings, uint32_t to)
 {
-    tl_nav_ring_seam seam = rings->seams[to & ~TL_NAV_RING_SEAM];
+    tl_nav_ring_seam seam = rings->seams[tl_nav_ring_seam_number(to)];
     seam.slot &= TL_NAV_MAX_TILES - 1;
     return seam;
 }
@@ -205,41 +263,76 @@ static inline uint32_t tl_nav_seam_twin_shift(uint32_t count)
     return shift;
 }
 
-/// Notes near which of the `count` edges of the ring across a seam's edge stands there.
-static inline void tl_nav_set_seam_twin(tl_nav_rings *rings, tl_nav_ring_edge *edge, uint32_t twin, uint32_t count)
+/// Notes near which of the `count` edges of the ring across a seam's edge, at a place among all of the tile's, stands.
+static inline void tl_nav_set_seam_twin(const tl_nav_rings *rings, uint64_t place, uint32_t twin, uint32_t count)
 {
-    const uint32_t place = twin >> tl_nav_seam_twin_shift(count);
-    tl_nav_ring_seam *seam = &rings->seams[edge->to & ~TL_NAV_RING_SEAM];
-    seam->slot = (seam->slot & (TL_NAV_MAX_TILES - 1)) | (place >> TL_NAV_RING_TWIN_BITS) * TL_NAV_MAX_TILES;
-    edge->mark = (edge->mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) | (place & TL_NAV_RING_FAR_TWIN);
+    const uint32_t near = twin >> tl_nav_seam_twin_shift(count);
+    tl_nav_ring_edge edge = tl_nav_edge_of(rings, place);
+    tl_nav_ring_seam *seam = &rings->seams[tl_nav_ring_seam_number(edge.to)];
+    seam->slot = (seam->slot & (TL_NAV_MAX_TILES - 1)) | (near >> TL_NAV_RING_TWIN_BITS) * TL_NAV_MAX_TILES;
+    edge.mark = (edge.mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) | (near & TL_NAV_RING_FAR_TWIN);
+    tl_nav_set_edge(rings, place, edge);
 }
 
 /// Where tl_nav_set_seam_twin says that an edge stands in the ring across, of `count` edges.
-static inline uint32_t tl_nav_seam_twin_hint(const tl_nav_rings *rings, const tl_nav_ring_edge *edge, uint32_t count)
+static inline uint32_t tl_nav_seam_twin_hint(const tl_nav_rings *rings, tl_nav_ring_edge edge, uint32_t count)
 {
-    const uint32_t high = rings->seams[edge->to & ~TL_NAV_RING_SEAM].slot / TL_NAV_MAX_TILES;
+    const uint32_t high = rings->seams[tl_nav_ring_seam_number(edge.to)].slot / TL_NAV_MAX_TILES;
     return (high << TL_NAV_RING_TWIN_BITS | tl_nav_ring_twin_hint(edge)) << tl_nav_seam_twin_shift(count);
 }
 
-/// The walls of the vertex where an edge starts. They are those of its fan where its turn is not 0.
-static inline const tl_nav_ring_walls *tl_nav_walls_of(const tl_nav_rings *rings, const tl_nav_ring_edge *edge)
+/// Which walls the vertex has where an edge starts.
+static inline uint32_t tl_nav_walls_number(tl_nav_ring_edge edge)
 {
-    return &rings->walls[edge->mark >> TL_NAV_RING_TWIN_BITS];
+    return edge.mark >> TL_NAV_RING_TWIN_BITS;
+}
+
+/// Those walls. They are those of its fan where its turn is not 0.
+static inline const tl_nav_ring_walls *tl_nav_walls_of(const tl_nav_rings *rings, tl_nav_ring_edge edge)
+{
+    return &rings->walls[tl_nav_walls_number(edge)];
+}
+
+/// Names the free way around the vertex where an edge starts when a shortest path may turn here, else 0.
+static inline uint32_t tl_nav_turn_of(const tl_nav_rings *rings, tl_nav_ring_edge edge)
+{
+    return rings->turns[tl_nav_walls_number(edge)];
 }
 
 /// A polygon's ring: edge i leads from point i to the next one, from the last one to the first.
 typedef struct tl_nav_ring {
-    const tl_nav_ring_edge *edges;
-    const tl_vec3 *points; ///< metres
-    uint32_t count;        ///< of each
+    tl_nav_ring_edges edges; ///< read by the functions below
+    const tl_vec3 *points;   ///< metres
+    uint32_t count;          ///< of each
+    uint32_t first;          ///< the place of edge 0 among all of the tile's
+    bool has_wide_edges;
 } tl_nav_ring;
 
 static inline tl_nav_ring tl_nav_ring_of(const tl_nav_rings *rings, uint32_t polygon)
 {
-    const tl_nav_ring_cell *cell = rings->cells + polygon;
-    const void *points = (const char *)rings->points[cell->points & 1] + (cell->points & ~(uint32_t)1);
-    const tl_nav_ring ring = { rings->edges + cell[0].first, (const tl_vec3 *)points, cell[1].first - cell[0].first };
+    const uint32_t first = rings->first[polygon], point = rings->first_point[polygon];
+    tl_nav_ring ring;
+    if (rings->has_wide_edges) {
+        ring.edges.wide = rings->edges.wide + first;
+    } else {
+        ring.edges.narrow = rings->edges.narrow + first;
+    }
+    ring.points = rings->points[point / TL_NAV_RING_OWN_POINTS] + (point & (TL_NAV_RING_OWN_POINTS - 1));
+    ring.count = rings->first[polygon + 1] - first;
+    ring.first = first;
+    ring.has_wide_edges = rings->has_wide_edges;
     return ring;
+}
+
+static inline tl_nav_ring_edge tl_nav_ring_edge_at(const tl_nav_ring *ring, uint32_t i)
+{
+    return tl_nav_edge_at(ring->edges, ring->has_wide_edges, i);
+}
+
+/// What lies across edge i.
+static inline uint32_t tl_nav_ring_to(const tl_nav_ring *ring, uint32_t i)
+{
+    return tl_nav_ring_edge_at(ring, i).to;
 }
 
 #endif

@@ -108,8 +108,9 @@ static tl_result make_tile_rings(const tl_navmesh *navmesh, const tl_nav_tile *t
         for (uint32_t i = 0; i < TL_NAV_SIDE_COUNT; i++) {
             sides[i] = i == tl_nav_facing_side(neighbour->side) ? &neighbour->facing : &slot->sides[i];
         }
-        TL_TRY(tl_nav_rings_make(&navmesh->allocator, slot->tile, sides, &slot->rings,
-                                 tl_nav_facing_side(neighbour->side), &neighbour->rings));
+        // Rings point into the tile as it was added: a changed one goes before them.
+        TL_TRY(tl_nav_rings_make(&navmesh->allocator, slot->baked != NULL ? slot->baked : slot->tile, sides,
+                                 &slot->rings, tl_nav_facing_side(neighbour->side), &neighbour->rings));
     }
     return TL_OK;
 }

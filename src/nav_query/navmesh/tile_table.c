@@ -213,7 +213,8 @@ static tl_result own_rings(tl_navmesh *navmesh, uint32_t slot)
 {
     tl_nav_touch_slot(navmesh, slot);
     tl_nav_rings *rings = &navmesh->slots[slot].rings;
-    return tl_nav_is_shared(navmesh->history, rings->edges) ? tl_nav_rings_copy(&navmesh->allocator, rings) : TL_OK;
+    return tl_nav_is_shared(navmesh->history, rings->edges.narrow) ? tl_nav_rings_copy(&navmesh->allocator, rings)
+                                                                   : TL_OK;
 }
 
 // Before a tile comes, with these seams, or leaves, NULL: of the tiles around its place, what the change will write to

@@ -156,7 +156,7 @@ static inline bool may_step(const tl_nav_way_search *search, const way_step *ste
 static inline void step_over_edge(tl_nav_way_search *search, const way_step *step, const tl_nav_ring *ring,
                                   uint32_t edge, uint64_t key)
 {
-    const tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, step->here.slot, ring->edges[edge].to);
+    const tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, step->here.slot, tl_nav_ring_to(ring, edge));
     if (!may_step(search, step, to)) {
         return;
     }
@@ -188,9 +188,9 @@ static void expand_way(tl_nav_way_search *search, uint32_t index)
         relax_links(search, index);
     }
     const tl_nav_ring ring = tl_nav_ring_of(&slot->rings, step.here.polygon);
-    const uint64_t first = tl_nav_way_key(step.here.slot, (uint64_t)(ring.edges - slot->rings.edges));
+    const uint64_t first = tl_nav_way_key(step.here.slot, ring.first);
     for (uint32_t i = 0; i < ring.count; i++) {
-        if (tl_nav_ring_is_open(&ring.edges[i])) {
+        if (tl_nav_ring_is_open(tl_nav_ring_to(&ring, i))) {
             step_over_edge(search, &step, &ring, i, first + i);
         }
     }

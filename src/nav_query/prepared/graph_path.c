@@ -17,7 +17,7 @@ uint32_t tl_nav_fan_of(const tl_navmesh *navmesh, const tl_nav_corner_vertex *ve
         const tl_nav_ring ring = tl_nav_ring_at(navmesh, at.slot, at.polygon);
         uint32_t before = at.edge > 0 ? at.edge - 1 : ring.count - 1;
         fan_out[i] = at;
-        if (!tl_nav_ring_is_open(&ring.edges[before])) {
+        if (!tl_nav_ring_is_open(tl_nav_ring_to(&ring, before))) {
             return i + 1;
         }
         at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, &ring, before);

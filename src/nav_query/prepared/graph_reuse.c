@@ -36,17 +36,18 @@ static void match_names(const uint32_t *vertex_of, uint32_t fan_count, uint32_t 
 }
 
 // Whether an edge may have been another before an edit beside its tile.
-static bool may_be_new(const tl_navmesh *navmesh, const tl_nav_graph_reuse *reuse, uint32_t slot,
-                       const tl_nav_ring_edge *edge, const uint32_t *vertex_of)
+static bool may_be_new(const tl_navmesh *navmesh, const tl_nav_graph_reuse *reuse, uint32_t slot, tl_nav_ring_edge edge,
+                       const uint32_t *vertex_of)
 {
-    if (edge->turn != 0 && reuse->before[vertex_of[edge->turn]] == TL_NAV_NO_VERTEX) {
+    const uint32_t turn = tl_nav_turn_of(&navmesh->slots[slot].rings, edge);
+    if (turn != 0 && reuse->before[vertex_of[turn]] == TL_NAV_NO_VERTEX) {
         return true;
     }
-    if (!tl_nav_ring_is_open(edge)) {
+    if (!tl_nav_ring_is_open(edge.to)) {
         return tl_nav_ring_twin_hint(edge) == TL_NAV_RING_ON_PORTAL;
     }
-    return (edge->to & TL_NAV_RING_SEAM) != 0 &&
-           !tl_nav_is_tile_reused(navmesh, reuse, tl_nav_ring_across(navmesh, slot, edge->to).slot);
+    return (edge.to & TL_NAV_RING_SEAM) != 0 &&
+           !tl_nav_is_tile_reused(navmesh, reuse, tl_nav_ring_across(navmesh, slot, edge.to).slot);
 }
 
 static bool may_polygon_be_new(const tl_navmesh *navmesh, const tl_nav_graph_reuse *reuse, uint32_t slot,
@@ -54,7 +55,7 @@ static bool may_polygon_be_new(const tl_navmesh *navmesh, const tl_nav_graph_reu
 {
     const tl_nav_ring ring = tl_nav_ring_at(navmesh, slot, polygon);
     for (uint32_t i = 0; i < ring.count; i++) {
-        if (may_be_new(navmesh, reuse, slot, &ring.edges[i], vertex_of)) {
+        if (may_be_new(navmesh, reuse, slot, tl_nav_ring_edge_at(&ring, i), vertex_of)) {
             return true;
         }
     }

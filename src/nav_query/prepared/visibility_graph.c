@@ -67,9 +67,9 @@ static uint32_t count_vertices(graph_baker *b)
     memset(b->vertex_of, 0xff, b->fan_count * sizeof *b->vertex_of);
     for (uint32_t slot = 0; slot < b->navmesh->slot_count; slot++) {
         const tl_nav_rings *rings = &b->navmesh->slots[slot].rings;
-        uint32_t edges = b->navmesh->slots[slot].tile != NULL ? rings->cells[rings->polygon_count].first : 0;
+        const uint32_t edges = b->navmesh->slots[slot].tile != NULL ? rings->edge_count : 0;
         for (uint32_t i = 0; i < edges; i++) {
-            uint32_t turn = rings->edges[i].turn;
+            const uint32_t turn = tl_nav_turn_of(rings, tl_nav_edge_of(rings, i));
             if (turn != 0 && b->vertex_of[turn] == UINT32_MAX) {
                 b->vertex_of[turn] = vertices++;
             }
@@ -81,15 +81,16 @@ static uint32_t count_vertices(graph_baker *b)
 static void fill_corner_vertex(graph_baker *b, tl_nav_ring_place place)
 {
     const tl_nav_ring ring = tl_nav_ring_at(b->navmesh, place.slot, place.polygon);
-    const tl_nav_ring_edge *edge = &ring.edges[place.edge];
+    const tl_nav_ring_edge edge = tl_nav_ring_edge_at(&ring, place.edge);
     const tl_vec3 at = ring.points[place.edge];
     const tl_nav_rings *rings = &b->navmesh->slots[place.slot].rings;
-    if (edge->turn == 0 || b->graph->vertices[b->vertex_of[edge->turn]].turn != 0) {
+    const uint32_t turn = tl_nav_turn_of(rings, edge);
+    if (turn == 0 || b->graph->vertices[b->vertex_of[turn]].turn != 0) {
         return;
     }
-    tl_nav_corner_vertex vertex = { at.x, at.y, at.z, edge->turn, 0, *tl_nav_walls_of(rings, edge), place };
+    tl_nav_corner_vertex vertex = { at.x, at.y, at.z, turn, 0, *tl_nav_walls_of(rings, edge), place };
     tl_nav_find_fan(b->navmesh, NULL, &vertex.place);
-    b->graph->vertices[b->vertex_of[edge->turn]] = vertex;
+    b->graph->vertices[b->vertex_of[turn]] = vertex;
 }
 
 static void fill_corner_vertices(graph_baker *b)
@@ -100,7 +101,7 @@ static void fill_corner_vertices(graph_baker *b)
         b->graph->slot_salt[slot] = b->navmesh->slots[slot].tile != NULL ? b->navmesh->slots[slot].salt : 0;
         for (uint32_t p = 0; b->navmesh->slots[slot].tile != NULL && p < rings->polygon_count; p++) {
             b->graph->polygon_count++;
-            for (uint32_t i = 0; i < rings->cells[p + 1].first - rings->cells[p].first; i++) {
+            for (uint32_t i = 0; i < rings->first[p + 1] - rings->first[p]; i++) {
                 tl_nav_ring_place place = { slot, p, i };
                 fill_corner_vertex(b, place);
             }

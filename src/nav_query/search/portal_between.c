@@ -14,14 +14,14 @@ static inline uint32_t next_to(const tl_nav_slot *slot, const tl_nav_ring *ring,
                                const tl_nav_portal_ends *ends)
 {
     if (ends->to_slot == ends->slot) {
-        while (edge < ring->count && ring->edges[edge].to != ends->to_polygon) {
+        while (edge < ring->count && tl_nav_ring_to(ring, edge) != ends->to_polygon) {
             edge++;
         }
         return edge;
     }
     for (; edge < ring->count; edge++) {
-        if (ring->edges[edge].to >= TL_NAV_RING_SEAM && tl_nav_ring_is_open(&ring->edges[edge])) {
-            const tl_nav_ring_seam seam = tl_nav_ring_seam_of(&slot->rings, ring->edges[edge].to);
+        if (tl_nav_ring_to(ring, edge) >= TL_NAV_RING_SEAM && tl_nav_ring_is_open(tl_nav_ring_to(ring, edge))) {
+            const tl_nav_ring_seam seam = tl_nav_ring_seam_of(&slot->rings, tl_nav_ring_to(ring, edge));
             if (seam.slot == ends->to_slot && seam.polygon == ends->to_polygon) {
                 break;
             }

@@ -82,11 +82,12 @@ static bool is_in(const touched_list *list, uint32_t slot, uint32_t polygon)
 // Whether the line ends in a polygon.
 static bool ends_in(const tl_nav_line *line, uint32_t slot, uint32_t polygon, const tl_nav_ring *ring)
 {
+    const tl_nav_rings *rings = &line->navmesh->slots[slot].rings;
     if (line->turn == 0) {
         return slot == line->slot && polygon == line->polygon;
     }
     for (uint32_t i = 0; i < ring->count; i++) {
-        if (ring->edges[i].turn == line->turn) {
+        if (tl_nav_turn_of(rings, tl_nav_ring_edge_at(ring, i)) == line->turn) {
             return true;
         }
     }
@@ -114,11 +115,11 @@ static bool touch_neighbours(touched_list *list, uint32_t at, const tl_nav_ring 
         const tl_vec3 *end = &ring->points[i + 1 < ring->count ? i + 1 : 0];
         double first = 0.0;
         double last = 0.0;
-        if (!tl_nav_ring_is_open(&ring->edges[i]) || !meets(list, &ring->points[i], end, &first, &last) ||
+        if (!tl_nav_ring_is_open(tl_nav_ring_to(ring, i)) || !meets(list, &ring->points[i], end, &first, &last) ||
             last < from.from - list->line->rounding) {
             continue;
         }
-        tl_nav_ring_seam to = tl_nav_ring_across(list->line->navmesh, from.slot, ring->edges[i].to);
+        tl_nav_ring_seam to = tl_nav_ring_across(list->line->navmesh, from.slot, tl_nav_ring_to(ring, i));
         if (is_in(list, to.slot, to.polygon)) {
             continue;
         }
@@ -216,7 +217,7 @@ tl_nav_line_end tl_nav_walk_line(const tl_nav_line *line, uint32_t slot, uint32_
             !leaves(line, &ring.points[edge], &ring.points[edge + 1 < ring.count ? edge + 1 : 0])) {
             return walk_touching(line, at.slot, at.polygon, trail);
         }
-        if (!tl_nav_ring_is_open(&ring.edges[edge])) {
+        if (!tl_nav_ring_is_open(tl_nav_ring_to(&ring, edge))) {
             return TL_NAV_LINE_BLOCKED;
         }
         if (trail != NULL) {

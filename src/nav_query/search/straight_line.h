@@ -11,7 +11,7 @@ typedef struct tl_nav_line {
     const tl_navmesh *navmesh;
     double x, z;       ///< from here,
     double on_x, on_z; ///< so far
-    uint32_t turn;     ///< to the vertex of this number (tl_nav_ring_edge.turn); 0: to the polygon
+    uint32_t turn;     ///< to the vertex of this number (tl_nav_turn_of); 0: to the polygon
     uint32_t slot, polygon;
     double rounding; ///< metres within which a vertex is on the line
 } tl_nav_line;

@@ -226,11 +226,10 @@ static void end_reach_at_cover(wall_walk *walk, tl_nav_segment wall, float dista
 }
 
 // A wall is known by its place in its tile's rings. Each is taken once, at the least distance by which a beam sees it.
-static bool add_wall(wall_walk *walk, uint32_t slot, const tl_nav_ring_edge *edge, tl_nav_segment wall, bool is_end,
+static bool add_wall(wall_walk *walk, uint32_t slot, uint32_t place, tl_nav_segment wall, bool is_end,
                      float distance_sq)
 {
     bool found = false;
-    uint64_t place = (uint64_t)(edge - walk->clearance->navmesh->slots[slot].rings.edges);
     if (walk->count == walk->clearance->query->max_nodes ||
         (char *)(walk->walls + walk->count + 1) > (char *)walk->top) {
         return false;
@@ -294,12 +293,12 @@ static bool add_winding_end(wall_walk *walk, const tl_nav_ring_place *place, con
     const tl_nav_clearance *clearance = walk->clearance;
     const tl_nav_rings *rings = &clearance->navmesh->slots[place->slot].rings;
     const tl_nav_ring ring = tl_nav_ring_of(rings, place->polygon);
-    const tl_nav_ring_edge *edge = &ring.edges[place->edge];
+    const tl_nav_ring_edge edge = tl_nav_ring_edge_at(&ring, place->edge);
     const tl_nav_ring_walls *walls = tl_nav_walls_of(rings, edge);
     tl_nav_spot spot = tl_nav_spot_of(ring.points[place->edge]);
     tl_nav_segment end = { spot, spot };
     tl_nav_ring_place fan = *place;
-    if (edge->turn == 0 || walls->first_x != 0.0f || walls->first_z != 0.0f ||
+    if (tl_nav_turn_of(rings, edge) == 0 || walls->first_x != 0.0f || walls->first_z != 0.0f ||
         (seen != NULL && !is_in_beam(seen, spot))) {
         return true;
     }
@@ -308,7 +307,8 @@ static bool add_winding_end(wall_walk *walk, const tl_nav_ring_place *place, con
         !tl_nav_find_fan(clearance->navmesh, clearance->filter, &fan)) {
         return true;
     }
-    return add_wall(walk, place->slot, edge, end, true, tl_maxf(distance_sq, seen != NULL ? seen->distance_sq : 0.0f));
+    distance_sq = tl_maxf(distance_sq, seen != NULL ? seen->distance_sq : 0.0f);
+    return add_wall(walk, place->slot, ring.first + place->edge, end, true, distance_sq);
 }
 
 // Looks at the edges of a polygon: of the one behind a beam, or, without one, of one that the shape touches.
@@ -324,7 +324,7 @@ static bool cast_beams(wall_walk *walk, tl_nav_met at, const beam *seen)
         if (!add_winding_end(walk, &place, seen)) {
             return false;
         }
-        if (ring.edges[i].to == TL_NAV_RING_BACK || (seen != NULL && !cut_to_beam(seen, &window))) {
+        if (tl_nav_ring_to(&ring, i) == TL_NAV_RING_BACK || (seen != NULL && !cut_to_beam(seen, &window))) {
             continue;
         }
         // As floats, so that it means the same when it is kept.
@@ -333,10 +333,10 @@ static bool cast_beams(wall_walk *walk, tl_nav_met at, const beam *seen)
             continue;
         }
         distance_sq = tl_maxf(distance_sq, seen != NULL ? seen->distance_sq : 0.0f);
-        bool is_open = tl_nav_ring_is_open(&ring.edges[i]);
+        bool is_open = tl_nav_ring_is_open(tl_nav_ring_to(&ring, i));
         beam next = { at, { 0, 0 }, window.b, window.a, { 0.0, 0.0 }, { 0.0, 0.0 }, distance_sq };
         if (is_open) {
-            tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, at.slot, ring.edges[i].to);
+            tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, at.slot, tl_nav_ring_to(&ring, i));
             next.at.slot = to.slot;
             next.at.polygon = to.polygon;
             is_open = clearance->filter == NULL ||
@@ -346,7 +346,7 @@ static bool cast_beams(wall_walk *walk, tl_nav_met at, const beam *seen)
         bool is_back =
             seen != NULL && is_open && next.at.slot == seen->from.slot && next.at.polygon == seen->from.polygon;
         if (!is_back && !(is_open ? add_beam(walk, seen, next)
-                                  : add_wall(walk, at.slot, &ring.edges[i], edge, false, distance_sq))) {
+                                  : add_wall(walk, at.slot, ring.first + i, edge, false, distance_sq))) {
             return false;
         }
     }

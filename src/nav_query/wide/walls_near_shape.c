@@ -116,10 +116,11 @@ static bool meet_touched(tl_nav_clearance *clearance, const tl_nav_shape *touch,
         for (uint32_t i = 0; fits && i < ring.count; i++) {
             const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
             tl_nav_segment edge = { tl_nav_spot_of(ring.points[i]), tl_nav_spot_of(*end) };
-            if (!tl_nav_ring_is_open(&ring.edges[i]) || !reaches_over(touch, &lines, clearance->slack, edge)) {
+            if (!tl_nav_ring_is_open(tl_nav_ring_to(&ring, i)) ||
+                !reaches_over(touch, &lines, clearance->slack, edge)) {
                 continue;
             }
-            tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, met.slot, ring.edges[i].to);
+            tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, met.slot, tl_nav_ring_to(&ring, i));
             if (clearance->filter == NULL ||
                 tl_nav_passes(clearance->filter, clearance->navmesh->slots[to.slot].tile, to.polygon)) {
                 fits = meet_polygon(clearance, near, to.slot, to.polygon);

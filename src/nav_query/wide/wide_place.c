@@ -287,10 +287,10 @@ static void visit_neighbours(place_search *search)
     const tl_nav_ring ring = tl_nav_ring_at(clearance->navmesh, search->slot, search->polygon);
     for (uint32_t i = 0; i < ring.count; i++) {
         const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
-        if (!tl_nav_ring_is_open(&ring.edges[i])) {
+        if (!tl_nav_ring_is_open(tl_nav_ring_to(&ring, i))) {
             continue;
         }
-        tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, search->slot, ring.edges[i].to);
+        tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, search->slot, tl_nav_ring_to(&ring, i));
         tl_nav_segment edge = { tl_nav_spot_of(ring.points[i]), tl_nav_spot_of(*end) };
         tl_nav_spot nearest;
         double distance_sq = tl_nav_nearest_of_segment(edge, search->spot, &nearest);

@@ -126,7 +126,8 @@ static uint32_t count_pieces(const tl_nav_pieces *pieces, uint32_t edge, double 
 
 // A way out of a polygon: an edge of its ring, which lies on the outline's edge `side`.
 typedef struct way_out {
-    const tl_nav_ring_edge *edge;
+    uint32_t to;    // of the ring's edge
+    uint32_t place; // of that among all of the tile's
     tl_vec3 start, end;
     uint32_t side;
 } way_out;
@@ -138,9 +139,8 @@ static void cross_wide_edge(tl_nav_wide_search *search, uint32_t index, const cu
 {
     const tl_nav_clearance *clearance = search->clearance;
     const tl_nav_node node = clearance->query->nodes[index];
-    const tl_nav_ring_edge *edge = way->edge;
     uint32_t side = way->side;
-    tl_nav_ring_seam across = tl_nav_ring_across(clearance->navmesh, node.slot, edge->to);
+    tl_nav_ring_seam across = tl_nav_ring_across(clearance->navmesh, node.slot, way->to);
     if (clearance->filter != NULL &&
         !tl_nav_passes(clearance->filter, clearance->navmesh->slots[across.slot].tile, across.polygon)) {
         return;
@@ -159,7 +159,6 @@ static void cross_wide_edge(tl_nav_wide_search *search, uint32_t index, const cu
         count_pieces(&cut->pieces, side, first, last) < 2) {
         return;
     }
-    uint64_t place = (uint64_t)(edge - clearance->navmesh->slots[node.slot].rings.edges);
     uint64_t ordinal = 0;
     for (uint32_t i = 0; i < cut->pieces.count; i++) {
         const tl_nav_piece *piece = &cut->pieces.pieces[i];
@@ -172,7 +171,7 @@ static void cross_wide_edge(tl_nav_wide_search *search, uint32_t index, const cu
             search->clearance->is_full = true;
             return;
         }
-        uint64_t key = ((uint64_t)node.slot << 32 | place) << ORDINAL_BITS | ordinal++;
+        uint64_t key = ((uint64_t)node.slot << 32 | way->place) << ORDINAL_BITS | ordinal++;
         // To go back through the piece of entry leads only to what is connected with it there: no shorter.
         bool is_entry = is_back && piece == entry && from <= entry_share && entry_share <= until;
         if (piece->component == component && !is_entry) {
@@ -214,13 +213,13 @@ static void expand_portal(tl_nav_wide_search *search, uint32_t index)
     for (uint32_t i = 0; i < ring.count && component != TL_NAV_NO_COMPONENT; i++) {
         const tl_vec3 *end = &ring.points[i + 1 < ring.count ? i + 1 : 0];
         // A ring's edge starts at the outline's next corner when that side is done; an edge that runs back is not.
-        if (i > 0 && side + 1 < cut.cell.count && ring.edges[i].to != TL_NAV_RING_BACK &&
+        if (i > 0 && side + 1 < cut.cell.count && tl_nav_ring_to(&ring, i) != TL_NAV_RING_BACK &&
             (double)ring.points[i].x == cut.cell.corners[side + 1].x &&
             (double)ring.points[i].z == cut.cell.corners[side + 1].z) {
             side++;
         }
-        if (tl_nav_ring_is_open(&ring.edges[i])) {
-            way_out way = { &ring.edges[i], ring.points[i], *end, side };
+        if (tl_nav_ring_is_open(tl_nav_ring_to(&ring, i))) {
+            way_out way = { tl_nav_ring_to(&ring, i), ring.first + i, ring.points[i], *end, side };
             cross_wide_edge(search, index, &cut, component, entry, &way);
         }
     }
