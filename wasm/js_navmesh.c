@@ -312,8 +312,8 @@ void TL_JS_EXPORT(js_tile_info)(const tl_js_navmesh *self, uint32_t slot)
     at = tl_js_put_aabb(at, tile->bounds);
     at = tl_js_put(at, tile->corner_count);
     at = tl_js_put(tl_js_put(at, tile->detail_vertex_count), tile->detail_triangle_count);
-    at = tl_js_put(at, tile->wide & TL_NAV_WIDE_TRIANGLES);
-    const uint64_t arrays[] = { tile->first_corner,
+    at = tl_js_put(at, tile->wide);
+    const uint32_t arrays[] = { tile->first_corner,
                                 tile->links,
                                 tile->flags,
                                 tile->areas,

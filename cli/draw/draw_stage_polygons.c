@@ -108,7 +108,6 @@ static void add_tile_polygon(draw_scene *scene, const tl_nav_tile *tile, uint32_
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
-    const uint32_t *links = tl_nav_tile_links(tile, polygon);
     const tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
     add_surface(scene, tile, polygon, 0.0f, colour);
     for (uint32_t i = 0; i < 3 * surface.triangle_count; i++) {
@@ -118,7 +117,8 @@ static void add_tile_polygon(draw_scene *scene, const tl_nav_tile *tile, uint32_
         }
         const tl_vec3 a = surface.vertices[triangle.corner[i % 3]];
         const tl_vec3 b = surface.vertices[triangle.corner[(i + 1) % 3]];
-        const bool wall = links[edge_under(corners, count, tl_lerp(a, b, 0.5f))] == TL_NAV_LINK_WALL;
+        const uint32_t edge = edge_under(corners, count, tl_lerp(a, b, 0.5f));
+        const bool wall = tl_nav_tile_edge_link(tile, polygon, edge) == TL_NAV_LINK_WALL;
         draw_add_line(scene, a, b, wall ? WALL_COLOUR : INNER_COLOUR, wall ? 1.6f : 0.9f, 0.85f);
     }
 }

@@ -1316,19 +1316,20 @@ namespace Talus.Interop
         public tl_aabb bounds;
         public uint wide;
         public uint node_steps;
-        public ulong nodes;
-        public ulong first_corner;
-        public ulong links;
-        public ulong corner_vertices;
-        public ulong vertices;
-        public ulong flags;
-        public ulong areas;
-        public ulong detail_first_vertex;
-        public ulong detail_first_triangle;
-        public ulong detail_vertices;
-        public ulong detail_triangles;
-        public ulong portals;
-        public ulong profile;
+        public uint nodes;
+        public uint first_corner;
+        public uint links;
+        public uint corner_vertices;
+        public uint vertices;
+        public uint flags;
+        public uint areas;
+        public uint detail_first_vertex;
+        public uint detail_first_triangle;
+        public uint detail_vertices;
+        public uint detail_triangles;
+        public uint portals;
+        public uint profile;
+        public uint zero;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -3060,6 +3061,8 @@ namespace Talus.Interop
         public static extern uint tl_nav_tile_neighbour(tl_nav_tile* tile, uint polygon, uint edge);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern void tl_nav_tile_fit_boxes(tl_nav_tile* tile);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_tile_copy(tl_nav_tile* tile, byte has_wide_flags, tl_allocator* allocator, tl_nav_tile** copy_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern double tl_nav_tile_polygon_area(tl_nav_tile* tile, uint polygon);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -61,7 +61,7 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail);
 // Limits, checked when a tile is baked and again when its bytes are.
 
 #define TL_NAV_TILE_MAGIC        0x5456414eu ///< "NAVT"
-#define TL_NAV_TILE_VERSION      3u
+#define TL_NAV_TILE_VERSION      4u
 #define TL_NAV_MAX_CORNERS       64         ///< of one polygon
 #define TL_NAV_MAX_TILE_POLYGONS (1u << 28) ///< so that a polygon's number fits a reference (nav_query.h)
 #define TL_NAV_MAX_AREA          255        ///< areas are 1 to 255, 0 is not walkable
@@ -74,16 +74,20 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail);
 #define TL_NAV_MIN_CELL 1e-9f
 
 // ---------------------------------------------------------------------------------------------------------
-// The layout. Offsets are bytes from the start of the blob, multiples of 8, in the order of the fields; all padding is
-// zero. Read it through the functions below.
+// The layout. Offsets count 8 bytes from the start of the blob, in the order of the fields; all padding is zero. Read
+// it through the functions below.
 
 // tl_nav_tile.wide: which arrays have their wider elements. Each bit is set where a tile needs it, and only there.
 #define TL_NAV_WIDE_TRIANGLES 1u ///< some patch has more than 256 vertices
 #define TL_NAV_WIDE_LATTICE   2u ///< some lattice coordinate is no 16-bit number
 #define TL_NAV_WIDE_CORNERS   4u ///< there are more than 65,536 lattice vertices
+#define TL_NAV_WIDE_LINKS     8u ///< there are more than 32,768 polygons, or 32,767 portals
+#define TL_NAV_WIDE_FLAGS     16u ///< some polygon's flags do not fit 8 bits. A tile whose flags were changed may keep it
 
-#define TL_NAV_LINK_WALL      UINT32_MAX  ///< nothing lies across this edge
-#define TL_NAV_LINK_PORTAL    0x80000000u ///< | index of a tl_nav_portal: other tiles' polygons may lie across this edge
+// Values of links beside polygons: below zero as integers, so that those of 16 bits become these by their sign.
+#define TL_NAV_LINK_WALL      UINT32_MAX ///< nothing lies across this edge
+#define TL_NAV_LINK_PORTAL    0x80000000u ///< set beside it where other tiles' polygons may lie across: tl_nav_link_portal
+#define TL_NAV_MAX_SHORT_LINK 0x7fffu     ///< the last polygon of 16 bits; portals end one before
 
 /// The fifth side of a tile, after those towards x-, z+, x+ and z-: edges that were cut when a place was divided into
 /// layers. Across them lies a polygon of another layer of the same place, with the same two vertices.
@@ -139,19 +143,20 @@ typedef struct tl_nav_tile {
     tl_aabb bounds;                                    ///< metres, of the surface
     uint32_t wide;                                     ///< TL_NAV_WIDE_... bits
     uint32_t node_steps;                               ///< of the nodes' boxes: tl_nav_tile_node_steps
-    uint64_t nodes;                                    ///< tl_nav_tile_node [node_count]
-    uint64_t first_corner;                             ///< uint32_t [polygon_count + 1]
-    uint64_t links;               ///< uint32_t [corner_count]: polygon, TL_NAV_LINK_WALL or TL_NAV_LINK_PORTAL | portal
-    uint64_t corner_vertices;     ///< uint16_t or uint32_t [corner_count]
-    uint64_t vertices;            ///< uint16_t or int32_t [3 * vertex_count], lattice
-    uint64_t flags;               ///< uint64_t [polygon_count]
-    uint64_t areas;               ///< uint8_t [polygon_count]
-    uint64_t detail_first_vertex; ///< uint32_t [polygon_count + 1]
-    uint64_t detail_first_triangle; ///< uint32_t [polygon_count + 1]
-    uint64_t detail_vertices;  ///< tl_vec3 [detail_vertex_count], metres: of each polygon its corners, then added ones
-    uint64_t detail_triangles; ///< uint8_t or uint16_t [4 * detail_triangle_count]: corners, then edge_flags
-    uint64_t portals;          ///< tl_nav_portal [portal_count]
-    uint64_t profile;          ///< tl_nav_profile_point [profile_count]
+    uint32_t nodes;                                    ///< tl_nav_tile_node [node_count]
+    uint32_t first_corner;                             ///< uint32_t [polygon_count + 1]
+    uint32_t links;                                    ///< int16_t or int32_t [corner_count]: tl_nav_tile_link
+    uint32_t corner_vertices;                          ///< uint16_t or uint32_t [corner_count]
+    uint32_t vertices;                                 ///< uint16_t or int32_t [3 * vertex_count], lattice
+    uint32_t flags;                                    ///< uint8_t or uint64_t [polygon_count]
+    uint32_t areas;                                    ///< uint8_t [polygon_count]
+    uint32_t detail_first_vertex;                      ///< uint32_t [polygon_count + 1]
+    uint32_t detail_first_triangle;                    ///< uint32_t [polygon_count + 1]
+    uint32_t detail_vertices;  ///< tl_vec3 [detail_vertex_count], metres: of each polygon its corners, then added ones
+    uint32_t detail_triangles; ///< uint8_t or uint16_t [4 * detail_triangle_count]: corners, then edge_flags
+    uint32_t portals;          ///< tl_nav_portal [portal_count]
+    uint32_t profile;          ///< tl_nav_profile_point [profile_count]
+    uint32_t zero;             ///< 0
 } tl_nav_tile;
 
 // ---------------------------------------------------------------------------------------------------------
@@ -231,9 +236,9 @@ TL_API tl_result tl_nav_tile_check(const void *bytes, uint64_t size, tl_report *
 // ---------------------------------------------------------------------------------------------------------
 // Reading a tile. `polygon` < polygon_count and `edge` < its corner count; nothing is checked here.
 
-static inline const void *tl_nav_tile_at(const tl_nav_tile *tile, uint64_t offset)
+static inline const void *tl_nav_tile_at(const tl_nav_tile *tile, uint32_t offset)
 {
-    return (const char *)tile + offset;
+    return (const char *)tile + 8 * (uint64_t)offset;
 }
 
 /// Metres of a lattice coordinate: the one formula by which all tiles place their corners.
@@ -271,11 +276,30 @@ static inline uint32_t tl_nav_tile_side_of(const tl_nav_tile *tile, uint32_t por
     return side;
 }
 
-/// The polygon's links, one an edge: a polygon of this tile, TL_NAV_LINK_WALL or TL_NAV_LINK_PORTAL | portal.
-static inline const uint32_t *tl_nav_tile_links(const tl_nav_tile *tile, uint32_t polygon)
+/// What lies across the edge from a corner, < corner_count, to the next one: a polygon of this tile, TL_NAV_LINK_WALL,
+/// or a portal.
+static inline uint32_t tl_nav_tile_link(const tl_nav_tile *tile, uint32_t corner)
 {
-    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
-    return (const uint32_t *)tl_nav_tile_at(tile, tile->links) + first[0];
+    const void *links = tl_nav_tile_at(tile, tile->links);
+    return (tile->wide & TL_NAV_WIDE_LINKS) != 0 ? (uint32_t)((const int32_t *)links)[corner]
+                                                 : (uint32_t)(int32_t)((const int16_t *)links)[corner];
+}
+
+/// The same across a polygon's edge.
+static inline uint32_t tl_nav_tile_edge_link(const tl_nav_tile *tile, uint32_t polygon, uint32_t edge)
+{
+    return tl_nav_tile_link(tile, ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[polygon] + edge);
+}
+
+static inline bool tl_nav_is_portal(uint32_t link)
+{
+    return (link & TL_NAV_LINK_PORTAL) != 0 && link != TL_NAV_LINK_WALL;
+}
+
+/// The index of the portal that a link names, and the link that names a portal.
+static inline uint32_t tl_nav_link_portal(uint32_t link)
+{
+    return TL_NAV_LINK_WALL - 1 - link;
 }
 
 static inline const tl_nav_portal *tl_nav_tile_portals(const tl_nav_tile *tile)
@@ -299,7 +323,9 @@ static inline uint8_t tl_nav_tile_area(const tl_nav_tile *tile, uint32_t polygon
 
 static inline uint64_t tl_nav_tile_flags(const tl_nav_tile *tile, uint32_t polygon)
 {
-    return ((const uint64_t *)tl_nav_tile_at(tile, tile->flags))[polygon];
+    const void *flags = tl_nav_tile_at(tile, tile->flags);
+    return (tile->wide & TL_NAV_WIDE_FLAGS) != 0 ? ((const uint64_t *)flags)[polygon]
+                                                 : ((const uint8_t *)flags)[polygon];
 }
 
 static inline const tl_nav_tile_node *tl_nav_tile_nodes(const tl_nav_tile *tile)
@@ -355,8 +381,8 @@ static inline tl_nav_surface tl_nav_tile_surface(const tl_nav_tile *tile, uint32
     surface.vertex_count = vertex[1] - vertex[0];
     surface.triangle_count = triangle[1] - triangle[0];
     surface.is_wide = (tile->wide & TL_NAV_WIDE_TRIANGLES) != 0;
-    surface.triangles =
-        tl_nav_tile_at(tile, tile->detail_triangles + ((uint64_t)triangle[0] << (surface.is_wide ? 3 : 2)));
+    surface.triangles = (const char *)tl_nav_tile_at(tile, tile->detail_triangles) +
+                        ((uint64_t)triangle[0] << (surface.is_wide ? 3 : 2));
     return surface;
 }
 
@@ -450,6 +476,22 @@ TL_API uint32_t tl_nav_tile_neighbour(const tl_nav_tile *tile, uint32_t polygon,
 /// Computes a tile's bounds and the boxes of its tree, which stays as it is, from its detail vertices: after those were
 /// moved. All else of the tile must be valid. O(n).
 TL_API void tl_nav_tile_fit_boxes(tl_nav_tile *tile);
+
+/// Copies a tile, with flags of 64 bits where `has_wide_flags` or the tile has them. `*copy_out` is freed with
+/// tl_blob_free. TL_ERR_ARGUMENT (NULL), TL_ERR_MEMORY; then it is NULL. `tile` must be valid. O(n).
+TL_API tl_result tl_nav_tile_copy(const tl_nav_tile *tile, bool has_wide_flags, const tl_allocator *allocator,
+                                  tl_nav_tile **copy_out);
+
+/// Sets a polygon's flags: up to 255 without TL_NAV_WIDE_FLAGS.
+static inline void tl_nav_tile_set_flags(tl_nav_tile *tile, uint32_t polygon, uint64_t flags)
+{
+    char *at = (char *)tile + 8 * (uint64_t)tile->flags;
+    if ((tile->wide & TL_NAV_WIDE_FLAGS) != 0) {
+        ((uint64_t *)(void *)at)[polygon] = flags;
+    } else {
+        ((uint8_t *)at)[polygon] = (uint8_t)flags;
+    }
+}
 
 /// Square metres of one polygon in the plane.
 TL_API double tl_nav_tile_polygon_area(const tl_nav_tile *tile, uint32_t polygon);

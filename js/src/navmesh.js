@@ -148,7 +148,7 @@ export class Navmesh extends Handle {
       const [firstCorner, links, flags, areas, firstVertex, firstTriangle, vertices, triangles] = F64.subarray(s + 17, s + 25);
       return { slot, address: F64[s], size: F64[s + 1], x: F64[s + 2], z: F64[s + 3], layer: F64[s + 4], polygonCount: F64[s + 5],
                area: F64[s + 6], bounds: slotAabb(7), cornerCount: F64[s + 13], vertexCount: F64[s + 14], triangleCount: F64[s + 15],
-               hasWideTriangles: F64[s + 16] !== 0,
+               hasWideTriangles: (F64[s + 16] & 1) !== 0, hasWideLinks: (F64[s + 16] & 8) !== 0, hasWideFlags: (F64[s + 16] & 16) !== 0,
                firstCorner, links, flags, areas, firstVertex, firstTriangle, vertices, triangles, firstRef: U64[s + 25] };
     });
   }
@@ -177,8 +177,10 @@ export class Navmesh extends Handle {
       if (islands === 0) fail(TL_ERR_MEMORY);
       result.island.set(U32.subarray(islands / 4, islands / 4 + n), polygon);
       result.area.set(U8.subarray(tile.areas, tile.areas + n), polygon);
-      result.flags.set(U64.subarray(tile.flags / 8, tile.flags / 8 + n), polygon);
-      result.links.set(U32.subarray(tile.links / 4, tile.links / 4 + tile.cornerCount), corner);
+      if (tile.hasWideFlags) result.flags.set(U64.subarray(tile.flags / 8, tile.flags / 8 + n), polygon);
+      else for (let p = 0; p < n; p++) result.flags[polygon + p] = BigInt(U8[tile.flags + p]);
+      // By their sign numbers of 16 bits become the same of 32.
+      result.links.set(new (tile.hasWideLinks ? Int32Array : Int16Array)(U8.buffer, tile.links, tile.cornerCount), corner);
       for (let p = 0; p < n; p++) {
         // A surface's first vertices are its polygon's corners.
         const first = U32[tile.firstCorner / 4 + p], corners = U32[tile.firstCorner / 4 + p + 1] - first;

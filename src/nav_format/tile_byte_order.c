@@ -12,7 +12,7 @@ static const tl_word_run TILE_HEAD[] = {
     { 4, 16 }, // tile_x .. side_end
     { 8, 1 },  // area
     { 4, 16 }, // origin .. node_steps
-    { 8, 13 }, // offsets
+    { 4, 14 }, // offsets, zero
 };
 
 static const tl_word_run TILE_NODE[] = { { 2, 6 }, { 4, 1 } };
@@ -22,11 +22,13 @@ void tl_nav_tile_swap_words(tl_byte_swap *swap)
     tl_nav_tile head;
     tl_nav_extent extents[TL_NAV_TILE_ARRAYS];
     tl_swap_head(swap, TILE_HEAD, sizeof TILE_HEAD / sizeof TILE_HEAD[0], &head, sizeof head);
+    const uint8_t link = (head.wide & TL_NAV_WIDE_LINKS) != 0 ? 4 : 2;
+    const uint8_t flags = (head.wide & TL_NAV_WIDE_FLAGS) != 0 ? 8 : 1;
     const uint8_t corner = (head.wide & TL_NAV_WIDE_CORNERS) != 0 ? 4 : 2;
     const uint8_t coordinate = (head.wide & TL_NAV_WIDE_LATTICE) != 0 ? 4 : 2;
     const uint8_t triangle = (head.wide & TL_NAV_WIDE_TRIANGLES) != 0 ? 2 : 1;
     // Bytes of a word, in the order of the arrays; nodes, the first, have two kinds.
-    const uint8_t widths[TL_NAV_TILE_ARRAYS] = { 0, 4, 4, corner, coordinate, 8, 1, 4, 4, 4, triangle, 4, 4 };
+    const uint8_t widths[TL_NAV_TILE_ARRAYS] = { 0, 4, link, corner, coordinate, flags, 1, 4, 4, 4, triangle, 4, 4 };
     tl_nav_tile_extents(&head, extents);
     tl_swap_elements(swap, extents[0].offset, head.node_count, TILE_NODE, 2);
     for (uint32_t i = 1; i < TL_NAV_TILE_ARRAYS; i++) {

@@ -59,10 +59,11 @@ static tl_result check_scalars(const tl_nav_tile *tile, tl_report *report)
                  tile->agent_radius >= 0.0f && isfinite(tile->agent_radius) && tile->agent_max_climb >= 0.0f &&
                  isfinite(tile->agent_max_climb) && isfinite(tile->origin.x) && isfinite(tile->origin.y) &&
                  isfinite(tile->origin.z);
-    const uint32_t widths = TL_NAV_WIDE_TRIANGLES | TL_NAV_WIDE_LATTICE | TL_NAV_WIDE_CORNERS;
     const bool has_wide_corners = (tile->wide & TL_NAV_WIDE_CORNERS) != 0;
-    bool sides = tile->layer <= TL_NAV_MAX_LAYER && (tile->wide & ~widths) == 0 &&
-                 has_wide_corners == (tile->vertex_count > UINT16_MAX + 1u);
+    const bool has_wide_links = (tile->wide & TL_NAV_WIDE_LINKS) != 0;
+    bool sides = tile->layer <= TL_NAV_MAX_LAYER && tile->wide < 2 * TL_NAV_WIDE_FLAGS && tile->zero == 0 &&
+                 has_wide_corners == (tile->vertex_count > UINT16_MAX + 1u) &&
+                 has_wide_links == tl_nav_needs_wide_links(tile);
     for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         sides = sides && tl_nav_tile_side_first(tile, side) <= tl_nav_tile_side_first(tile, side + 1);
     }
@@ -75,7 +76,8 @@ static tl_result check_layout(const tl_nav_tile *tile, tl_report *report)
     tl_nav_tile_extents(tile, extents);
     tl_nav_tile expected = *tile;
     tl_nav_tile_set_offsets(&expected, extents);
-    if (!same_bits(&expected, tile, sizeof expected) || tile->blob.size != extents[TL_NAV_TILE_ARRAYS - 1].end) {
+    if (!same_bits(&expected, tile, sizeof expected) || tile->blob.size != extents[TL_NAV_TILE_ARRAYS - 1].end ||
+        tile->blob.size > TL_NAV_MAX_TILE_SIZE) {
         return corrupt(report, "header", TL_NO_ELEMENT);
     }
     const uint8_t *bytes = (const uint8_t *)tile;
@@ -126,12 +128,11 @@ static tl_result check_lattice(const tl_nav_tile *tile, tl_report *report)
 // As tl_nav_links_back of a source.
 static bool tile_links_back(const tl_nav_tile *tile, const uint32_t *first, uint32_t polygon, uint32_t corner)
 {
-    const uint32_t *links = tl_nav_tile_at(tile, tile->links);
-    const uint32_t other = links[corner];
+    const uint32_t other = tl_nav_tile_link(tile, corner);
     const uint32_t begin = tl_nav_tile_corner_vertex(tile, corner);
     const uint32_t end = tl_nav_tile_corner_vertex(tile, corner + 1 < first[polygon + 1] ? corner + 1 : first[polygon]);
     for (uint32_t k = first[other]; k < first[other + 1]; k++) {
-        if (links[k] == polygon && tl_nav_tile_corner_vertex(tile, k) == end &&
+        if (tl_nav_tile_link(tile, k) == polygon && tl_nav_tile_corner_vertex(tile, k) == end &&
             tl_nav_tile_corner_vertex(tile, k + 1 < first[other + 1] ? k + 1 : first[other]) == begin) {
             return true;
         }
@@ -141,13 +142,12 @@ static bool tile_links_back(const tl_nav_tile *tile, const uint32_t *first, uint
 
 static bool is_link(const tl_nav_tile *tile, const uint32_t *first, uint32_t p, uint32_t k)
 {
-    const uint32_t *links = tl_nav_tile_at(tile, tile->links);
-    uint32_t link = links[k];
+    const uint32_t link = tl_nav_tile_link(tile, k);
     if (link == TL_NAV_LINK_WALL) {
         return true;
     }
-    if ((link & TL_NAV_LINK_PORTAL) != 0) {
-        uint32_t portal = link & ~TL_NAV_LINK_PORTAL;
+    if (tl_nav_is_portal(link)) {
+        const uint32_t portal = tl_nav_link_portal(link);
         return portal < tile->portal_count && tl_nav_tile_portals(tile)[portal].corner == k;
     }
     return link < tile->polygon_count && link != p && tile_links_back(tile, first, p, k);
@@ -252,11 +252,10 @@ static bool is_cut(const tl_nav_tile *tile, uint32_t index)
 static bool is_own_edge(const tl_nav_tile *tile, uint32_t index)
 {
     const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
-    const uint32_t *links = tl_nav_tile_at(tile, tile->links);
     const tl_nav_portal *portal = &tl_nav_tile_portals(tile)[index];
     uint32_t p = portal->polygon;
     return p < tile->polygon_count && portal->corner >= first[p] && portal->corner < first[p + 1] &&
-           links[portal->corner] == (TL_NAV_LINK_PORTAL | index);
+           tl_nav_link_portal(tl_nav_tile_link(tile, portal->corner)) == index;
 }
 
 static bool is_on_border(const tl_nav_tile *tile, uint32_t index, uint32_t side)

@@ -20,11 +20,10 @@
 static uint32_t twin_corner(const tl_nav_tile *tile, uint32_t p, uint32_t k)
 {
     const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
-    const uint32_t *links = tl_nav_tile_at(tile, tile->links);
-    const uint32_t q = links[k];
+    const uint32_t q = tl_nav_tile_link(tile, k);
     const uint32_t end = tl_nav_tile_corner_vertex(tile, k + 1 < first[p + 1] ? k + 1 : first[p]);
     uint32_t twin = first[q];
-    while (links[twin] != p || tl_nav_tile_corner_vertex(tile, twin) != end) {
+    while (tl_nav_tile_link(tile, twin) != p || tl_nav_tile_corner_vertex(tile, twin) != end) {
         twin++;
     }
     TL_ASSERT(twin < first[q + 1]);
@@ -35,7 +34,6 @@ static uint32_t twin_corner(const tl_nav_tile *tile, uint32_t p, uint32_t k)
 static tl_result number_cuts(const tl_nav_tile *tile, const uint32_t *layers, tl_arena *arena, uint32_t *ordinals)
 {
     const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
-    const uint32_t *links = tl_nav_tile_at(tile, tile->links);
     tl_sort_item *items = TL_PUSH(arena, tl_sort_item, tile->corner_count);
     tl_sort_item *scratch = TL_PUSH(arena, tl_sort_item, tile->corner_count);
     if (items == NULL || scratch == NULL) {
@@ -44,7 +42,8 @@ static tl_result number_cuts(const tl_nav_tile *tile, const uint32_t *layers, tl
     uint32_t count = 0;
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         for (uint32_t k = first[p]; k < first[p + 1]; k++) {
-            if (links[k] < TL_NAV_LINK_PORTAL && links[k] > p && layers[links[k]] != layers[p]) {
+            const uint32_t across = tl_nav_tile_link(tile, k);
+            if (across < TL_NAV_LINK_PORTAL && across > p && layers[across] != layers[p]) {
                 const uint32_t a = tl_nav_tile_corner_vertex(tile, k);
                 const uint32_t b = tl_nav_tile_corner_vertex(tile, k + 1 < first[p + 1] ? k + 1 : first[p]);
                 const uint64_t key = a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;

@@ -13,9 +13,9 @@
 
 #include <string.h>
 
-static void *array_of(tl_nav_tile *tile, uint64_t offset)
+static void *array_of(tl_nav_tile *tile, uint32_t offset)
 {
-    return (char *)tile + offset;
+    return (char *)tile + 8 * (uint64_t)offset;
 }
 
 // Which arrays need their wider elements.
@@ -26,6 +26,10 @@ static void bake_widths(const tl_nav_tile_source *source, tl_nav_tile *tile)
     for (size_t i = 0; i < 3 * (size_t)polygons->vertex_count; i++) {
         const bool fits = polygons->vertices[i] >= 0 && polygons->vertices[i] <= UINT16_MAX;
         tile->wide |= fits ? 0 : TL_NAV_WIDE_LATTICE;
+    }
+    tile->wide |= tl_nav_needs_wide_links(tile) ? TL_NAV_WIDE_LINKS : 0;
+    for (uint32_t p = 0; source->flags != NULL && p < polygons->polygon_count; p++) {
+        tile->wide |= source->flags[p] > UINT8_MAX ? TL_NAV_WIDE_FLAGS : 0;
     }
     for (uint32_t p = 0; source->detail != NULL && p < polygons->polygon_count; p++) {
         tile->wide |= source->detail->patches[p].vertex_count > UINT8_MAX + 1u ? TL_NAV_WIDE_TRIANGLES : 0;
@@ -78,6 +82,16 @@ static void bake_integers(const uint32_t *from, size_t count, bool is_wide, void
     }
 }
 
+static void bake_link(tl_nav_tile *tile, uint32_t corner, uint32_t link)
+{
+    void *links = array_of(tile, tile->links);
+    if ((tile->wide & TL_NAV_WIDE_LINKS) != 0) {
+        ((uint32_t *)links)[corner] = link;
+    } else {
+        ((uint16_t *)links)[corner] = (uint16_t)link;
+    }
+}
+
 static void bake_polygons(const tl_nav_tile_source *source, tl_nav_tile *tile)
 {
     const tl_polygon_mesh *polygons = source->polygons;
@@ -86,15 +100,13 @@ static void bake_polygons(const tl_nav_tile_source *source, tl_nav_tile *tile)
                   (tile->wide & TL_NAV_WIDE_LATTICE) != 0, array_of(tile, tile->vertices));
     bake_integers(polygons->indices, polygons->index_count, (tile->wide & TL_NAV_WIDE_CORNERS) != 0,
                   array_of(tile, tile->corner_vertices));
-    uint32_t *links = array_of(tile, tile->links);
     for (uint32_t k = 0; k < polygons->index_count; k++) {
-        uint32_t across = polygons->neighbours[k];
-        links[k] = across >= TL_PORTAL ? TL_NAV_LINK_WALL : across;
+        const uint32_t across = polygons->neighbours[k];
+        bake_link(tile, k, across >= TL_PORTAL ? TL_NAV_LINK_WALL : across);
     }
-    uint64_t *flags = array_of(tile, tile->flags);
     uint8_t *areas = array_of(tile, tile->areas);
     for (uint32_t p = 0; p < polygons->polygon_count; p++) {
-        flags[p] = source->flags != NULL ? source->flags[p] : 1;
+        tl_nav_tile_set_flags(tile, p, source->flags != NULL ? source->flags[p] : 1);
         areas[p] = (uint8_t)polygons->areas[p];
         tile->area += tl_nav_tile_polygon_area(tile, p);
     }
@@ -102,9 +114,8 @@ static void bake_polygons(const tl_nav_tile_source *source, tl_nav_tile *tile)
 
 static void bake_portals(const tl_nav_portals *portals, tl_nav_tile *tile)
 {
-    uint32_t *links = array_of(tile, tile->links);
     for (uint32_t i = 0; i < portals->portal_count; i++) {
-        links[portals->portals[i].corner] = TL_NAV_LINK_PORTAL | i;
+        bake_link(tile, portals->portals[i].corner, tl_nav_link_portal(i));
     }
     if (portals->portal_count > 0) {
         memcpy(array_of(tile, tile->portals), portals->portals, portals->portal_count * sizeof(tl_nav_portal));
@@ -184,6 +195,9 @@ static tl_result encode_tile(const tl_nav_tile_source *source, const tl_allocato
     tl_nav_extent extents[TL_NAV_TILE_ARRAYS];
     tl_nav_tile_extents(&header, extents);
     tl_nav_tile_set_offsets(&header, extents);
+    if (extents[TL_NAV_TILE_ARRAYS - 1].end > TL_NAV_MAX_TILE_SIZE) {
+        return tl_report_fail(report, TL_ERR_LIMIT, "tile", TL_NO_ELEMENT, "use smaller tiles");
+    }
     tl_nav_tile *tile =
         tl_blob_allocate(allocator, TL_NAV_TILE_MAGIC, TL_NAV_TILE_VERSION, extents[TL_NAV_TILE_ARRAYS - 1].end);
     if (tile == NULL) {

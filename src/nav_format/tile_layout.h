@@ -19,6 +19,14 @@ typedef struct tl_nav_extent {
 /// No overflow for any counts: each array is below 2^38 bytes.
 void tl_nav_tile_extents(const tl_nav_tile *tile, tl_nav_extent extents_out[TL_NAV_TILE_ARRAYS]);
 
+/// The size of the largest blob whose offsets fit.
+#define TL_NAV_MAX_TILE_SIZE (8 * (uint64_t)UINT32_MAX)
+
+static inline bool tl_nav_needs_wide_links(const tl_nav_tile *tile)
+{
+    return tile->polygon_count > TL_NAV_MAX_SHORT_LINK + 1u || tile->portal_count > TL_NAV_MAX_SHORT_LINK;
+}
+
 /// Writes the extents' offsets into the tile's header.
 void tl_nav_tile_set_offsets(tl_nav_tile *tile, const tl_nav_extent extents[TL_NAV_TILE_ARRAYS]);
 

@@ -8,11 +8,11 @@
 
 uint32_t tl_nav_tile_neighbour(const tl_nav_tile *tile, uint32_t polygon, uint32_t edge)
 {
-    uint32_t link = tl_nav_tile_links(tile, polygon)[edge];
-    if (link == TL_NAV_LINK_WALL || (link & TL_NAV_LINK_PORTAL) == 0) {
+    const uint32_t link = tl_nav_tile_edge_link(tile, polygon, edge);
+    if (!tl_nav_is_portal(link)) {
         return link == TL_NAV_LINK_WALL ? TL_NO_POLYGON : link;
     }
-    return TL_PORTAL | tl_nav_tile_side_of(tile, link & ~TL_NAV_LINK_PORTAL);
+    return TL_PORTAL | tl_nav_tile_side_of(tile, tl_nav_link_portal(link));
 }
 
 double tl_nav_tile_polygon_area(const tl_nav_tile *tile, uint32_t polygon)

@@ -82,8 +82,7 @@ static uint32_t subset_across(subset *s, uint32_t p, uint32_t k, uint32_t edge)
     const tl_nav_tile *tile = s->tile;
     const uint32_t across = tl_nav_tile_neighbour(tile, p, edge);
     if (across == (TL_PORTAL | TL_NAV_SIDE_CUT)) {
-        const uint32_t link = tl_nav_tile_links(tile, p)[edge];
-        const tl_nav_portal *portal = tl_nav_tile_portals(tile) + (link & ~TL_NAV_LINK_PORTAL);
+        const tl_nav_portal *portal = tl_nav_tile_portals(tile) + tl_nav_link_portal(tl_nav_tile_link(tile, k));
         add_subset_cut(s, (uint32_t)portal->low, (uint32_t)portal->high);
         return TL_NO_POLYGON;
     }

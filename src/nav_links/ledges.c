@@ -94,13 +94,12 @@ static void sample_polygon_edges(ledge_walk *walk, const tl_nav_tile *tile, uint
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
-    const uint32_t *links = tl_nav_tile_links(tile, polygon);
     tl_nav_ref ref = tl_navmesh_polygon_ref(walk->navmesh, slot, polygon);
     tl_result result = tl_navmesh_links(walk->navmesh, ref, walk->links, MAX_POLYGON_LINKS, &walk->link_count);
     // Links beyond the buffer count as borders: candidates there turn out to be walkable without a link.
     walk->link_count = result == TL_OK ? walk->link_count : MAX_POLYGON_LINKS;
     for (uint32_t k = 0; k < count && walk->result == TL_OK; k++) {
-        bool may_be_border = links[k] == TL_NAV_LINK_WALL || (links[k] & TL_NAV_LINK_PORTAL) != 0;
+        const bool may_be_border = tl_nav_tile_edge_link(tile, polygon, k) >= TL_NAV_LINK_PORTAL;
         if (may_be_border) {
             sample_ledge(walk, ref, k, corners[k], corners[k + 1 < count ? k + 1 : 0]);
         }

@@ -184,11 +184,11 @@ static bool fan_leads(const tl_nav_tile *tile, uint32_t from, uint32_t to, uint3
             if (corner == UINT32_MAX) {
                 break;
             }
-            const uint32_t *links = tl_nav_tile_links(tile, at);
             const uint32_t edges[2] = { corner, (corner + count - 1) % count };
             // First by either edge, then by the one it did not come through.
-            uint32_t next =
-                before == UINT32_MAX ? links[edges[way]] : links[links[edges[0]] == before ? edges[1] : edges[0]];
+            const uint32_t links[2] = { tl_nav_tile_edge_link(tile, at, edges[0]),
+                                        tl_nav_tile_edge_link(tile, at, edges[1]) };
+            const uint32_t next = links[before == UINT32_MAX ? way : links[0] == before ? 1 : 0];
             if (next >= tile->polygon_count) {
                 break; // a wall or a portal
             }

@@ -39,7 +39,7 @@ static void move_polygon(tl_nav_tile *tile, uint32_t polygon, const axis_move *x
     char *bytes = (char *)tile;
     const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
     const uint32_t *surface = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex) + polygon;
-    tl_vec3 *points = (tl_vec3 *)(bytes + tile->detail_vertices) + surface[0];
+    tl_vec3 *points = (tl_vec3 *)(void *)(bytes + 8 * (uint64_t)tile->detail_vertices) + surface[0];
     const uint32_t corner_count = first[1] - first[0];
     for (uint32_t i = 0; i < corner_count; i++) {
         const tl_nav_lattice_point v = tl_nav_tile_lattice(tile, polygon, i);

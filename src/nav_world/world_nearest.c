@@ -136,11 +136,11 @@ static bool leads_to_unseen(const tl_nav_world *world, tl_nav_ref polygon, uint3
     if (edge >= corners) {
         return false;
     }
-    const uint32_t link = tl_nav_tile_links(tile, index)[edge];
-    if (link == TL_NAV_LINK_WALL || (link & TL_NAV_LINK_PORTAL) == 0) {
+    const uint32_t link = tl_nav_tile_edge_link(tile, index, edge);
+    if (!tl_nav_is_portal(link)) {
         return false;
     }
-    const uint32_t side = tl_nav_tile_side_of(tile, link & ~TL_NAV_LINK_PORTAL);
+    const uint32_t side = tl_nav_tile_side_of(tile, tl_nav_link_portal(link));
     const uint32_t place =
         tl_nav_world_find_place(world, (int64_t)tile->tile_x + world->frame_x, (int64_t)tile->tile_z + world->frame_z);
     if (side >= TL_NAV_SIDE_CUT || place == TL_NAV_WORLD_NO_PLACE) {

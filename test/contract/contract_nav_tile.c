@@ -138,6 +138,15 @@ static tl_result nav_tile_frees(contract_run *run)
     return TL_OK;
 }
 
+static tl_result nav_tile_copy(contract_run *run)
+{
+    tl_nav_tile *tile = make_tile(), *copy = NULL;
+    const tl_result result = tl_nav_tile_copy(run->what == CONTRACT_NULL_INPUT ? NULL : tile, true,
+                                              run->host->allocator, run->what == CONTRACT_NULL_OUTPUT ? NULL : &copy);
+    tl_blob_free(tile);
+    return take_tile(run, result, copy);
+}
+
 static tl_result nav_tile_reads(contract_run *run)
 {
     tl_nav_tile *tile = make_tile();
@@ -165,6 +174,9 @@ const contract_entry CONTRACT_TABLE_nav_tile[] = {
     { "tl_nav_tile_check",
       CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(BAD_BYTES), 1, 0, NULL,
       nav_tile_check, NULL },
+    { "tl_nav_tile_copy",
+      CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NULL_OUTPUT) | CONTRACT_BIT(NO_MEMORY), 1, 1, NULL,
+      nav_tile_copy, NULL },
     { "tl_nav_tile_fit_boxes", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_tile_reads, NULL },
     { "tl_nav_tile_neighbour", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_tile_reads, NULL },
     { "tl_nav_tile_polygon_area", CONTRACT_BIT(GOOD), 0, 0, NULL, nav_tile_reads, NULL },

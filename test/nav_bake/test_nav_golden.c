@@ -99,10 +99,10 @@ static void built_in_levels(void **state)
     static const struct {
         const char *name;
         uint64_t hash, layered_hash;
-    } golden[] = { { "courtyard", 0xca7b0ed8d5c22dc9, 0x117538988bd81b36 },
-                   { "dungeon", 0x14b9f38abf52a2df, 0x4e5c2879e370127a },
-                   { "terrain", 0xaf257505b4a8c214, 0x675773f745a200b4 },
-                   { "city", 0xbc2addd159c4634b, 0x89a193aaeb9c40ce } };
+    } golden[] = { { "courtyard", 0x055ce21412af6f5e, 0x1ac736792a456fb8 },
+                   { "dungeon", 0xfd75c932a0d53995, 0x7c3ab778b78bf30b },
+                   { "terrain", 0x09a507956178a1cd, 0x8ea10db874e81a98 },
+                   { "city", 0x78187f6a0989a99b, 0xe46a02f06318e45b } };
     const tl_tasks two = { run_on_two_threads, 2, NULL };
     bool equal = true;
     for (size_t i = 0; i < 4; i++) {

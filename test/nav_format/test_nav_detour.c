@@ -156,12 +156,13 @@ static void test_what_cannot_be_written(void **state)
     tl_blob_free(octagon);
 
     tl_nav_tiles tiles = bake(0, tl_vec3_make(0, 0, 0));
-    uint64_t *flags = (uint64_t *)((char *)tiles.tiles[0] + tiles.tiles[0]->flags);
-    flags[2] = (uint64_t)1 << 16;
-    TEST_RESULT(tl_detour_tile_write(tiles.tiles[0], TL_DETOUR_REFS_32, bytes, sizeof bytes, &report), TL_ERR_LIMIT);
+    tl_nav_tile *flagged = NULL;
+    TEST_RESULT(tl_nav_tile_copy(tiles.tiles[0], true, NULL, &flagged), TL_OK);
+    tl_nav_tile_set_flags(flagged, 2, (uint64_t)1 << 16);
+    TEST_RESULT(tl_detour_tile_write(flagged, TL_DETOUR_REFS_32, bytes, sizeof bytes, &report), TL_ERR_LIMIT);
     TEST_CHECK(report.base.element_index == 2);
-    flags[2] = 1;
-    uint8_t *areas = (uint8_t *)tiles.tiles[0] + tiles.tiles[0]->areas;
+    tl_blob_free(flagged);
+    uint8_t *areas = (uint8_t *)tiles.tiles[0] + 8 * (uint64_t)tiles.tiles[0]->areas;
     areas[1] = TL_DETOUR_MAX_AREA;
     TEST_RESULT(tl_detour_tile_write(tiles.tiles[0], TL_DETOUR_REFS_32, bytes, sizeof bytes, &report), TL_OK);
     areas[1] = TL_DETOUR_MAX_AREA + 1;

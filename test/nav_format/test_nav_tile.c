@@ -79,7 +79,11 @@ static void test_profile(void **state)
 // order and back, and is refused where it says another width than it needs.
 static void check_widths(const fixture_mesh *mesh, uint32_t expected)
 {
-    const tl_nav_tile_source source = fixture_source(mesh);
+    uint64_t flags[32] = { 1, 255 };
+    flags[2] = (expected & TL_NAV_WIDE_FLAGS) != 0 ? (uint64_t)1 << 63 | 256 : 7;
+    tl_nav_tile_source source = fixture_source(mesh);
+    TEST_CHECK(source.polygons->polygon_count <= sizeof flags / sizeof flags[0]);
+    source.flags = flags;
     const tl_polygon_mesh *polygons = source.polygons;
     tl_nav_tile *tile = NULL, *again = NULL;
     TEST_RESULT(tl_nav_tile_encode(&source, NULL, &tile, NULL), TL_OK);
@@ -91,6 +95,7 @@ static void check_widths(const fixture_mesh *mesh, uint32_t expected)
     }
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         const tl_nav_surface surface = tl_nav_tile_surface(tile, p);
+        TEST_CHECK(tl_nav_tile_flags(tile, p) == flags[p]);
         TEST_CHECK(surface.vertex_count == source.detail->patches[p].vertex_count);
         for (uint32_t i = 0; i < surface.triangle_count; i++) {
             const tl_nav_detail_triangle triangle = tl_nav_surface_triangle(&surface, i);
@@ -109,12 +114,12 @@ static void check_widths(const fixture_mesh *mesh, uint32_t expected)
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
     TEST_RESULT(tl_nav_tile_check(again, again->blob.size, NULL), TL_OK);
     TEST_CHECK(again->wide == (expected & ~TL_NAV_WIDE_CORNERS)); // without vertices that no polygon has
-    for (uint32_t bit = 1; bit <= TL_NAV_WIDE_CORNERS; bit *= 2) {
+    for (uint32_t bit = 1; bit <= TL_NAV_WIDE_FLAGS; bit *= 2) {
         tile->wide ^= bit;
         TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_CORRUPT);
         tile->wide ^= bit;
     }
-    tile->wide |= 2 * TL_NAV_WIDE_CORNERS;
+    tile->wide |= 2 * TL_NAV_WIDE_FLAGS;
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_CORRUPT);
     tile->wide = expected;
     tl_report report;
@@ -131,7 +136,8 @@ static void test_widths(void **state)
     (void)state;
     fixture_level level = fixture_make(ROOM, 4);
     level.detail = true;
-    for (uint32_t wide = 0; wide < 8; wide++) {
+    for (uint32_t kind = 0; kind < 16; kind++) {
+        const uint32_t wide = kind % 8 + kind / 8 * TL_NAV_WIDE_FLAGS;
         fixture_mesh mesh = fixture_build_mesh(&level, 0, 0);
         if ((wide & TL_NAV_WIDE_TRIANGLES) != 0) {
             // A patch that uses one more vertex than bytes tell apart.
@@ -150,7 +156,8 @@ static void test_widths(void **state)
         }
         if ((wide & TL_NAV_WIDE_LATTICE) != 0) {
             for (uint32_t i = 0; i < mesh.mesh.vertex_count; i++) {
-                mesh.mesh.vertices[3 * (size_t)i] += wide < 4 ? -3 : UINT16_MAX - 8; // below, or above
+                mesh.mesh.vertices[3 * (size_t)i] +=
+                    (wide & TL_NAV_WIDE_CORNERS) == 0 ? -3 : UINT16_MAX - 8; // below, or above
             }
         }
         if ((wide & TL_NAV_WIDE_CORNERS) != 0) {
@@ -165,6 +172,33 @@ static void test_widths(void **state)
         check_widths(&mesh, wide);
         fixture_free_mesh(&mesh);
     }
+}
+
+// A copy has the tile's bytes, or flags of 64 bits and all else as it was.
+static void test_copies(void **state)
+{
+    (void)state;
+    fixture_level level = fixture_make(ROOM, 4);
+    tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, NULL), *copy = NULL, *wide = NULL;
+    TEST_RESULT(tl_nav_tile_copy(tile, false, NULL, &copy), TL_OK);
+    TEST_CHECK(copy->blob.size == tile->blob.size && memcmp(copy, tile, tile->blob.size) == 0);
+    TEST_RESULT(tl_nav_tile_copy(tile, true, NULL, &wide), TL_OK);
+    TEST_CHECK(wide->wide == (tile->wide | TL_NAV_WIDE_FLAGS));
+    TEST_RESULT(tl_nav_tile_check(wide, wide->blob.size, NULL), TL_OK);
+    tl_nav_tile_set_flags(wide, 1, UINT64_MAX);
+    TEST_RESULT(tl_nav_tile_check(wide, wide->blob.size, NULL), TL_OK);
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        TEST_CHECK(tl_nav_tile_flags(wide, p) == (p == 1 ? UINT64_MAX : tl_nav_tile_flags(tile, p)));
+        TEST_CHECK(tl_nav_tile_area(wide, p) == tl_nav_tile_area(tile, p));
+    }
+    tl_blob_free(wide);
+    TEST_RESULT(tl_nav_tile_copy(copy, true, NULL, &wide), TL_OK);
+    tl_blob_free(copy);
+    TEST_RESULT(tl_nav_tile_copy(wide, false, NULL, &copy), TL_OK); // it keeps them
+    TEST_CHECK(copy->blob.size == wide->blob.size && memcmp(copy, wide, wide->blob.size) == 0);
+    tl_blob_free(copy);
+    tl_blob_free(wide);
+    tl_blob_free(tile);
 }
 
 static void refuse(fixture_mesh *mesh, const tl_nav_tile_source *source, tl_result expected, const char *name)
@@ -426,10 +460,11 @@ static void test_other_bytes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_example),   cmocka_unit_test(test_widths),      cmocka_unit_test(test_portals),
-        cmocka_unit_test(test_profile),   cmocka_unit_test(test_bad_sources), cmocka_unit_test(test_random_tiles),
-        cmocka_unit_test(test_boxes),     cmocka_unit_test(test_same_bytes),  cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_truncated), cmocka_unit_test(test_bit_flips),   cmocka_unit_test(test_other_bytes),
+        cmocka_unit_test(test_example),      cmocka_unit_test(test_widths),    cmocka_unit_test(test_copies),
+        cmocka_unit_test(test_portals),      cmocka_unit_test(test_profile),   cmocka_unit_test(test_bad_sources),
+        cmocka_unit_test(test_random_tiles), cmocka_unit_test(test_boxes),     cmocka_unit_test(test_same_bytes),
+        cmocka_unit_test(test_memory),       cmocka_unit_test(test_truncated), cmocka_unit_test(test_bit_flips),
+        cmocka_unit_test(test_other_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -289,6 +289,8 @@ static void large_tiles_have_wide_numbers(void **state)
     tl_nav_tile *tile = make_strips();
     TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
     const tl_nav_slot *slot = &navmesh->slots[0];
+    TEST_CHECK((tile->wide & TL_NAV_WIDE_LINKS) != 0);
+    TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
     TEST_CHECK(slot->rings.is_wide && slot->rings.has_wide_edges && slot->areas.is_wide &&
                slot->rings.component_count == STRIPS);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {

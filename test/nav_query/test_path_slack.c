@@ -106,8 +106,7 @@ static void deal_flags(tl_navmesh *navmesh, test_random *random)
     for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
         const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
         for (uint32_t p = 0; tile != NULL && p < tile->polygon_count; p++) {
-            uint64_t *flags = (uint64_t *)((uintptr_t)tile + tile->flags);
-            flags[p] = test_random_below(random, 8) == 0 ? 2 : 1;
+            tl_nav_tile_set_flags((tl_nav_tile *)(uintptr_t)tile, p, test_random_below(random, 8) == 0 ? 2 : 1);
         }
     }
 }

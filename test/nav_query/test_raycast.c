@@ -232,7 +232,7 @@ static void test_arguments(void **state)
     // A filter is a wall.
     tl_nav_filter filter = tl_default_nav_filter();
     tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, NULL);
-    ((uint64_t *)((uintptr_t)tile + tile->flags))[1] = 4;
+    tl_nav_tile_set_flags(tile, 1, 4);
     TEST_RESULT(tl_navmesh_remove_tile(navmesh, 0, 0), TL_OK);
     TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
     start.polygon = tl_navmesh_polygon_ref(navmesh, 0, 0);

@@ -239,14 +239,13 @@ static tl_navmesh *build_flagged(const fixture_level *level, const tl_navmesh *c
     for (uint32_t z = 0; z < fixture_tiles(level->height, level->tile_cells); z++) {
         for (uint32_t x = 0; x < fixture_tiles(level->width, level->tile_cells); x++) {
             tl_nav_tile *tile = fixture_build_tile(level, (int32_t)x, (int32_t)z, NULL);
-            uint64_t *flags = (uint64_t *)((uintptr_t)tile + tile->flags);
             for (uint32_t p = 0; p < tile->polygon_count; p++) {
                 uint32_t count = 0;
                 const tl_vec3 *corner = tl_nav_tile_corners(tile, p, &count);
                 tl_nav_location found;
                 tl_result result = tl_navmesh_find_nearest(closed, NULL, tl_lerp(corner[0], corner[2], 0.5f),
                                                            tl_vec3_make(0.01f, 5.0f, 0.01f), &found);
-                flags[p] = result == TL_OK ? 1 : 2;
+                tl_nav_tile_set_flags(tile, p, result == TL_OK ? 1 : 2);
             }
             TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
         }

@@ -24,7 +24,7 @@ static void pick_on_wall(const tl_navmesh *navmesh, const fixture_refs *all, tes
         TEST_RESULT(tl_navmesh_resolve(navmesh, on->polygon, &tile, &polygon), TL_OK);
         const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
         const uint32_t k = test_random_below(random, count);
-        if (tl_nav_tile_links(tile, polygon)[k] != TL_NAV_LINK_WALL) {
+        if (tl_nav_tile_edge_link(tile, polygon, k) != TL_NAV_LINK_WALL) {
             continue;
         }
         tl_vec3 middle = { 0.0f, 0.0f, 0.0f };

@@ -358,7 +358,7 @@ static void test_filter(void **state)
     const tl_nav_tile *tile = NULL;
     uint32_t polygon = 0;
     TEST_RESULT(tl_navmesh_resolve(navmesh, gate.polygon, &tile, &polygon), TL_OK);
-    ((uint64_t *)((uintptr_t)tile + tile->flags))[polygon] = 2;
+    tl_nav_tile_set_flags((tl_nav_tile *)(uintptr_t)tile, polygon, 2);
     // Put in anew: a navmesh notes flags as tiles come.
     tl_navmesh *flagged = NULL;
     TEST_RESULT(tl_navmesh_create(NULL, &flagged), TL_OK);

@@ -1122,19 +1122,20 @@ pub struct tl_nav_tile {
     pub bounds: tl_aabb,
     pub wide: u32,
     pub node_steps: u32,
-    pub nodes: u64,
-    pub first_corner: u64,
-    pub links: u64,
-    pub corner_vertices: u64,
-    pub vertices: u64,
-    pub flags: u64,
-    pub areas: u64,
-    pub detail_first_vertex: u64,
-    pub detail_first_triangle: u64,
-    pub detail_vertices: u64,
-    pub detail_triangles: u64,
-    pub portals: u64,
-    pub profile: u64,
+    pub nodes: u32,
+    pub first_corner: u32,
+    pub links: u32,
+    pub corner_vertices: u32,
+    pub vertices: u32,
+    pub flags: u32,
+    pub areas: u32,
+    pub detail_first_vertex: u32,
+    pub detail_first_triangle: u32,
+    pub detail_vertices: u32,
+    pub detail_triangles: u32,
+    pub portals: u32,
+    pub profile: u32,
+    pub zero: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -2973,6 +2974,12 @@ extern "C" {
     ) -> tl_result;
     pub fn tl_nav_tile_neighbour(tile: *const tl_nav_tile, polygon: u32, edge: u32) -> u32;
     pub fn tl_nav_tile_fit_boxes(tile: *mut tl_nav_tile);
+    pub fn tl_nav_tile_copy(
+        tile: *const tl_nav_tile,
+        has_wide_flags: bool,
+        allocator: *const tl_allocator,
+        copy_out: *mut *mut tl_nav_tile,
+    ) -> tl_result;
     pub fn tl_nav_tile_polygon_area(tile: *const tl_nav_tile, polygon: u32) -> f64;
     pub fn tl_navmesh_create(
         allocator: *const tl_allocator,
@@ -4924,7 +4931,7 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_tile_node, min), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_tile_node, max), 6);
         assert_eq!(core::mem::offset_of!(tl_nav_tile_node, link), 12);
-        assert_eq!(core::mem::size_of::<tl_nav_tile>(), 256);
+        assert_eq!(core::mem::size_of::<tl_nav_tile>(), 208);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, blob), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, tile_x), 16);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, tile_z), 20);
@@ -4953,21 +4960,22 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_tile, wide), 144);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, node_steps), 148);
         assert_eq!(core::mem::offset_of!(tl_nav_tile, nodes), 152);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, first_corner), 160);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, links), 168);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, corner_vertices), 176);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, vertices), 184);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, flags), 192);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, areas), 200);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, detail_first_vertex), 208);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, first_corner), 156);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, links), 160);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, corner_vertices), 164);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, vertices), 168);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, flags), 172);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, areas), 176);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, detail_first_vertex), 180);
         assert_eq!(
             core::mem::offset_of!(tl_nav_tile, detail_first_triangle),
-            216
+            184
         );
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, detail_vertices), 224);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, detail_triangles), 232);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, portals), 240);
-        assert_eq!(core::mem::offset_of!(tl_nav_tile, profile), 248);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, detail_vertices), 188);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, detail_triangles), 192);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, portals), 196);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, profile), 200);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile, zero), 204);
         assert_eq!(core::mem::size_of::<tl_nav_cut>(), 12);
         assert_eq!(core::mem::offset_of!(tl_nav_cut, corner), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_cut, layer), 4);

@@ -107,7 +107,7 @@ static bool is_through(surface_ray *ray, const tl_nav_tile *tile, uint32_t porta
 static bool step_over(surface_ray *ray, uint32_t edge, uint32_t *slot, uint32_t *polygon)
 {
     const tl_nav_slot *from = &ray->navmesh->slots[*slot];
-    uint32_t link = tl_nav_tile_links(from->tile, *polygon)[edge];
+    const uint32_t link = tl_nav_tile_edge_link(from->tile, *polygon, edge);
     uint32_t to_slot = *slot;
     uint32_t to_polygon = link;
     if (link == TL_NAV_LINK_WALL) {
@@ -117,7 +117,7 @@ static bool step_over(surface_ray *ray, uint32_t edge, uint32_t *slot, uint32_t 
         const tl_nav_seam_link *seam = NULL;
         const tl_nav_seam_link *end = NULL;
         uint64_t key = 0;
-        const uint32_t portal = link & ~TL_NAV_LINK_PORTAL;
+        const uint32_t portal = tl_nav_link_portal(link);
         tl_nav_seam_range(from, portal, &seam, &end, &key);
         while (seam != end && !is_through(ray, from->tile, portal, seam)) {
             seam++;

@@ -107,15 +107,15 @@ static void add_ring(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
-    const uint32_t *links = tl_nav_tile_links(tile, polygon);
     writer->corners = corners;
     writer->corner_count = count;
     for (uint32_t k = 0; k < count; k++) {
-        if (links[k] == TL_NAV_LINK_WALL || (links[k] & TL_NAV_LINK_PORTAL) == 0) {
-            add_ring_edge(writer, corners[k], links[k] == TL_NAV_LINK_WALL ? TL_NAV_RING_WALL : links[k], 0);
+        const uint32_t link = tl_nav_tile_edge_link(tile, polygon, k);
+        if (!tl_nav_is_portal(link)) {
+            add_ring_edge(writer, corners[k], link == TL_NAV_LINK_WALL ? TL_NAV_RING_WALL : link, 0);
             continue;
         }
-        uint32_t portal = links[k] & ~TL_NAV_LINK_PORTAL;
+        const uint32_t portal = tl_nav_link_portal(link);
         uint32_t side = tl_nav_tile_side_of(tile, portal);
         uint32_t at = portal - tl_nav_tile_side_first(tile, side);
         if (sides[side]->first == NULL || sides[side]->first[at] == sides[side]->first[at + 1]) {

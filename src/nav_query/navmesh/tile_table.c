@@ -201,10 +201,9 @@ static bool same_lattice(const tl_navmesh *navmesh, const tl_nav_tile *tile)
 // Ways between polygons of the tile.
 static uint64_t count_inner_links(const tl_nav_tile *tile)
 {
-    const uint32_t *links = tl_nav_tile_at(tile, tile->links);
     uint64_t count = 0;
     for (uint32_t k = 0; k < tile->corner_count; k++) {
-        count += links[k] < TL_NAV_LINK_PORTAL ? 1 : 0;
+        count += tl_nav_tile_link(tile, k) < TL_NAV_LINK_PORTAL ? 1 : 0;
     }
     return count;
 }

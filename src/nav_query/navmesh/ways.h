@@ -20,7 +20,6 @@ typedef struct tl_nav_ways {
     uint32_t slot;
     uint32_t first_corner;
     const tl_vec3 *corners;
-    const uint32_t *links;
     uint32_t corner_count;
     uint32_t edge; ///< the next one
     const tl_nav_seam_link *seam, *seam_end;
@@ -35,7 +34,6 @@ static inline tl_nav_ways tl_nav_ways_of(const tl_navmesh *navmesh, uint32_t slo
     ways.slot = slot;
     ways.first_corner = ((const uint32_t *)tl_nav_tile_at(ways.tile, ways.tile->first_corner))[polygon];
     ways.corners = tl_nav_tile_corners(ways.tile, polygon, &ways.corner_count);
-    ways.links = tl_nav_tile_links(ways.tile, polygon);
     ways.edge = 0;
     ways.seam = NULL;
     ways.seam_end = NULL;
@@ -72,8 +70,9 @@ static inline bool tl_nav_ways_next(tl_nav_ways *ways, tl_nav_way *way_out)
             way_out->slot = tl_nav_seam_slot(ways->seam);
             way_out->polygon = tl_nav_seam_polygon(ways->seam);
             way_out->edge = ways->edge - 1;
-            tl_nav_seam_ends(ways->tile, ways->links[ways->edge - 1] & ~TL_NAV_LINK_PORTAL, ways->seam, &way_out->left,
-                             &way_out->right);
+            const uint32_t portal =
+                tl_nav_link_portal(tl_nav_tile_link(ways->tile, ways->first_corner + ways->edge - 1));
+            tl_nav_seam_ends(ways->tile, portal, ways->seam, &way_out->left, &way_out->right);
             way_out->key = tl_nav_way_key(ways->slot, ways->seam_key++);
             ways->seam++;
             return true;
@@ -82,12 +81,12 @@ static inline bool tl_nav_ways_next(tl_nav_ways *ways, tl_nav_way *way_out)
             return false;
         }
         uint32_t edge = ways->edge++;
-        uint32_t link = ways->links[edge];
+        const uint32_t link = tl_nav_tile_link(ways->tile, ways->first_corner + edge);
         if (link == TL_NAV_LINK_WALL) {
             continue;
         }
         if ((link & TL_NAV_LINK_PORTAL) != 0) {
-            tl_nav_seam_range(&ways->slots[ways->slot], link & ~TL_NAV_LINK_PORTAL, &ways->seam, &ways->seam_end,
+            tl_nav_seam_range(&ways->slots[ways->slot], tl_nav_link_portal(link), &ways->seam, &ways->seam_end,
                               &ways->seam_key);
             continue;
         }

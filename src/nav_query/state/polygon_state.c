@@ -52,30 +52,23 @@ tl_result tl_navmesh_polygon_area(const tl_navmesh *navmesh, tl_nav_ref polygon,
     return TL_OK;
 }
 
-static uint64_t *flags_of(tl_nav_tile *tile)
-{
-    return (uint64_t *)((char *)tile + tile->flags);
-}
-
 static uint8_t *areas_of(tl_nav_tile *tile)
 {
-    return (uint8_t *)tile + tile->areas;
+    return (uint8_t *)tile + 8 * (uint64_t)tile->areas;
 }
 
-// The copy of a slot's tile that may be written to, made now if need be, also where older versions have the one that is
-// there; NULL: out of memory.
-static tl_nav_tile *writable_tile(tl_navmesh *navmesh, uint32_t index)
+// The copy of a slot's tile that may be written to, flags such as these too, made now if need be, also where older
+// versions have the one that is there; NULL: out of memory.
+static tl_nav_tile *writable_tile(tl_navmesh *navmesh, uint32_t index, uint64_t flags)
 {
     tl_nav_slot *slot = &navmesh->slots[index];
     const bool is_shared = navmesh->history != NULL && slot->changed_in != navmesh->history->draft;
-    if (slot->changed == NULL || is_shared) {
-        const tl_blob *head = &slot->tile->blob;
-        tl_nav_tile *copy = tl_blob_allocate_part(&navmesh->allocator, head->magic, head->version, head->size,
-                                                  sizeof(tl_blob), head->size);
-        if (copy == NULL) {
+    const bool is_wider = flags > UINT8_MAX && (slot->tile->wide & TL_NAV_WIDE_FLAGS) == 0;
+    if (slot->changed == NULL || is_shared || is_wider) {
+        tl_nav_tile *copy = NULL;
+        if (tl_nav_tile_copy(slot->tile, is_wider, &navmesh->allocator, &copy) != TL_OK) {
             return NULL;
         }
-        memcpy(copy, slot->tile, head->size);
         slot->baked = slot->changed != NULL ? slot->baked : slot->tile;
         tl_blob_free(slot->changed); // NULL, or an older version's: it waits
         slot->changed = copy;
@@ -101,9 +94,9 @@ static void note_state(tl_navmesh *navmesh, uint32_t index)
 
 static void write_flags(tl_navmesh *navmesh, tl_nav_tile *tile, uint32_t polygon, uint64_t flags)
 {
-    tl_nav_count_flags(&navmesh->flags, flags_of(tile)[polygon], -1);
+    tl_nav_count_flags(&navmesh->flags, tl_nav_tile_flags(tile, polygon), -1);
     tl_nav_count_flags(&navmesh->flags, flags, 1);
-    flags_of(tile)[polygon] = flags;
+    tl_nav_tile_set_flags(tile, polygon, flags);
 }
 
 tl_result tl_navmesh_set_polygon_flags(tl_navmesh *navmesh, tl_nav_ref polygon, uint64_t flags)
@@ -118,7 +111,7 @@ tl_result tl_navmesh_set_polygon_flags(tl_navmesh *navmesh, tl_nav_ref polygon, 
     if (tl_nav_tile_flags(navmesh->slots[slot].tile, index) == flags) {
         return TL_OK;
     }
-    tl_nav_tile *tile = writable_tile(navmesh, slot);
+    tl_nav_tile *tile = writable_tile(navmesh, slot, flags);
     if (tile == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -140,7 +133,7 @@ tl_result tl_navmesh_set_polygon_area(tl_navmesh *navmesh, tl_nav_ref polygon, u
     if (tl_nav_tile_area(navmesh->slots[slot].tile, index) == area) {
         return TL_OK;
     }
-    tl_nav_tile *tile = writable_tile(navmesh, slot);
+    tl_nav_tile *tile = writable_tile(navmesh, slot, 0);
     if (tile == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -212,7 +205,11 @@ tl_result tl_navmesh_restore_state(tl_navmesh *navmesh, int32_t tile_x, uint32_t
     if (has_state(navmesh->slots[slot].tile, states)) {
         return TL_OK;
     }
-    tl_nav_tile *tile = writable_tile(navmesh, slot);
+    uint64_t all_flags = 0;
+    for (uint32_t p = 0; p < count; p++) {
+        all_flags |= states[p].flags;
+    }
+    tl_nav_tile *tile = writable_tile(navmesh, slot, all_flags);
     if (tile == NULL) {
         return tl_report_fail(report, TL_ERR_MEMORY, NULL, TL_NO_ELEMENT, NULL);
     }
