@@ -207,10 +207,9 @@ static tl_result encode_removed(prune_job *job, uint32_t t, uint8_t *keep, tl_re
         keep[p] = !keep[p];
     }
     TL_TRY(tl_nav_tile_subset(tile, keep, job->def->host.allocator, &job->removed[t], report));
-    uint64_t *flags = (uint64_t *)((char *)job->removed[t] + job->removed[t]->flags);
     for (uint32_t p = 0, k = 0; p < tile->polygon_count; p++) {
         if (keep[p]) {
-            flags[k++] = flags_of[job->islands[island_number(job, t, p)].verdict];
+            tl_nav_tile_set_flags(job->removed[t], k++, flags_of[job->islands[island_number(job, t, p)].verdict]);
         }
     }
     return TL_OK;
