@@ -79,7 +79,7 @@ static bool make_polygons(const tl_nav_tile *tile, tile_polygons *out)
     size_t polygons = tile->polygon_count;
     memset(out, 0, sizeof(*out));
     const size_t corners = tile->corner_count, coordinates = 3 * (size_t)tile->vertex_count;
-    uint32_t *word = calloc(3 * corners + 3 * polygons + coordinates, sizeof(uint32_t));
+    uint32_t *word = calloc(2 * corners + 4 * polygons + 1 + coordinates, sizeof(uint32_t));
     out->block = word;
     if (word == NULL) {
         return false;
@@ -88,19 +88,16 @@ static bool make_polygons(const tl_nav_tile *tile, tile_polygons *out)
     m->vertex_count = tile->vertex_count;
     m->polygon_count = tile->polygon_count;
     m->index_count = tile->corner_count;
-    // The validator reads only; its struct has no const because builds own theirs.
-    union {
-        const void *from;
-        void *to;
-    } first;
-    first.from = tl_nav_tile_at(tile, tile->first_corner);
-    m->first = first.to;
-    m->neighbours = word;
-    m->regions = word + tile->corner_count;
+    m->first = word;
+    m->neighbours = m->first + polygons + 1;
+    m->regions = m->neighbours + corners;
     m->areas = m->regions + polygons;
     m->contours = m->areas + polygons;
     m->indices = m->contours + polygons;
     m->vertices = (int32_t *)(m->indices + corners);
+    for (uint32_t p = 0; p <= tile->polygon_count; ++p) {
+        m->first[p] = tl_nav_tile_first_corner(tile, p);
+    }
     for (uint32_t k = 0; k < tile->corner_count; ++k) {
         m->indices[k] = tl_nav_tile_corner_vertex(tile, k);
     }

@@ -78,10 +78,11 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail);
 // it through the functions below.
 
 // tl_nav_tile.wide: which arrays have their wider elements. Each bit is set where a tile needs it, and only there.
-#define TL_NAV_WIDE_TRIANGLES 1u ///< some patch has more than 256 vertices
-#define TL_NAV_WIDE_LATTICE   2u ///< some lattice coordinate is no 16-bit number
-#define TL_NAV_WIDE_CORNERS   4u ///< there are more than 65,536 lattice vertices
-#define TL_NAV_WIDE_LINKS     8u ///< there are more than 32,768 polygons, or 32,767 portals
+#define TL_NAV_WIDE_TRIANGLES 1u  ///< some patch has more than 256 vertices
+#define TL_NAV_WIDE_LATTICE   2u  ///< some lattice coordinate is no 16-bit number
+#define TL_NAV_WIDE_CORNERS   4u  ///< there are more than 65,536 lattice vertices
+#define TL_NAV_WIDE_LINKS     8u  ///< there are more than 32,768 polygons, or 32,767 portals
+#define TL_NAV_WIDE_FIRSTS    32u ///< more than 65,535 corners, detail vertices or detail triangles
 #define TL_NAV_WIDE_FLAGS     16u ///< some polygon's flags do not fit 8 bits. A tile whose flags were changed may keep it
 
 // Values of links beside polygons: below zero as integers, so that those of 16 bits become these by their sign.
@@ -144,14 +145,14 @@ typedef struct tl_nav_tile {
     uint32_t wide;                                     ///< TL_NAV_WIDE_... bits
     uint32_t node_steps;                               ///< of the nodes' boxes: tl_nav_tile_node_steps
     uint32_t nodes;                                    ///< tl_nav_tile_node [node_count]
-    uint32_t first_corner;                             ///< uint32_t [polygon_count + 1]
+    uint32_t first_corner;                             ///< uint16_t or uint32_t [polygon_count + 1]
     uint32_t links;                                    ///< int16_t or int32_t [corner_count]: tl_nav_tile_link
     uint32_t corner_vertices;                          ///< uint16_t or uint32_t [corner_count]
     uint32_t vertices;                                 ///< uint16_t or int32_t [3 * vertex_count], lattice
     uint32_t flags;                                    ///< uint8_t or uint64_t [polygon_count]
     uint32_t areas;                                    ///< uint8_t [polygon_count]
-    uint32_t detail_first_vertex;                      ///< uint32_t [polygon_count + 1]
-    uint32_t detail_first_triangle;                    ///< uint32_t [polygon_count + 1]
+    uint32_t detail_first_vertex;                      ///< uint16_t or uint32_t [polygon_count + 1]
+    uint32_t detail_first_triangle;                    ///< uint16_t or uint32_t [polygon_count + 1]
     uint32_t detail_vertices;  ///< tl_vec3 [detail_vertex_count], metres: of each polygon its corners, then added ones
     uint32_t detail_triangles; ///< uint8_t or uint16_t [4 * detail_triangle_count]: corners, then edge_flags
     uint32_t portals;          ///< tl_nav_portal [portal_count]
@@ -251,13 +252,33 @@ static inline float tl_nav_tile_position(float origin, int32_t tile_index, uint3
     return (float)((double)origin + (double)steps * (double)cell);
 }
 
+/// A number of first_corner, detail_first_vertex or detail_first_triangle. `polygon` <= polygon_count.
+static inline uint32_t tl_nav_tile_first(const tl_nav_tile *tile, uint32_t array, uint32_t polygon)
+{
+    const void *first = tl_nav_tile_at(tile, array);
+    return (tile->wide & TL_NAV_WIDE_FIRSTS) != 0 ? ((const uint32_t *)first)[polygon]
+                                                  : ((const uint16_t *)first)[polygon];
+}
+
+/// Where a polygon's corners begin, in the arrays of corners.
+static inline uint32_t tl_nav_tile_first_corner(const tl_nav_tile *tile, uint32_t polygon)
+{
+    return tl_nav_tile_first(tile, tile->first_corner, polygon);
+}
+
+/// The corner behind another one of a polygon.
+static inline uint32_t tl_nav_tile_next_corner(const tl_nav_tile *tile, uint32_t polygon, uint32_t corner)
+{
+    return corner + 1 < tl_nav_tile_first_corner(tile, polygon + 1) ? corner + 1
+                                                                    : tl_nav_tile_first_corner(tile, polygon);
+}
+
 /// The polygon's corners in metres, in the contours' winding (counter-clockwise seen from above, y up).
 static inline const tl_vec3 *tl_nav_tile_corners(const tl_nav_tile *tile, uint32_t polygon, uint32_t *count_out)
 {
-    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
-    *count_out = first[1] - first[0];
+    *count_out = tl_nav_tile_first_corner(tile, polygon + 1) - tl_nav_tile_first_corner(tile, polygon);
     return (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices) +
-           ((const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex))[polygon];
+           tl_nav_tile_first(tile, tile->detail_first_vertex, polygon);
 }
 
 /// The first portal of a side; those of side s end where those of s + 1 begin. `side` <= TL_NAV_SIDE_COUNT.
@@ -288,7 +309,7 @@ static inline uint32_t tl_nav_tile_link(const tl_nav_tile *tile, uint32_t corner
 /// The same across a polygon's edge.
 static inline uint32_t tl_nav_tile_edge_link(const tl_nav_tile *tile, uint32_t polygon, uint32_t edge)
 {
-    return tl_nav_tile_link(tile, ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[polygon] + edge);
+    return tl_nav_tile_link(tile, tl_nav_tile_first_corner(tile, polygon) + edge);
 }
 
 static inline bool tl_nav_is_portal(uint32_t link)
@@ -374,15 +395,15 @@ typedef struct tl_nav_surface {
 
 static inline tl_nav_surface tl_nav_tile_surface(const tl_nav_tile *tile, uint32_t polygon)
 {
-    const uint32_t *vertex = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex) + polygon;
-    const uint32_t *triangle = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_triangle) + polygon;
+    const uint32_t vertex = tl_nav_tile_first(tile, tile->detail_first_vertex, polygon);
+    const uint32_t triangle = tl_nav_tile_first(tile, tile->detail_first_triangle, polygon);
     tl_nav_surface surface;
-    surface.vertices = (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices) + vertex[0];
-    surface.vertex_count = vertex[1] - vertex[0];
-    surface.triangle_count = triangle[1] - triangle[0];
+    surface.vertices = (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices) + vertex;
+    surface.vertex_count = tl_nav_tile_first(tile, tile->detail_first_vertex, polygon + 1) - vertex;
+    surface.triangle_count = tl_nav_tile_first(tile, tile->detail_first_triangle, polygon + 1) - triangle;
     surface.is_wide = (tile->wide & TL_NAV_WIDE_TRIANGLES) != 0;
-    surface.triangles = (const char *)tl_nav_tile_at(tile, tile->detail_triangles) +
-                        ((uint64_t)triangle[0] << (surface.is_wide ? 3 : 2));
+    surface.triangles =
+        (const char *)tl_nav_tile_at(tile, tile->detail_triangles) + ((uint64_t)triangle << (surface.is_wide ? 3 : 2));
     return surface;
 }
 
@@ -428,8 +449,7 @@ static inline uint32_t tl_nav_tile_corner_vertex(const tl_nav_tile *tile, uint32
 /// A corner's exact lattice coordinates in its tile.
 static inline tl_nav_lattice_point tl_nav_tile_lattice(const tl_nav_tile *tile, uint32_t polygon, uint32_t corner)
 {
-    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner);
-    return tl_nav_tile_vertex(tile, tl_nav_tile_corner_vertex(tile, first[polygon] + corner));
+    return tl_nav_tile_vertex(tile, tl_nav_tile_corner_vertex(tile, tl_nav_tile_first_corner(tile, polygon) + corner));
 }
 
 /// Whether the ends a and b of a cut stand in the order that both tiles agree on: by x, then z, then y.
@@ -441,10 +461,9 @@ static inline bool tl_nav_cut_rises(const int32_t *a, const int32_t *b)
 /// The ends of a cut in that order.
 static inline void tl_nav_cut_ends(const tl_nav_tile *tile, const tl_nav_portal *cut, tl_nav_lattice_point ends_out[2])
 {
-    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + cut->polygon;
-    const uint32_t edge = cut->corner - first[0];
-    const tl_nav_lattice_point a = tl_nav_tile_lattice(tile, cut->polygon, edge);
-    const tl_nav_lattice_point b = tl_nav_tile_lattice(tile, cut->polygon, cut->corner + 1 < first[1] ? edge + 1 : 0);
+    const uint32_t next = tl_nav_tile_next_corner(tile, cut->polygon, cut->corner);
+    const tl_nav_lattice_point a = tl_nav_tile_vertex(tile, tl_nav_tile_corner_vertex(tile, cut->corner));
+    const tl_nav_lattice_point b = tl_nav_tile_vertex(tile, tl_nav_tile_corner_vertex(tile, next));
     const bool rises = tl_nav_cut_rises(a.at, b.at);
     ends_out[0] = rises ? a : b;
     ends_out[1] = rises ? b : a;

@@ -28,6 +28,11 @@ function stopwatch() {
   };
 }
 
+// Where each polygon's part of an array begins: numbers of 32 bits where the tile needs them, else of 16.
+function firstsOf(tile, address) {
+  return new (tile.hasWideFirsts ? Uint32Array : Uint16Array)(U8.buffer, address, tile.polygonCount + 1);
+}
+
 export class Navmesh extends Handle {
   #maxNodes = 2 ** 30; // memory grows with need: no search is too large
   #options = null;
@@ -148,7 +153,7 @@ export class Navmesh extends Handle {
       const [firstCorner, links, flags, areas, firstVertex, firstTriangle, vertices, triangles] = F64.subarray(s + 17, s + 25);
       return { slot, address: F64[s], size: F64[s + 1], x: F64[s + 2], z: F64[s + 3], layer: F64[s + 4], polygonCount: F64[s + 5],
                area: F64[s + 6], bounds: slotAabb(7), cornerCount: F64[s + 13], vertexCount: F64[s + 14], triangleCount: F64[s + 15],
-               hasWideTriangles: (F64[s + 16] & 1) !== 0, hasWideLinks: (F64[s + 16] & 8) !== 0, hasWideFlags: (F64[s + 16] & 16) !== 0,
+               hasWideTriangles: (F64[s + 16] & 1) !== 0, hasWideLinks: (F64[s + 16] & 8) !== 0, hasWideFlags: (F64[s + 16] & 16) !== 0, hasWideFirsts: (F64[s + 16] & 32) !== 0,
                firstCorner, links, flags, areas, firstVertex, firstTriangle, vertices, triangles, firstRef: U64[s + 25] };
     });
   }
@@ -181,10 +186,11 @@ export class Navmesh extends Handle {
       else for (let p = 0; p < n; p++) result.flags[polygon + p] = BigInt(U8[tile.flags + p]);
       // By their sign numbers of 16 bits become the same of 32.
       result.links.set(new (tile.hasWideLinks ? Int32Array : Int16Array)(U8.buffer, tile.links, tile.cornerCount), corner);
+      const firstCorner = firstsOf(tile, tile.firstCorner), firstVertex = firstsOf(tile, tile.firstVertex);
       for (let p = 0; p < n; p++) {
         // A surface's first vertices are its polygon's corners.
-        const first = U32[tile.firstCorner / 4 + p], corners = U32[tile.firstCorner / 4 + p + 1] - first;
-        const from = tile.vertices / 4 + 3 * U32[tile.firstVertex / 4 + p];
+        const first = firstCorner[p], corners = firstCorner[p + 1] - first;
+        const from = tile.vertices / 4 + 3 * firstVertex[p];
         result.corners.set(F32.subarray(from, from + 3 * corners), 3 * (corner + first));
         result.refs[polygon + p] = tile.firstRef + BigInt(p);
         result.first[polygon + p] = corner + first;
@@ -205,9 +211,10 @@ export class Navmesh extends Handle {
     for (const tile of tiles) {
       vertices.set(F32.subarray(tile.vertices / 4, tile.vertices / 4 + 3 * tile.vertexCount), 3 * vertex);
       const corners = new (tile.hasWideTriangles ? Uint16Array : Uint8Array)(U8.buffer, tile.triangles, 4 * tile.triangleCount);
+      const firstVertex = firstsOf(tile, tile.firstVertex), firstTriangle = firstsOf(tile, tile.firstTriangle);
       for (let p = 0; p < tile.polygonCount; p++, polygon++) {
-        const base = vertex + U32[tile.firstVertex / 4 + p];
-        for (let t = U32[tile.firstTriangle / 4 + p]; t < U32[tile.firstTriangle / 4 + p + 1]; t++) {
+        const base = vertex + firstVertex[p];
+        for (let t = firstTriangle[p]; t < firstTriangle[p + 1]; t++) {
           for (let k = 0; k < 3; k++) triangles[3 * (triangle + t) + k] = base + corners[4 * t + k];
           polygons[triangle + t] = polygon;
         }

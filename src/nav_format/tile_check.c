@@ -60,10 +60,11 @@ static tl_result check_scalars(const tl_nav_tile *tile, tl_report *report)
                  isfinite(tile->agent_max_climb) && isfinite(tile->origin.x) && isfinite(tile->origin.y) &&
                  isfinite(tile->origin.z);
     const bool has_wide_corners = (tile->wide & TL_NAV_WIDE_CORNERS) != 0;
+    const bool has_wide_firsts = (tile->wide & TL_NAV_WIDE_FIRSTS) != 0;
     const bool has_wide_links = (tile->wide & TL_NAV_WIDE_LINKS) != 0;
-    bool sides = tile->layer <= TL_NAV_MAX_LAYER && tile->wide < 2 * TL_NAV_WIDE_FLAGS && tile->zero == 0 &&
+    bool sides = tile->layer <= TL_NAV_MAX_LAYER && tile->wide < 2 * TL_NAV_WIDE_FIRSTS && tile->zero == 0 &&
                  has_wide_corners == (tile->vertex_count > UINT16_MAX + 1u) &&
-                 has_wide_links == tl_nav_needs_wide_links(tile);
+                 has_wide_links == tl_nav_needs_wide_links(tile) && has_wide_firsts == tl_nav_needs_wide_firsts(tile);
     for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         sides = sides && tl_nav_tile_side_first(tile, side) <= tl_nav_tile_side_first(tile, side + 1);
     }
@@ -91,18 +92,17 @@ static tl_result check_layout(const tl_nav_tile *tile, tl_report *report)
     return TL_OK;
 }
 
-// first[0] is 0, every step is in [low, high], and the last entry is `total`.
-static bool is_range_table(const uint32_t *first, uint32_t count, uint32_t low, uint32_t high, uint32_t total)
+// Whether the first of an array is 0, every step is in [low, high], and the last entry is `total`.
+static bool is_range_table(const tl_nav_tile *tile, uint32_t array, uint32_t low, uint32_t high, uint32_t total)
 {
-    if (first[0] != 0 || first[count] != total) {
-        return false;
+    uint32_t before = tl_nav_tile_first(tile, array, 0);
+    bool right = before == 0 && tl_nav_tile_first(tile, array, tile->polygon_count) == total;
+    for (uint32_t i = 1; i <= tile->polygon_count && right; i++) {
+        const uint32_t first = tl_nav_tile_first(tile, array, i);
+        right = first >= before && first - before >= low && first - before <= high;
+        before = first;
     }
-    for (uint32_t i = 0; i < count; i++) {
-        if (first[i + 1] < first[i] || first[i + 1] - first[i] < low || first[i + 1] - first[i] > high) {
-            return false;
-        }
-    }
-    return true;
+    return right;
 }
 
 static tl_result check_lattice(const tl_nav_tile *tile, tl_report *report)
@@ -126,21 +126,21 @@ static tl_result check_lattice(const tl_nav_tile *tile, tl_report *report)
 }
 
 // As tl_nav_links_back of a source.
-static bool tile_links_back(const tl_nav_tile *tile, const uint32_t *first, uint32_t polygon, uint32_t corner)
+static bool tile_links_back(const tl_nav_tile *tile, uint32_t polygon, uint32_t corner)
 {
     const uint32_t other = tl_nav_tile_link(tile, corner);
     const uint32_t begin = tl_nav_tile_corner_vertex(tile, corner);
-    const uint32_t end = tl_nav_tile_corner_vertex(tile, corner + 1 < first[polygon + 1] ? corner + 1 : first[polygon]);
-    for (uint32_t k = first[other]; k < first[other + 1]; k++) {
+    const uint32_t end = tl_nav_tile_corner_vertex(tile, tl_nav_tile_next_corner(tile, polygon, corner));
+    for (uint32_t k = tl_nav_tile_first_corner(tile, other); k < tl_nav_tile_first_corner(tile, other + 1); k++) {
         if (tl_nav_tile_link(tile, k) == polygon && tl_nav_tile_corner_vertex(tile, k) == end &&
-            tl_nav_tile_corner_vertex(tile, k + 1 < first[other + 1] ? k + 1 : first[other]) == begin) {
+            tl_nav_tile_corner_vertex(tile, tl_nav_tile_next_corner(tile, other, k)) == begin) {
             return true;
         }
     }
     return false;
 }
 
-static bool is_link(const tl_nav_tile *tile, const uint32_t *first, uint32_t p, uint32_t k)
+static bool is_link(const tl_nav_tile *tile, uint32_t p, uint32_t k)
 {
     const uint32_t link = tl_nav_tile_link(tile, k);
     if (link == TL_NAV_LINK_WALL) {
@@ -150,13 +150,12 @@ static bool is_link(const tl_nav_tile *tile, const uint32_t *first, uint32_t p, 
         const uint32_t portal = tl_nav_link_portal(link);
         return portal < tile->portal_count && tl_nav_tile_portals(tile)[portal].corner == k;
     }
-    return link < tile->polygon_count && link != p && tile_links_back(tile, first, p, k);
+    return link < tile->polygon_count && link != p && tile_links_back(tile, p, k);
 }
 
 static tl_result check_polygons(const tl_nav_tile *tile, tl_report *report)
 {
-    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
-    if (!is_range_table(first, tile->polygon_count, 3, TL_NAV_MAX_CORNERS, tile->corner_count)) {
+    if (!is_range_table(tile, tile->first_corner, 3, TL_NAV_MAX_CORNERS, tile->corner_count)) {
         return corrupt(report, "polygon", TL_NO_ELEMENT);
     }
     TL_TRY(check_lattice(tile, report));
@@ -167,8 +166,8 @@ static tl_result check_polygons(const tl_nav_tile *tile, tl_report *report)
         if (tl_nav_tile_area(tile, p) == 0 || tl_nav_double_area(&outline) <= 0 || !tl_nav_is_convex(&outline)) {
             return corrupt(report, "polygon", p);
         }
-        for (uint32_t k = first[p]; k < first[p + 1]; k++) {
-            if (!is_link(tile, first, p, k)) {
+        for (uint32_t k = tl_nav_tile_first_corner(tile, p); k < tl_nav_tile_first_corner(tile, p + 1); k++) {
+            if (!is_link(tile, p, k)) {
                 return corrupt(report, "polygon", p);
             }
         }
@@ -208,10 +207,8 @@ static bool is_surface(const tl_nav_tile *tile, uint32_t p)
 
 static tl_result check_surfaces(const tl_nav_tile *tile, tl_report *report)
 {
-    const uint32_t *first_vertex = tl_nav_tile_at(tile, tile->detail_first_vertex);
-    const uint32_t *first_triangle = tl_nav_tile_at(tile, tile->detail_first_triangle);
-    if (!is_range_table(first_vertex, tile->polygon_count, 3, UINT16_MAX + 1u, tile->detail_vertex_count) ||
-        !is_range_table(first_triangle, tile->polygon_count, 1, UINT32_MAX, tile->detail_triangle_count)) {
+    if (!is_range_table(tile, tile->detail_first_vertex, 3, UINT16_MAX + 1u, tile->detail_vertex_count) ||
+        !is_range_table(tile, tile->detail_first_triangle, 1, UINT32_MAX, tile->detail_triangle_count)) {
         return corrupt(report, "patch", TL_NO_ELEMENT);
     }
     bool is_wide = false;
@@ -219,7 +216,7 @@ static tl_result check_surfaces(const tl_nav_tile *tile, tl_report *report)
         if (!is_surface(tile, p)) {
             return corrupt(report, "patch", p);
         }
-        is_wide = is_wide || first_vertex[p + 1] - first_vertex[p] > UINT8_MAX + 1u;
+        is_wide = is_wide || tl_nav_tile_surface(tile, p).vertex_count > UINT8_MAX + 1u;
     }
     return is_wide == ((tile->wide & TL_NAV_WIDE_TRIANGLES) != 0) ? TL_OK : corrupt(report, "header", TL_NO_ELEMENT);
 }
@@ -251,20 +248,19 @@ static bool is_cut(const tl_nav_tile *tile, uint32_t index)
 // Whether a portal's edge is this portal's own, on whatever side.
 static bool is_own_edge(const tl_nav_tile *tile, uint32_t index)
 {
-    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
     const tl_nav_portal *portal = &tl_nav_tile_portals(tile)[index];
     uint32_t p = portal->polygon;
-    return p < tile->polygon_count && portal->corner >= first[p] && portal->corner < first[p + 1] &&
+    return p < tile->polygon_count && portal->corner >= tl_nav_tile_first_corner(tile, p) &&
+           portal->corner < tl_nav_tile_first_corner(tile, p + 1) &&
            tl_nav_link_portal(tl_nav_tile_link(tile, portal->corner)) == index;
 }
 
 static bool is_on_border(const tl_nav_tile *tile, uint32_t index, uint32_t side)
 {
     const tl_nav_portal *portal = &tl_nav_tile_portals(tile)[index];
-    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
     uint32_t p = portal->polygon;
-    uint32_t edge = portal->corner - first[p];
-    uint32_t next = portal->corner + 1 < first[p + 1] ? edge + 1 : 0;
+    uint32_t edge = portal->corner - tl_nav_tile_first_corner(tile, p);
+    uint32_t next = tl_nav_tile_next_corner(tile, p, portal->corner) - tl_nav_tile_first_corner(tile, p);
     const tl_nav_lattice_point begin = tl_nav_tile_lattice(tile, p, edge), end = tl_nav_tile_lattice(tile, p, next);
     const int32_t *a = begin.at, *b = end.at;
     uint32_t axis = tl_nav_side_axis(side);

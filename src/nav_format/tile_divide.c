@@ -19,21 +19,19 @@
 // Where the polygon across has the same edge; it is there, since links are mutual.
 static uint32_t twin_corner(const tl_nav_tile *tile, uint32_t p, uint32_t k)
 {
-    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
     const uint32_t q = tl_nav_tile_link(tile, k);
-    const uint32_t end = tl_nav_tile_corner_vertex(tile, k + 1 < first[p + 1] ? k + 1 : first[p]);
-    uint32_t twin = first[q];
+    const uint32_t end = tl_nav_tile_corner_vertex(tile, tl_nav_tile_next_corner(tile, p, k));
+    uint32_t twin = tl_nav_tile_first_corner(tile, q);
     while (tl_nav_tile_link(tile, twin) != p || tl_nav_tile_corner_vertex(tile, twin) != end) {
         twin++;
     }
-    TL_ASSERT(twin < first[q + 1]);
+    TL_ASSERT(twin < tl_nav_tile_first_corner(tile, q + 1));
     return twin;
 }
 
 // Numbers the cuts of each pair of vertices. All but the first are of floors that lie upon each other.
 static tl_result number_cuts(const tl_nav_tile *tile, const uint32_t *layers, tl_arena *arena, uint32_t *ordinals)
 {
-    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
     tl_sort_item *items = TL_PUSH(arena, tl_sort_item, tile->corner_count);
     tl_sort_item *scratch = TL_PUSH(arena, tl_sort_item, tile->corner_count);
     if (items == NULL || scratch == NULL) {
@@ -41,11 +39,11 @@ static tl_result number_cuts(const tl_nav_tile *tile, const uint32_t *layers, tl
     }
     uint32_t count = 0;
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        for (uint32_t k = first[p]; k < first[p + 1]; k++) {
+        for (uint32_t k = tl_nav_tile_first_corner(tile, p); k < tl_nav_tile_first_corner(tile, p + 1); k++) {
             const uint32_t across = tl_nav_tile_link(tile, k);
             if (across < TL_NAV_LINK_PORTAL && across > p && layers[across] != layers[p]) {
                 const uint32_t a = tl_nav_tile_corner_vertex(tile, k);
-                const uint32_t b = tl_nav_tile_corner_vertex(tile, k + 1 < first[p + 1] ? k + 1 : first[p]);
+                const uint32_t b = tl_nav_tile_corner_vertex(tile, tl_nav_tile_next_corner(tile, p, k));
                 const uint64_t key = a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
                 tl_sort_item item = { key, k, p };
                 items[count++] = item;

@@ -27,6 +27,7 @@ static void bake_widths(const tl_nav_tile_source *source, tl_nav_tile *tile)
         const bool fits = polygons->vertices[i] >= 0 && polygons->vertices[i] <= UINT16_MAX;
         tile->wide |= fits ? 0 : TL_NAV_WIDE_LATTICE;
     }
+    tile->wide |= tl_nav_needs_wide_firsts(tile) ? TL_NAV_WIDE_FIRSTS : 0;
     tile->wide |= tl_nav_needs_wide_links(tile) ? TL_NAV_WIDE_LINKS : 0;
     for (uint32_t p = 0; source->flags != NULL && p < polygons->polygon_count; p++) {
         tile->wide |= source->flags[p] > UINT8_MAX ? TL_NAV_WIDE_FLAGS : 0;
@@ -92,10 +93,20 @@ static void bake_link(tl_nav_tile *tile, uint32_t corner, uint32_t link)
     }
 }
 
+static void bake_first(tl_nav_tile *tile, uint32_t array, uint32_t polygon, uint32_t first)
+{
+    if ((tile->wide & TL_NAV_WIDE_FIRSTS) != 0) {
+        ((uint32_t *)array_of(tile, array))[polygon] = first;
+    } else {
+        ((uint16_t *)array_of(tile, array))[polygon] = (uint16_t)first;
+    }
+}
+
 static void bake_polygons(const tl_nav_tile_source *source, tl_nav_tile *tile)
 {
     const tl_polygon_mesh *polygons = source->polygons;
-    memcpy(array_of(tile, tile->first_corner), polygons->first, (polygons->polygon_count + 1u) * sizeof(uint32_t));
+    bake_integers(polygons->first, polygons->polygon_count + 1u, (tile->wide & TL_NAV_WIDE_FIRSTS) != 0,
+                  array_of(tile, tile->first_corner));
     bake_integers((const uint32_t *)polygons->vertices, 3 * (size_t)polygons->vertex_count,
                   (tile->wide & TL_NAV_WIDE_LATTICE) != 0, array_of(tile, tile->vertices));
     bake_integers(polygons->indices, polygons->index_count, (tile->wide & TL_NAV_WIDE_CORNERS) != 0,
@@ -170,17 +181,17 @@ static uint32_t bake_patch(const tl_nav_detail *detail, const tl_nav_tile *tile,
 
 static void bake_surface(const tl_nav_tile_source *source, tl_nav_tile *tile)
 {
-    uint32_t *first_vertex = array_of(tile, tile->detail_first_vertex);
-    uint32_t *first_triangle = array_of(tile, tile->detail_first_triangle);
+    uint32_t first_vertex = 0, first_triangle = 0;
     tl_vec3 *vertices = array_of(tile, tile->detail_vertices);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         uint32_t vertex_count = 0;
         tl_nav_tile_corners(tile, p, &vertex_count);
         vertex_count = source->detail != NULL ? source->detail->patches[p].vertex_count : vertex_count;
-        const uint32_t triangle_count = bake_patch(source->detail, tile, p, first_triangle[p],
-                                                   vertices + first_vertex[p], array_of(tile, tile->detail_triangles));
-        first_vertex[p + 1] = first_vertex[p] + vertex_count;
-        first_triangle[p + 1] = first_triangle[p] + triangle_count;
+        first_triangle += bake_patch(source->detail, tile, p, first_triangle, vertices + first_vertex,
+                                     array_of(tile, tile->detail_triangles));
+        first_vertex += vertex_count;
+        bake_first(tile, tile->detail_first_vertex, p + 1, first_vertex);
+        bake_first(tile, tile->detail_first_triangle, p + 1, first_triangle);
     }
 }
 

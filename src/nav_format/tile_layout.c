@@ -5,8 +5,8 @@
 
 #include "nav_format/tile_layout.h"
 
-#include "base/exact_floats.h"
 #include "base/arena.h"
+#include "base/exact_floats.h"
 
 #include <string.h>
 
@@ -27,20 +27,21 @@ void tl_nav_tile_extents(const tl_nav_tile *tile, tl_nav_extent extents_out[TL_N
     uint64_t polygons = tile->polygon_count;
     uint64_t corners = tile->corner_count;
     const uint32_t link_size = (tile->wide & TL_NAV_WIDE_LINKS) != 0 ? 4 : 2;
+    const uint32_t first_size = (tile->wide & TL_NAV_WIDE_FIRSTS) != 0 ? 4 : 2;
     const uint32_t flags_size = (tile->wide & TL_NAV_WIDE_FLAGS) != 0 ? 8 : 1;
     const uint32_t corner_size = (tile->wide & TL_NAV_WIDE_CORNERS) != 0 ? 4 : 2;
     const uint32_t coordinate_size = (tile->wide & TL_NAV_WIDE_LATTICE) != 0 ? 4 : 2;
     const uint32_t triangle_size = (tile->wide & TL_NAV_WIDE_TRIANGLES) != 0 ? 8 : 4;
     const uint64_t sizes[TL_NAV_TILE_ARRAYS] = {
         (uint64_t)tile->node_count * sizeof(tl_nav_tile_node),        // nodes
-        (polygons + 1) * sizeof(uint32_t),                            // first_corner
+        (polygons + 1) * first_size,                                  // first_corner
         corners * link_size,                                          // links
         corners * corner_size,                                        // corner_vertices
         3 * (uint64_t)tile->vertex_count * coordinate_size,           // vertices
         polygons * flags_size,                                        // flags
         polygons,                                                     // areas
-        (polygons + 1) * sizeof(uint32_t),                            // detail_first_vertex
-        (polygons + 1) * sizeof(uint32_t),                            // detail_first_triangle
+        (polygons + 1) * first_size,                                  // detail_first_vertex
+        (polygons + 1) * first_size,                                  // detail_first_triangle
         (uint64_t)tile->detail_vertex_count * sizeof(tl_vec3),        // detail_vertices
         (uint64_t)tile->detail_triangle_count * triangle_size,        // detail_triangles
         (uint64_t)tile->portal_count * sizeof(tl_nav_portal),         // portals

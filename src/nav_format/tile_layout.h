@@ -27,6 +27,12 @@ static inline bool tl_nav_needs_wide_links(const tl_nav_tile *tile)
     return tile->polygon_count > TL_NAV_MAX_SHORT_LINK + 1u || tile->portal_count > TL_NAV_MAX_SHORT_LINK;
 }
 
+static inline bool tl_nav_needs_wide_firsts(const tl_nav_tile *tile)
+{
+    return tile->corner_count > UINT16_MAX || tile->detail_vertex_count > UINT16_MAX ||
+           tile->detail_triangle_count > UINT16_MAX;
+}
+
 /// Writes the extents' offsets into the tile's header.
 void tl_nav_tile_set_offsets(tl_nav_tile *tile, const tl_nav_extent extents[TL_NAV_TILE_ARRAYS]);
 

@@ -54,10 +54,10 @@ static tl_result allocate_subset(subset *s, tl_arena *arena)
 static void number_what_is_kept(subset *s)
 {
     const tl_nav_tile *tile = s->tile;
-    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         s->number[p] = keeps(s, p) ? s->mesh.polygon_count++ : TL_NO_POLYGON;
-        for (uint32_t k = first[p]; s->number[p] != TL_NO_POLYGON && k < first[p + 1]; k++) {
+        const uint32_t end = tl_nav_tile_first_corner(tile, p + (s->number[p] != TL_NO_POLYGON ? 1 : 0));
+        for (uint32_t k = tl_nav_tile_first_corner(tile, p); k < end; k++) {
             s->vertex_number[tl_nav_tile_corner_vertex(tile, k)] = 1;
         }
     }
@@ -98,24 +98,22 @@ static uint32_t subset_across(subset *s, uint32_t p, uint32_t k, uint32_t edge)
 static void copy_kept_polygon(subset *s, uint32_t p)
 {
     const tl_nav_tile *tile = s->tile;
-    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
-    const uint32_t *first_vertex = tl_nav_tile_at(tile, tile->detail_first_vertex);
-    const uint32_t *first_triangle = tl_nav_tile_at(tile, tile->detail_first_triangle);
     const uint32_t to = s->number[p];
     tl_polygon_mesh *mesh = &s->mesh;
     mesh->first[to] = mesh->index_count;
     mesh->areas[to] = tl_nav_tile_area(tile, p);
     s->flags[to] = tl_nav_tile_flags(tile, p);
-    for (uint32_t k = first[p]; k < first[p + 1]; k++) {
-        mesh->neighbours[mesh->index_count] = subset_across(s, p, k, k - first[p]);
+    for (uint32_t k = tl_nav_tile_first_corner(tile, p); k < tl_nav_tile_first_corner(tile, p + 1); k++) {
+        mesh->neighbours[mesh->index_count] = subset_across(s, p, k, k - tl_nav_tile_first_corner(tile, p));
         mesh->indices[mesh->index_count++] = s->vertex_number[tl_nav_tile_corner_vertex(tile, k)];
     }
     const tl_nav_surface surface = tl_nav_tile_surface(tile, p);
+    const uint32_t first_triangle = tl_nav_tile_first(tile, tile->detail_first_triangle, p);
     for (uint32_t i = 0; i < surface.triangle_count; i++) {
-        s->detail.triangles[first_triangle[p] + i] = tl_nav_surface_triangle(&surface, i);
+        s->detail.triangles[first_triangle + i] = tl_nav_surface_triangle(&surface, i);
     }
-    const tl_nav_detail_patch patch = { first_vertex[p], first_vertex[p + 1] - first_vertex[p], first_triangle[p],
-                                        first_triangle[p + 1] - first_triangle[p] };
+    const tl_nav_detail_patch patch = { tl_nav_tile_first(tile, tile->detail_first_vertex, p), surface.vertex_count,
+                                        first_triangle, surface.triangle_count };
     s->detail.patches[to] = patch;
 }
 

@@ -79,8 +79,7 @@ static tl_result add_polygon_links(const tl_allocator *allocator, const tl_navme
     uint32_t count = 0;
     const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
     const tl_nav_ref ref = tl_navmesh_polygon_ref(navmesh, slot, portal->polygon);
-    const uint32_t edge =
-        portal->corner - ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[portal->polygon];
+    const uint32_t edge = portal->corner - tl_nav_tile_first_corner(tile, portal->polygon);
     tl_result result = tl_navmesh_links(navmesh, ref, few, FEW, &count);
     uint32_t allocated = 0;
     if (result == TL_INCOMPLETE) {
@@ -147,10 +146,9 @@ static void sort_stretches(seam_stretch *items, uint32_t count)
 
 static uint32_t fan_corner(const tl_nav_tile *tile, uint32_t polygon, uint32_t vertex)
 {
-    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
-    for (uint32_t i = first[0]; i < first[1]; i++) {
+    for (uint32_t i = tl_nav_tile_first_corner(tile, polygon); i < tl_nav_tile_first_corner(tile, polygon + 1); i++) {
         if (tl_nav_tile_corner_vertex(tile, i) == vertex) {
-            return i - first[0];
+            return i - tl_nav_tile_first_corner(tile, polygon);
         }
     }
     return UINT32_MAX;
@@ -159,10 +157,9 @@ static uint32_t fan_corner(const tl_nav_tile *tile, uint32_t polygon, uint32_t v
 // The vertex of a polygon at `along` on a side, or UINT32_MAX.
 static uint32_t vertex_on_side(const tl_nav_tile *tile, uint32_t polygon, uint32_t side, int32_t along)
 {
-    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
     const int32_t line = side == 1 || side == 2 ? (int32_t)tile->tile_size : 0;
     const int axis = side % 2 == 0 ? 0 : 2;
-    for (uint32_t i = first[0]; i < first[1]; i++) {
+    for (uint32_t i = tl_nav_tile_first_corner(tile, polygon); i < tl_nav_tile_first_corner(tile, polygon + 1); i++) {
         const uint32_t vertex = tl_nav_tile_corner_vertex(tile, i);
         const tl_nav_lattice_point v = tl_nav_tile_vertex(tile, vertex);
         if (v.at[axis] == line && v.at[2 - axis] == along) {

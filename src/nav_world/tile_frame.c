@@ -37,16 +37,16 @@ static float moved(const axis_move *move, float at)
 static void move_polygon(tl_nav_tile *tile, uint32_t polygon, const axis_move *x, const axis_move *z)
 {
     char *bytes = (char *)tile;
-    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
-    const uint32_t *surface = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex) + polygon;
-    tl_vec3 *points = (tl_vec3 *)(void *)(bytes + 8 * (uint64_t)tile->detail_vertices) + surface[0];
-    const uint32_t corner_count = first[1] - first[0];
+    const uint32_t first = tl_nav_tile_first(tile, tile->detail_first_vertex, polygon);
+    const uint32_t count = tl_nav_tile_first(tile, tile->detail_first_vertex, polygon + 1) - first;
+    tl_vec3 *points = (tl_vec3 *)(void *)(bytes + 8 * (uint64_t)tile->detail_vertices) + first;
+    const uint32_t corner_count = tl_nav_tile_first_corner(tile, polygon + 1) - tl_nav_tile_first_corner(tile, polygon);
     for (uint32_t i = 0; i < corner_count; i++) {
         const tl_nav_lattice_point v = tl_nav_tile_lattice(tile, polygon, i);
         points[i].x = tl_nav_tile_position(tile->origin.x, tile->tile_x, tile->tile_size, v.at[0], tile->cell_size);
         points[i].z = tl_nav_tile_position(tile->origin.z, tile->tile_z, tile->tile_size, v.at[2], tile->cell_size);
     }
-    for (uint32_t i = corner_count; i < surface[1] - surface[0]; i++) {
+    for (uint32_t i = corner_count; i < count; i++) {
         points[i].x = moved(x, points[i].x);
         points[i].z = moved(z, points[i].z);
     }

@@ -61,7 +61,7 @@ static void look_at_portal(const tl_nav_world *world, const tl_nav_world_tile *a
 {
     const tl_nav_tile *tile = at->blob;
     const tl_nav_portal *edge = &tl_nav_tile_portals(tile)[portal];
-    const uint32_t first = ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[edge->polygon];
+    const uint32_t first = tl_nav_tile_first_corner(tile, edge->polygon);
     uint32_t count = 0, island = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, edge->polygon, &count);
     const uint32_t begin = edge->corner - first;

@@ -99,10 +99,10 @@ static void built_in_levels(void **state)
     static const struct {
         const char *name;
         uint64_t hash, layered_hash;
-    } golden[] = { { "courtyard", 0x055ce21412af6f5e, 0x1ac736792a456fb8 },
-                   { "dungeon", 0xfd75c932a0d53995, 0x7c3ab778b78bf30b },
-                   { "terrain", 0x09a507956178a1cd, 0x8ea10db874e81a98 },
-                   { "city", 0x78187f6a0989a99b, 0xe46a02f06318e45b } };
+    } golden[] = { { "courtyard", 0xef1013d3c2bf10ca, 0xe9c8f0c62cac1fac },
+                   { "dungeon", 0x4451e9ae365bd656, 0x582950d4b33a3428 },
+                   { "terrain", 0x691d00de9b50ad86, 0xd57f47c8842e315f },
+                   { "city", 0x75cc17f3d75493b8, 0x0caee0d7ca3e095c } };
     const tl_tasks two = { run_on_two_threads, 2, NULL };
     bool equal = true;
     for (size_t i = 0; i < 4; i++) {

@@ -176,7 +176,7 @@ static void the_same_bytes_always(void **state)
         TEST_CHECK(same_tile(first, other));
         tl_blob_free(other);
     }
-    TEST_CHECK(tl_hash_bytes(first, first->blob.size, 0) == 0xabafba8dfb47e160u);
+    TEST_CHECK(tl_hash_bytes(first, first->blob.size, 0) == 0x0a5bd4f852d8f2c2u);
     tl_blob_free(first);
 }
 

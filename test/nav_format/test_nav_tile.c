@@ -47,7 +47,7 @@ static void test_portals(void **state)
         TEST_CHECK(tl_nav_tile_side_first(tile, side + 1) - tl_nav_tile_side_first(tile, side) == 2);
         const tl_nav_portal *portal = tl_nav_tile_portals(tile) + tl_nav_tile_side_first(tile, side);
         TEST_CHECK(portal[0].low == 0 && portal[0].high == 16 && portal[1].low == 16 && portal[1].high == 32);
-        uint32_t first = ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[portal->polygon];
+        uint32_t first = tl_nav_tile_first_corner(tile, portal->polygon);
         TEST_CHECK(tl_nav_tile_neighbour(tile, portal->polygon, portal->corner - first) == (TL_PORTAL | side));
     }
     tl_blob_free(tile);
@@ -114,12 +114,12 @@ static void check_widths(const fixture_mesh *mesh, uint32_t expected)
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
     TEST_RESULT(tl_nav_tile_check(again, again->blob.size, NULL), TL_OK);
     TEST_CHECK(again->wide == (expected & ~TL_NAV_WIDE_CORNERS)); // without vertices that no polygon has
-    for (uint32_t bit = 1; bit <= TL_NAV_WIDE_FLAGS; bit *= 2) {
+    for (uint32_t bit = 1; bit <= TL_NAV_WIDE_FIRSTS; bit *= 2) {
         tile->wide ^= bit;
         TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_CORRUPT);
         tile->wide ^= bit;
     }
-    tile->wide |= 2 * TL_NAV_WIDE_FLAGS;
+    tile->wide |= 2 * TL_NAV_WIDE_FIRSTS;
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_CORRUPT);
     tile->wide = expected;
     tl_report report;

@@ -86,7 +86,7 @@ static void rings_have_no_room_to_spare(void **state)
             walls_in_all += rings->walls_count - TL_NAV_WALLS_FIRST;
             TEST_CHECK(tl_nav_rings_size(rings) == edges * sizeof *rings->edges.narrow + points * sizeof(tl_vec3) +
                                                        seams * sizeof *rings->seams +
-                                                       (points > 0 ? 2 * (polygons + 1) * sizeof *rings->first : 0) +
+                                                       (points > 0 ? 2 * (polygons + 1) * sizeof(uint32_t) : 0) +
                                                        (3 * polygons + tile->node_count) * sizeof(uint16_t));
             TEST_CHECK(!rings->has_wide_edges);
             TEST_CHECK((rings->first == tl_nav_tile_at(tile, tile->first_corner)) == (points == 0));
@@ -116,7 +116,7 @@ static void far_twins_are_found(void **state)
     memset(&slot, 0, sizeof slot);
     slot.rings.first = slot.rings.first_point = first;
     slot.rings.edges.wide = edges;
-    slot.rings.has_wide_edges = true;
+    slot.rings.has_wide_edges = slot.rings.has_wide_firsts = true;
     slot.rings.points[0] = points;
     slot.rings.polygon_count = 2;
     tl_navmesh navmesh;
@@ -289,7 +289,7 @@ static void large_tiles_have_wide_numbers(void **state)
     tl_nav_tile *tile = make_strips();
     TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
     const tl_nav_slot *slot = &navmesh->slots[0];
-    TEST_CHECK((tile->wide & TL_NAV_WIDE_LINKS) != 0);
+    TEST_CHECK((tile->wide & TL_NAV_WIDE_LINKS) != 0 && (tile->wide & TL_NAV_WIDE_FIRSTS) != 0);
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
     TEST_CHECK(slot->rings.is_wide && slot->rings.has_wide_edges && slot->areas.is_wide &&
                slot->rings.component_count == STRIPS);

@@ -421,12 +421,11 @@ static inline uint32_t fixture_index_of(const fixture_refs *all, tl_nav_ref ref)
 /// Where a corner is, metres, by its index in the tile's corner arrays.
 static inline tl_vec3 fixture_corner(const tl_nav_tile *tile, uint32_t corner)
 {
-    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner);
     uint32_t polygon = 0, count = 0;
-    while (first[polygon + 1] <= corner) {
+    while (tl_nav_tile_first_corner(tile, polygon + 1) <= corner) {
         polygon++;
     }
-    return tl_nav_tile_corners(tile, polygon, &count)[corner - first[polygon]];
+    return tl_nav_tile_corners(tile, polygon, &count)[corner - tl_nav_tile_first_corner(tile, polygon)];
 }
 
 static inline bool fixture_same_triangles(const tl_nav_surface *a, const tl_nav_surface *b)

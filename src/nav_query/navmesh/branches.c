@@ -40,7 +40,7 @@ static void note_met(branch_walk *walk, uint32_t polygon, uint32_t parent, uint3
     walk->low[polygon] = walk->count;
     walk->parent[polygon] = parent;
     walk->back[polygon] = back;
-    walk->next[polygon] = walk->rings->first[polygon];
+    walk->next[polygon] = tl_nav_ring_first(walk->rings, polygon);
 }
 
 // Looks at a polygon's next edge. Returns the polygon to go on with.
@@ -57,8 +57,8 @@ static uint32_t look_over_next_edge(branch_walk *walk, uint32_t polygon)
     } else if (walk->number[to] != 0) {
         walk->low[polygon] = tl_min_u32(walk->low[polygon], walk->number[to]);
     } else {
-        const uint32_t twin = tl_nav_inner_twin(rings, polygon, edge - rings->first[polygon]);
-        note_met(walk, to, polygon, rings->first[to] + twin);
+        const uint32_t twin = tl_nav_inner_twin(rings, polygon, edge - tl_nav_ring_first(rings, polygon));
+        note_met(walk, to, polygon, tl_nav_ring_first(rings, to) + twin);
         return to;
     }
     return polygon;
@@ -69,7 +69,7 @@ static void walk_from(branch_walk *walk, uint32_t polygon, uint32_t back)
 {
     note_met(walk, polygon, NO_POLYGON, back);
     while (polygon != NO_POLYGON) {
-        if (walk->next[polygon] < walk->rings->first[polygon + 1]) {
+        if (walk->next[polygon] < tl_nav_ring_first(walk->rings, polygon + 1)) {
             polygon = look_over_next_edge(walk, polygon);
             continue;
         }
@@ -84,7 +84,7 @@ static void walk_from(branch_walk *walk, uint32_t polygon, uint32_t back)
 // A polygon's first open seam, or NO_EDGE.
 static uint32_t first_seam(const tl_nav_rings *rings, uint32_t polygon)
 {
-    for (uint32_t i = rings->first[polygon]; i < rings->first[polygon + 1]; i++) {
+    for (uint32_t i = tl_nav_ring_first(rings, polygon); i < tl_nav_ring_first(rings, polygon + 1); i++) {
         if (tl_nav_ring_is_seam(tl_nav_edge_of(rings, i).to)) {
             return i;
         }

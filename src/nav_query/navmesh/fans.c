@@ -339,7 +339,7 @@ static void number_fans_of_portal(tl_navmesh *navmesh, uint32_t slot, const tl_n
     const tl_nav_tile *tile = navmesh->slots[slot].tile;
     uint32_t corner_count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, portal->polygon, &corner_count);
-    uint32_t corner = portal->corner - ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[portal->polygon];
+    uint32_t corner = portal->corner - tl_nav_tile_first_corner(tile, portal->polygon);
     const tl_vec3 begin = corners[corner];
     const tl_vec3 end = corners[corner + 1 < corner_count ? corner + 1 : 0];
     const tl_nav_ring ring = tl_nav_ring_of(rings, portal->polygon);

@@ -150,7 +150,7 @@ static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t pol
 {
     const tl_nav_ring ring = tl_nav_ring_of(old, polygon);
     tl_nav_rings *rings = writer->rings;
-    writer->has_points = (old->first_point[polygon] & TL_NAV_RING_OWN_POINTS) != 0;
+    writer->has_points = (tl_nav_ring_first_point(old, polygon) & TL_NAV_RING_OWN_POINTS) != 0;
     writer->count = ring.count;
     for (uint32_t i = 0; i < ring.count; i++) {
         tl_nav_ring_edge edge = tl_nav_ring_edge_at(&ring, i);
@@ -198,7 +198,7 @@ static void find_twins(tl_nav_rings *rings, uint32_t polygon)
         }
         const uint32_t twin = find_twin(rings, ring, polygon, i, 0);
         set_twin(rings, (uint64_t)ring.first + i, twin);
-        set_twin(rings, (uint64_t)rings->first[to] + twin, i);
+        set_twin(rings, (uint64_t)tl_nav_ring_first(rings, to) + twin, i);
     }
 }
 
@@ -277,7 +277,7 @@ static uint64_t edges_size(const tl_nav_rings *rings)
 // Bytes of `first` and `first_point`, where they are not the tile's.
 static uint64_t firsts_size(const tl_nav_rings *rings)
 {
-    return rings->point_count > 0 ? 2 * ((uint64_t)rings->polygon_count + 1) * sizeof *rings->first : 0;
+    return rings->point_count > 0 ? 2 * ((uint64_t)rings->polygon_count + 1) * sizeof(uint32_t) : 0;
 }
 
 static uint64_t block_size_of(const tl_nav_rings *rings)
@@ -332,7 +332,6 @@ static void mark_changed(const tl_nav_tile *tile, uint32_t side, const tl_nav_ri
 static void write_rings(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
                         uint32_t *marks, const tl_nav_rings *old)
 {
-    const uint32_t *corners = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         const bool changes = (marks[p] & RING_CHANGES) != 0;
         writer->count = 0;
@@ -344,8 +343,8 @@ static void write_rings(ring_writer *writer, const tl_nav_tile *tile, const tl_n
         }
         if (writer->first != NULL) {
             writer->first[p] = (uint32_t)writer->edge_count;
-            writer->first_point[p] =
-                writer->has_points ? (uint32_t)writer->point_count | TL_NAV_RING_OWN_POINTS : corners[p];
+            writer->first_point[p] = writer->has_points ? (uint32_t)writer->point_count | TL_NAV_RING_OWN_POINTS
+                                                        : tl_nav_tile_first(tile, tile->detail_first_vertex, p);
         }
         marks[p] |= writer->has_points ? RING_HAS_POINTS : 0;
         writer->edge_count += writer->count;
@@ -489,11 +488,12 @@ static tl_result make_rings(const tl_allocator *allocator, const tl_nav_tile *ti
     rings->polygon_count = tile->polygon_count;
     rings->node_count = tile->node_count;
     rings->is_wide = tile->polygon_count > TL_NAV_MAX_SHORT_NUMBER;
-    rings->first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner);
-    rings->first_point = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex);
+    rings->has_wide_firsts = counted.point_count > 0 || (tile->wide & TL_NAV_WIDE_FIRSTS) != 0;
+    rings->first = tl_nav_tile_at(tile, tile->first_corner);
+    rings->first_point = tl_nav_tile_at(tile, tile->detail_first_vertex);
     rings->points[0] = (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices);
     TL_TRY(fill_rings(allocator, tile, sides, scratch, old, &counted, rings));
-    TL_ASSERT(rings->first[tile->polygon_count] == rings->edge_count);
+    TL_ASSERT(tl_nav_ring_first(rings, tile->polygon_count) == rings->edge_count);
     if (old != NULL) {
         copy_components(old, rings);
     } else {

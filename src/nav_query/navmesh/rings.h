@@ -85,9 +85,10 @@ typedef union tl_nav_ring_numbers {
 
 typedef struct tl_nav_rings {
     tl_nav_ring_edges edges;
-    /// By polygon, polygon_count + 1: its first edge, and where its points begin in points[0], or
-    /// TL_NAV_RING_OWN_POINTS | where in points[1]. The tile's own arrays where no ring has points of its own.
-    const uint32_t *first, *first_point;
+    /// By polygon, polygon_count + 1, of 16 bits where the tile's are: its first edge, and where its points begin in
+    /// points[0], or TL_NAV_RING_OWN_POINTS | where in points[1]. The tile's own arrays where no ring has points of its
+    /// own.
+    const void *first, *first_point;
     /// The detail vertices of the tile as it was added; and the points of the rings that are not all corners of their
     /// polygon.
     const tl_vec3 *points[2];
@@ -104,6 +105,7 @@ typedef struct tl_nav_rings {
     bool has_back;        ///< some edge is a TL_NAV_RING_BACK
     bool is_wide;         ///< its numbers have 32 bits
     bool has_wide_edges;
+    bool has_wide_firsts;
 } tl_nav_rings;
 
 /// Bytes of the block that begins with `edges` and holds all arrays but walls, turns, islands and ends of branches.
@@ -129,6 +131,19 @@ tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings);
 /// Makes walls of all ways to a slot. The cuts in the edges stay.
 void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot);
 
+/// A polygon's first edge. `polygon` <= polygon_count.
+static inline uint32_t tl_nav_ring_first(const tl_nav_rings *rings, uint32_t polygon)
+{
+    return rings->has_wide_firsts ? ((const uint32_t *)rings->first)[polygon]
+                                  : ((const uint16_t *)rings->first)[polygon];
+}
+
+static inline uint32_t tl_nav_ring_first_point(const tl_nav_rings *rings, uint32_t polygon)
+{
+    return rings->has_wide_firsts ? ((const uint32_t *)rings->first_point)[polygon]
+                                  : ((const uint16_t *)rings->first_point)[polygon];
+}
+
 /// The edge at a place. `is_wide`: of which kind they are.
 static inline tl_nav_ring_edge tl_nav_edge_at(tl_nav_ring_edges edges, bool is_wide, uint64_t place)
 {
@@ -153,7 +168,8 @@ uint32_t tl_nav_find_far_twin(const tl_nav_rings *rings, uint32_t polygon, uint3
 /// The same of any two polygons of one tile.
 static inline uint32_t tl_nav_inner_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge)
 {
-    const uint32_t twin = tl_nav_edge_of(rings, (uint64_t)rings->first[polygon] + edge).mark & TL_NAV_RING_FAR_TWIN;
+    const uint32_t twin =
+        tl_nav_edge_of(rings, (uint64_t)tl_nav_ring_first(rings, polygon) + edge).mark & TL_NAV_RING_FAR_TWIN;
     return twin < TL_NAV_RING_FAR_TWIN ? twin : tl_nav_find_far_twin(rings, polygon, edge);
 }
 
@@ -310,17 +326,25 @@ typedef struct tl_nav_ring {
 
 static inline tl_nav_ring tl_nav_ring_of(const tl_nav_rings *rings, uint32_t polygon)
 {
-    const uint32_t first = rings->first[polygon], point = rings->first_point[polygon];
     tl_nav_ring ring;
-    if (rings->has_wide_edges) {
-        ring.edges.wide = rings->edges.wide + first;
-    } else {
-        ring.edges.narrow = rings->edges.narrow + first;
+    if (rings->has_wide_firsts) {
+        const uint32_t *first = (const uint32_t *)rings->first + polygon;
+        const uint32_t point = ((const uint32_t *)rings->first_point)[polygon];
+        ring.first = first[0];
+        ring.count = first[1] - first[0];
+        ring.points = rings->points[point / TL_NAV_RING_OWN_POINTS] + (point & (TL_NAV_RING_OWN_POINTS - 1));
+    } else { // no points of its own
+        const uint16_t *first = (const uint16_t *)rings->first + polygon;
+        ring.first = first[0];
+        ring.count = (uint32_t)first[1] - first[0];
+        ring.points = rings->points[0] + ((const uint16_t *)rings->first_point)[polygon];
     }
-    ring.points = rings->points[point / TL_NAV_RING_OWN_POINTS] + (point & (TL_NAV_RING_OWN_POINTS - 1));
-    ring.count = rings->first[polygon + 1] - first;
-    ring.first = first;
     ring.has_wide_edges = rings->has_wide_edges;
+    if (ring.has_wide_edges) {
+        ring.edges.wide = rings->edges.wide + ring.first;
+    } else {
+        ring.edges.narrow = rings->edges.narrow + ring.first;
+    }
     return ring;
 }
 

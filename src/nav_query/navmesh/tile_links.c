@@ -25,7 +25,7 @@ typedef struct profile_cursor {
 static profile_cursor cursor_of(const tl_nav_tile *tile, uint32_t portal, uint32_t side)
 {
     const tl_nav_portal *at = tl_nav_tile_portals(tile) + portal;
-    const uint32_t edge = at->corner - ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[at->polygon];
+    const uint32_t edge = at->corner - tl_nav_tile_first_corner(tile, at->polygon);
     const bool rising = side < 2; // sides 0 and 1 run from low to high
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, at->polygon, &count);
@@ -150,10 +150,10 @@ static void for_each_overlap(const seam *s, pair_fn *pair, void *user)
 // Whether the edge of a cut runs from the first of its ends to the second.
 static bool runs_up(const tl_nav_tile *tile, const tl_nav_portal *cut)
 {
-    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + cut->polygon;
     tl_nav_lattice_point ends[2];
     tl_nav_cut_ends(tile, cut, ends);
-    const tl_nav_lattice_point start = tl_nav_tile_lattice(tile, cut->polygon, cut->corner - first[0]);
+    const tl_nav_lattice_point start =
+        tl_nav_tile_lattice(tile, cut->polygon, cut->corner - tl_nav_tile_first_corner(tile, cut->polygon));
     return memcmp(&ends[0], &start, sizeof start) == 0;
 }
 
@@ -200,8 +200,7 @@ static void count_pair(const seam *s, uint32_t i, uint32_t j, void *user)
 // The point of a portal's edge at a lattice coordinate: x and z from the lattice, the same bits from both tiles.
 static tl_vec3 edge_point(const tl_nav_tile *tile, const tl_nav_portal *portal, uint32_t side, int32_t along)
 {
-    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
-    uint32_t edge = portal->corner - first[portal->polygon];
+    uint32_t edge = portal->corner - tl_nav_tile_first_corner(tile, portal->polygon);
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, portal->polygon, &count);
     tl_vec3 start = corners[edge];
@@ -232,7 +231,7 @@ void tl_nav_seam_ends(const tl_nav_tile *tile, uint32_t portal, const tl_nav_sea
     if (side == TL_NAV_SIDE_CUT) {
         uint32_t count = 0;
         const tl_vec3 *corners = tl_nav_tile_corners(tile, own->polygon, &count);
-        const uint32_t edge = own->corner - ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[own->polygon];
+        const uint32_t edge = own->corner - tl_nav_tile_first_corner(tile, own->polygon);
         *left_out = corners[edge + 1 < count ? edge + 1 : 0];
         *right_out = corners[edge];
         return;

@@ -32,7 +32,7 @@ static inline tl_nav_ways tl_nav_ways_of(const tl_navmesh *navmesh, uint32_t slo
     ways.slots = navmesh->slots;
     ways.tile = navmesh->slots[slot].tile;
     ways.slot = slot;
-    ways.first_corner = ((const uint32_t *)tl_nav_tile_at(ways.tile, ways.tile->first_corner))[polygon];
+    ways.first_corner = tl_nav_tile_first_corner(ways.tile, polygon);
     ways.corners = tl_nav_tile_corners(ways.tile, polygon, &ways.corner_count);
     ways.edge = 0;
     ways.seam = NULL;

@@ -101,7 +101,7 @@ static void fill_corner_vertices(graph_baker *b)
         b->graph->slot_salt[slot] = b->navmesh->slots[slot].tile != NULL ? b->navmesh->slots[slot].salt : 0;
         for (uint32_t p = 0; b->navmesh->slots[slot].tile != NULL && p < rings->polygon_count; p++) {
             b->graph->polygon_count++;
-            for (uint32_t i = 0; i < rings->first[p + 1] - rings->first[p]; i++) {
+            for (uint32_t i = 0; i < tl_nav_ring_first(rings, p + 1) - tl_nav_ring_first(rings, p); i++) {
                 tl_nav_ring_place place = { slot, p, i };
                 fill_corner_vertex(b, place);
             }

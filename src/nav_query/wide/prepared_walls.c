@@ -208,10 +208,9 @@ static tl_result add_cell(wall_baker *b, uint32_t slot, uint32_t polygon)
     b->cells[polygon].wall = (uint32_t)b->walls.count;
     b->cells[polygon].pair = (uint32_t)b->pairs.count;
     b->cells[polygon].within = cell.near.within < b->reach ? (float)cell.near.within : INFINITY;
-    const uint32_t *first_corner =
-        tl_nav_tile_at(b->navmesh->slots[slot].tile, b->navmesh->slots[slot].tile->first_corner);
+    const uint32_t first_corner = tl_nav_tile_first_corner(b->navmesh->slots[slot].tile, polygon);
     for (uint32_t side = 0; side < cell.count; side++) {
-        b->side_first[first_corner[polygon] + side] = (uint32_t)b->hits.count;
+        b->side_first[first_corner + side] = (uint32_t)b->hits.count;
         TL_TRY(add_hits(b, &cell, side));
     }
     TL_TRY(add_pairs(b, &cell));
@@ -451,7 +450,6 @@ bool tl_nav_wall_cell_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t po
         return tl_nav_gather_cell(clearance, slot, polygon, distance, cell_out);
     }
     const tl_nav_tile *tile = navmesh->slots[slot].tile;
-    const uint32_t *first_corner = tl_nav_tile_at(tile, tile->first_corner);
     const tl_nav_kept_cell *cell = &kept->cells[polygon];
     memset(&cell_out->near, 0, sizeof cell_out->near);
     cell_out->distance = distance;
@@ -461,7 +459,7 @@ bool tl_nav_wall_cell_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t po
     cell_out->near.wall_count = tl_nav_count_within(cell_out->near.walls, cell[1].wall - cell[0].wall, distance);
     cell_out->near.is_covered = is_covered(cell_out, clearance->cover);
     cell_out->near.within = tl_min_f64((double)cell->within, distance);
-    cell_out->side_first = kept->side_first + first_corner[polygon];
+    cell_out->side_first = kept->side_first + tl_nav_tile_first_corner(tile, polygon);
     cell_out->hits = kept->hits;
     cell_out->pairs = kept->pairs + cell[0].pair;
     cell_out->pair_count = cell[1].pair - cell[0].pair;
