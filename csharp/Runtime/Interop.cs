@@ -1367,6 +1367,13 @@ namespace Talus.Interop
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct tl_nav_tile_part
+    {
+        public uint begin;
+        public uint end;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct tl_nav_surface
     {
         public tl_vec3* vertices;

@@ -671,6 +671,9 @@ static unsafe class Layout
         Test.Equal(0, (byte*)&((tl_nav_tile_stack*)at)->tiles - at, "tl_nav_tile_stack.tiles");
         Test.Equal(8, (byte*)&((tl_nav_tile_stack*)at)->count - at, "tl_nav_tile_stack.count");
         Test.Equal(16, (byte*)&((tl_nav_tile_stack*)at)->allocator - at, "tl_nav_tile_stack.allocator");
+        Test.Equal(8, sizeof(tl_nav_tile_part), "tl_nav_tile_part");
+        Test.Equal(0, (byte*)&((tl_nav_tile_part*)at)->begin - at, "tl_nav_tile_part.begin");
+        Test.Equal(4, (byte*)&((tl_nav_tile_part*)at)->end - at, "tl_nav_tile_part.end");
         Test.Equal(32, sizeof(tl_nav_surface), "tl_nav_surface");
         Test.Equal(0, (byte*)&((tl_nav_surface*)at)->vertices - at, "tl_nav_surface.vertices");
         Test.Equal(8, (byte*)&((tl_nav_surface*)at)->vertex_count - at, "tl_nav_surface.vertex_count");

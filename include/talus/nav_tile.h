@@ -273,10 +273,31 @@ static inline uint32_t tl_nav_tile_next_corner(const tl_nav_tile *tile, uint32_t
                                                                     : tl_nav_tile_first_corner(tile, polygon);
 }
 
+/// A polygon's part of an array: from `begin` up to `end`.
+typedef struct tl_nav_tile_part {
+    uint32_t begin, end;
+} tl_nav_tile_part;
+
+/// The part that a number of first_corner, detail_first_vertex or detail_first_triangle begins.
+static inline tl_nav_tile_part tl_nav_tile_part_of(const tl_nav_tile *tile, uint32_t array, uint32_t polygon)
+{
+    const void *first = tl_nav_tile_at(tile, array);
+    tl_nav_tile_part part;
+    if ((tile->wide & TL_NAV_WIDE_FIRSTS) != 0) {
+        part.begin = ((const uint32_t *)first)[polygon];
+        part.end = ((const uint32_t *)first)[polygon + 1];
+    } else {
+        part.begin = ((const uint16_t *)first)[polygon];
+        part.end = ((const uint16_t *)first)[polygon + 1];
+    }
+    return part;
+}
+
 /// The polygon's corners in metres, in the contours' winding (counter-clockwise seen from above, y up).
 static inline const tl_vec3 *tl_nav_tile_corners(const tl_nav_tile *tile, uint32_t polygon, uint32_t *count_out)
 {
-    *count_out = tl_nav_tile_first_corner(tile, polygon + 1) - tl_nav_tile_first_corner(tile, polygon);
+    const tl_nav_tile_part corners = tl_nav_tile_part_of(tile, tile->first_corner, polygon);
+    *count_out = corners.end - corners.begin;
     return (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices) +
            tl_nav_tile_first(tile, tile->detail_first_vertex, polygon);
 }
@@ -395,15 +416,15 @@ typedef struct tl_nav_surface {
 
 static inline tl_nav_surface tl_nav_tile_surface(const tl_nav_tile *tile, uint32_t polygon)
 {
-    const uint32_t vertex = tl_nav_tile_first(tile, tile->detail_first_vertex, polygon);
-    const uint32_t triangle = tl_nav_tile_first(tile, tile->detail_first_triangle, polygon);
+    const tl_nav_tile_part vertices = tl_nav_tile_part_of(tile, tile->detail_first_vertex, polygon);
+    const tl_nav_tile_part triangles = tl_nav_tile_part_of(tile, tile->detail_first_triangle, polygon);
     tl_nav_surface surface;
-    surface.vertices = (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices) + vertex;
-    surface.vertex_count = tl_nav_tile_first(tile, tile->detail_first_vertex, polygon + 1) - vertex;
-    surface.triangle_count = tl_nav_tile_first(tile, tile->detail_first_triangle, polygon + 1) - triangle;
+    surface.vertices = (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices) + vertices.begin;
+    surface.vertex_count = vertices.end - vertices.begin;
+    surface.triangle_count = triangles.end - triangles.begin;
     surface.is_wide = (tile->wide & TL_NAV_WIDE_TRIANGLES) != 0;
-    surface.triangles =
-        (const char *)tl_nav_tile_at(tile, tile->detail_triangles) + ((uint64_t)triangle << (surface.is_wide ? 3 : 2));
+    surface.triangles = (const char *)tl_nav_tile_at(tile, tile->detail_triangles) +
+                        ((uint64_t)triangles.begin << (surface.is_wide ? 3 : 2));
     return surface;
 }
 

@@ -1170,6 +1170,12 @@ pub struct tl_nav_tile_stack {
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct tl_nav_tile_part {
+    pub begin: u32,
+    pub end: u32,
+}
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct tl_nav_surface {
     pub vertices: *const tl_vec3,
     pub vertex_count: u32,
@@ -5001,6 +5007,9 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_tile_stack, tiles), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_tile_stack, count), 8);
         assert_eq!(core::mem::offset_of!(tl_nav_tile_stack, allocator), 16);
+        assert_eq!(core::mem::size_of::<tl_nav_tile_part>(), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile_part, begin), 0);
+        assert_eq!(core::mem::offset_of!(tl_nav_tile_part, end), 4);
         assert_eq!(core::mem::size_of::<tl_nav_surface>(), 32);
         assert_eq!(core::mem::offset_of!(tl_nav_surface, vertices), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_surface, vertex_count), 8);

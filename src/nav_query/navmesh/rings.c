@@ -27,6 +27,64 @@ void tl_nav_set_edge(const tl_nav_rings *rings, uint64_t place, tl_nav_ring_edge
     }
 }
 
+tl_nav_ring_edge tl_nav_edge_of(const tl_nav_rings *rings, uint64_t place)
+{
+    return tl_nav_edge_at(rings->edges, rings->has_wide_edges, place);
+}
+
+uint32_t tl_nav_ring_first(const tl_nav_rings *rings, uint32_t polygon)
+{
+    return rings->has_wide_firsts ? ((const uint32_t *)rings->first)[polygon]
+                                  : ((const uint16_t *)rings->first)[polygon];
+}
+
+uint32_t tl_nav_ring_first_point(const tl_nav_rings *rings, uint32_t polygon)
+{
+    return rings->has_wide_firsts ? ((const uint32_t *)rings->first_point)[polygon]
+                                  : ((const uint16_t *)rings->first_point)[polygon];
+}
+
+uint32_t tl_nav_inner_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge)
+{
+    const uint32_t twin =
+        tl_nav_edge_of(rings, (uint64_t)tl_nav_ring_first(rings, polygon) + edge).mark & TL_NAV_RING_FAR_TWIN;
+    return twin < TL_NAV_RING_FAR_TWIN ? twin : tl_nav_find_far_twin(rings, polygon, edge);
+}
+
+void tl_nav_set_seam_twin(const tl_nav_rings *rings, uint64_t place, uint32_t twin, uint32_t count)
+{
+    const uint32_t near = twin >> tl_nav_seam_twin_shift(count);
+    tl_nav_ring_edge edge = tl_nav_edge_of(rings, place);
+    tl_nav_ring_seam *seam = &rings->seams[tl_nav_ring_seam_number(edge.to)];
+    seam->slot = (seam->slot & (TL_NAV_MAX_TILES - 1)) | (near >> TL_NAV_RING_TWIN_BITS) * TL_NAV_MAX_TILES;
+    edge.mark = (edge.mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) | (near & TL_NAV_RING_FAR_TWIN);
+    tl_nav_set_edge(rings, place, edge);
+}
+
+uint32_t tl_nav_seam_twin_shift(uint32_t count)
+{
+    uint32_t shift = 0;
+    while (count >> TL_NAV_SEAM_TWIN_BITS >> shift != 0) {
+        shift++;
+    }
+    return shift;
+}
+
+uint32_t tl_nav_seam_twin_hint(const tl_nav_rings *rings, tl_nav_ring_edge edge, uint32_t count)
+{
+    const uint32_t high = rings->seams[tl_nav_ring_seam_number(edge.to)].slot / TL_NAV_MAX_TILES;
+    return (high << TL_NAV_RING_TWIN_BITS | tl_nav_ring_twin_hint(edge)) << tl_nav_seam_twin_shift(count);
+}
+
+void tl_nav_set_ring_number(const tl_nav_rings *rings, tl_nav_ring_numbers numbers, uint32_t i, uint32_t number)
+{
+    if (rings->is_wide) {
+        numbers.wide[i] = number;
+    } else {
+        numbers.narrow[i] = (uint16_t)number;
+    }
+}
+
 static bool is_same_vertex(tl_vec3 a, tl_vec3 b)
 {
     return a.x == b.x && a.z == b.z;

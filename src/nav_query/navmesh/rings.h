@@ -132,17 +132,9 @@ tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings);
 void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot);
 
 /// A polygon's first edge. `polygon` <= polygon_count.
-static inline uint32_t tl_nav_ring_first(const tl_nav_rings *rings, uint32_t polygon)
-{
-    return rings->has_wide_firsts ? ((const uint32_t *)rings->first)[polygon]
-                                  : ((const uint16_t *)rings->first)[polygon];
-}
+uint32_t tl_nav_ring_first(const tl_nav_rings *rings, uint32_t polygon);
 
-static inline uint32_t tl_nav_ring_first_point(const tl_nav_rings *rings, uint32_t polygon)
-{
-    return rings->has_wide_firsts ? ((const uint32_t *)rings->first_point)[polygon]
-                                  : ((const uint16_t *)rings->first_point)[polygon];
-}
+uint32_t tl_nav_ring_first_point(const tl_nav_rings *rings, uint32_t polygon);
 
 /// The edge at a place. `is_wide`: of which kind they are.
 static inline tl_nav_ring_edge tl_nav_edge_at(tl_nav_ring_edges edges, bool is_wide, uint64_t place)
@@ -155,10 +147,7 @@ static inline tl_nav_ring_edge tl_nav_edge_at(tl_nav_ring_edges edges, bool is_w
 }
 
 /// The edge at a place among all of a tile's; and to write it.
-static inline tl_nav_ring_edge tl_nav_edge_of(const tl_nav_rings *rings, uint64_t place)
-{
-    return tl_nav_edge_at(rings->edges, rings->has_wide_edges, place);
-}
+tl_nav_ring_edge tl_nav_edge_of(const tl_nav_rings *rings, uint64_t place);
 void tl_nav_set_edge(const tl_nav_rings *rings, uint64_t place, tl_nav_ring_edge edge);
 
 /// The place of an edge in the ring of the polygon across, which is of the same tile and has more edges than fit a
@@ -166,12 +155,7 @@ void tl_nav_set_edge(const tl_nav_rings *rings, uint64_t place, tl_nav_ring_edge
 uint32_t tl_nav_find_far_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge);
 
 /// The same of any two polygons of one tile.
-static inline uint32_t tl_nav_inner_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge)
-{
-    const uint32_t twin =
-        tl_nav_edge_of(rings, (uint64_t)tl_nav_ring_first(rings, polygon) + edge).mark & TL_NAV_RING_FAR_TWIN;
-    return twin < TL_NAV_RING_FAR_TWIN ? twin : tl_nav_find_far_twin(rings, polygon, edge);
-}
+uint32_t tl_nav_inner_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t edge);
 
 /// Finds the branches of a tile, their number, and that of each polygon. Returns their ends, which stand in `scratch`:
 /// TL_NAV_BRANCH_SCRATCH * polygon_count + 1 numbers.
@@ -183,15 +167,7 @@ static inline uint32_t tl_nav_ring_number(const tl_nav_rings *rings, tl_nav_ring
     return rings->is_wide ? numbers.wide[i] : numbers.narrow[i];
 }
 
-static inline void tl_nav_set_ring_number(const tl_nav_rings *rings, tl_nav_ring_numbers numbers, uint32_t i,
-                                          uint32_t number)
-{
-    if (rings->is_wide) {
-        numbers.wide[i] = number;
-    } else {
-        numbers.narrow[i] = (uint16_t)number;
-    }
-}
+void tl_nav_set_ring_number(const tl_nav_rings *rings, tl_nav_ring_numbers numbers, uint32_t i, uint32_t number);
 
 static inline uint32_t tl_nav_component_of(const tl_nav_rings *rings, uint32_t polygon)
 {
@@ -270,32 +246,13 @@ static inline tl_nav_ring_seam tl_nav_ring_seam_of(const tl_nav_rings *rings, ui
 
 /// By how many bits a place in a ring of so many edges is shifted to fit TL_NAV_SEAM_TWIN_BITS: 0 in all but absurd
 /// ones.
-static inline uint32_t tl_nav_seam_twin_shift(uint32_t count)
-{
-    uint32_t shift = 0;
-    while (count >> TL_NAV_SEAM_TWIN_BITS >> shift != 0) {
-        shift++;
-    }
-    return shift;
-}
+uint32_t tl_nav_seam_twin_shift(uint32_t count);
 
 /// Notes near which of the `count` edges of the ring across a seam's edge, at a place among all of the tile's, stands.
-static inline void tl_nav_set_seam_twin(const tl_nav_rings *rings, uint64_t place, uint32_t twin, uint32_t count)
-{
-    const uint32_t near = twin >> tl_nav_seam_twin_shift(count);
-    tl_nav_ring_edge edge = tl_nav_edge_of(rings, place);
-    tl_nav_ring_seam *seam = &rings->seams[tl_nav_ring_seam_number(edge.to)];
-    seam->slot = (seam->slot & (TL_NAV_MAX_TILES - 1)) | (near >> TL_NAV_RING_TWIN_BITS) * TL_NAV_MAX_TILES;
-    edge.mark = (edge.mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) | (near & TL_NAV_RING_FAR_TWIN);
-    tl_nav_set_edge(rings, place, edge);
-}
+void tl_nav_set_seam_twin(const tl_nav_rings *rings, uint64_t place, uint32_t twin, uint32_t count);
 
 /// Where tl_nav_set_seam_twin says that an edge stands in the ring across, of `count` edges.
-static inline uint32_t tl_nav_seam_twin_hint(const tl_nav_rings *rings, tl_nav_ring_edge edge, uint32_t count)
-{
-    const uint32_t high = rings->seams[tl_nav_ring_seam_number(edge.to)].slot / TL_NAV_MAX_TILES;
-    return (high << TL_NAV_RING_TWIN_BITS | tl_nav_ring_twin_hint(edge)) << tl_nav_seam_twin_shift(count);
-}
+uint32_t tl_nav_seam_twin_hint(const tl_nav_rings *rings, tl_nav_ring_edge edge, uint32_t count);
 
 /// Which walls the vertex has where an edge starts.
 static inline uint32_t tl_nav_walls_number(tl_nav_ring_edge edge)
@@ -356,7 +313,7 @@ static inline tl_nav_ring_edge tl_nav_ring_edge_at(const tl_nav_ring *ring, uint
 /// What lies across edge i.
 static inline uint32_t tl_nav_ring_to(const tl_nav_ring *ring, uint32_t i)
 {
-    return tl_nav_ring_edge_at(ring, i).to;
+    return ring->has_wide_edges ? ring->edges.wide[i].to : (uint32_t)(int32_t)ring->edges.narrow[i].to;
 }
 
 #endif
