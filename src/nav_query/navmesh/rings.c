@@ -61,21 +61,6 @@ void tl_nav_set_seam_twin(const tl_nav_rings *rings, uint64_t place, uint32_t tw
     tl_nav_set_edge(rings, place, edge);
 }
 
-uint32_t tl_nav_seam_twin_shift(uint32_t count)
-{
-    uint32_t shift = 0;
-    while (count >> TL_NAV_SEAM_TWIN_BITS >> shift != 0) {
-        shift++;
-    }
-    return shift;
-}
-
-uint32_t tl_nav_seam_twin_hint(const tl_nav_rings *rings, tl_nav_ring_edge edge, uint32_t count)
-{
-    const uint32_t high = rings->seams[tl_nav_ring_seam_number(edge.to)].slot / TL_NAV_MAX_TILES;
-    return (high << TL_NAV_RING_TWIN_BITS | tl_nav_ring_twin_hint(edge)) << tl_nav_seam_twin_shift(count);
-}
-
 void tl_nav_set_ring_number(const tl_nav_rings *rings, tl_nav_ring_numbers numbers, uint32_t i, uint32_t number)
 {
     if (rings->is_wide) {

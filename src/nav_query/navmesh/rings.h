@@ -246,13 +246,24 @@ static inline tl_nav_ring_seam tl_nav_ring_seam_of(const tl_nav_rings *rings, ui
 
 /// By how many bits a place in a ring of so many edges is shifted to fit TL_NAV_SEAM_TWIN_BITS: 0 in all but absurd
 /// ones.
-uint32_t tl_nav_seam_twin_shift(uint32_t count);
+static inline uint32_t tl_nav_seam_twin_shift(uint32_t count)
+{
+    uint32_t shift = 0;
+    while (count >> TL_NAV_SEAM_TWIN_BITS >> shift != 0) {
+        shift++;
+    }
+    return shift;
+}
 
 /// Notes near which of the `count` edges of the ring across a seam's edge, at a place among all of the tile's, stands.
 void tl_nav_set_seam_twin(const tl_nav_rings *rings, uint64_t place, uint32_t twin, uint32_t count);
 
 /// Where tl_nav_set_seam_twin says that an edge stands in the ring across, of `count` edges.
-uint32_t tl_nav_seam_twin_hint(const tl_nav_rings *rings, tl_nav_ring_edge edge, uint32_t count);
+static inline uint32_t tl_nav_seam_twin_hint(const tl_nav_rings *rings, tl_nav_ring_edge edge, uint32_t count)
+{
+    const uint32_t high = rings->seams[tl_nav_ring_seam_number(edge.to)].slot / TL_NAV_MAX_TILES;
+    return (high << TL_NAV_RING_TWIN_BITS | tl_nav_ring_twin_hint(edge)) << tl_nav_seam_twin_shift(count);
+}
 
 /// Which walls the vertex has where an edge starts.
 static inline uint32_t tl_nav_walls_number(tl_nav_ring_edge edge)
