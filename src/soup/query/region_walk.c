@@ -11,7 +11,7 @@
 // table the second walks took half of a character's step on game maps.
 //
 // Where triangles are as large as the level the second walks are long, and there are as many as hits. So a region with
-// memory has its further triangles found in passes: each walks again, for the triangles of one class of hashes, which
+// memory has its further triangles found in passes: each walks again, for the triangles of a part of all hashes, which
 // are few enough for a table. A ray through 25,000 triangles of a k-d tree takes 0.08 s, by second walks it took 10 s.
 // (Looking for copies only around the point of the hit was no faster: a cell holds thousands of such triangles.)
 
@@ -36,7 +36,7 @@ typedef struct region_pass {
     const tl_region *region;
     seen_triangles *seen;         // by this pass; NULL in soups without copies
     const seen_triangles *before; // by the first pass; NULL in it
-    uint32_t class, class_count;  // of hashes, that are looked for
+    uint32_t part, part_count;    // of all hashes, that is looked for
     bool defers;                  // when `seen` is full, triangles are left to later passes
     uint64_t deferred;            // of them, copies counted too
 } region_pass;
@@ -137,10 +137,10 @@ static bool is_new(const tl_soup *soup, region_pass *pass, const tl_walk_triangl
     return true;
 }
 
-static bool is_in_class(const region_pass *pass, const tl_walk_leaf *leaf, uint32_t lane)
+static bool is_in_part(const region_pass *pass, const tl_walk_leaf *leaf, uint32_t lane)
 {
-    return pass->class_count == 1 ||
-           (tl_hash_mix(leaf->view.ids[lane] & TL_ID_INDEX) >> 32) % pass->class_count == pass->class;
+    return pass->part_count == 1 ||
+           (tl_hash_mix(leaf->view.ids[lane] & TL_ID_INDEX) >> 32) % pass->part_count == pass->part;
 }
 
 // Bit i: the own box of the triangle of lane i, which no walk scales, shares a point with `box`; of lanes without a
@@ -191,7 +191,7 @@ static bool report_leaf(const tl_walk *walk, region_pass *pass, uint32_t child)
     for (uint32_t lanes = lanes_to_read(&leaf, region); lanes != 0; lanes &= lanes - 1) {
         const uint32_t lane = tl_lowest_bit(lanes);
         tl_walk_triangle triangle;
-        if (is_in_class(pass, &leaf, lane) && tl_walk_read_triangle(&leaf, lane, &triangle) &&
+        if (is_in_part(pass, &leaf, lane) && tl_walk_read_triangle(&leaf, lane, &triangle) &&
             belongs(region, &triangle) && is_new(walk->soup, pass, &triangle) &&
             !region->found(&triangle, region->user)) {
             return false;
@@ -217,14 +217,14 @@ static bool walk_leaves(const tl_soup *soup, const tl_walk_scale *scale, region_
     return true;
 }
 
-// What the first pass has left: in classes that fill half of the table's room on average, so that none overflows but by
+// What the first pass has left: in parts that fill half of the table's room on average, so that none overflows but by
 // hashes that were made for it.
 static bool walk_in_passes(const tl_soup *soup, const tl_walk_scale *scale, const region_pass *first)
 {
-    const uint64_t class_count = first->deferred / (TL_REGION_SLOTS / 8 * 3) + 1;
-    seen_triangles seen = { first->region->memory->pass, TL_REGION_SLOTS, 0 };
-    region_pass pass = { first->region, &seen, first->seen, 0, (uint32_t)class_count, false, 0 };
-    for (; pass.class < pass.class_count; pass.class ++) {
+    const uint64_t part_count = first->deferred / (TL_REGION_SLOTS / 8 * 3) + 1;
+    seen_triangles seen = { first->region->memory->slots, TL_REGION_SLOTS, 0 };
+    region_pass pass = { first->region, &seen, first->seen, 0, (uint32_t)part_count, false, 0 };
+    for (; pass.part < pass.part_count; pass.part++) {
         memset(seen.slots, 0, TL_REGION_SLOTS * sizeof *seen.slots);
         seen.count = 0;
         if (!walk_leaves(soup, scale, &pass)) {
@@ -236,14 +236,11 @@ static bool walk_in_passes(const tl_soup *soup, const tl_walk_scale *scale, cons
 
 bool tl_region_walk_scaled(const tl_soup *soup, const tl_walk_scale *scale, const tl_region *region)
 {
-    uint32_t few[SEEN_SLOTS];
-    const bool has_memory = region->memory != NULL;
-    seen_triangles seen = { few, SEEN_SLOTS, 0 };
-    region_pass pass = { .region = region, .class_count = 1, .defers = has_memory };
+    uint32_t slots[SEEN_SLOTS];
+    seen_triangles seen = { slots, SEEN_SLOTS, 0 };
+    region_pass pass = { .region = region, .part_count = 1, .defers = region->memory != NULL };
     if (tl_walk_has_copies(soup)) {
-        seen.slots = has_memory ? region->memory->first : few;
-        seen.slot_count = has_memory ? TL_REGION_SLOTS : SEEN_SLOTS;
-        memset(seen.slots, 0, seen.slot_count * sizeof *seen.slots);
+        memset(slots, 0, sizeof slots);
         pass.seen = &seen;
     }
     return walk_leaves(soup, scale, &pass) && (pass.deferred == 0 || walk_in_passes(soup, scale, &pass));

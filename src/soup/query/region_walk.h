@@ -20,7 +20,7 @@ typedef bool tl_region_found_fn(const tl_walk_triangle *triangle, void *user);
 /// each.
 enum { TL_REGION_SLOTS = 1024 };
 typedef struct tl_region_memory {
-    uint32_t first[TL_REGION_SLOTS], pass[TL_REGION_SLOTS];
+    uint32_t slots[TL_REGION_SLOTS];
 } tl_region_memory;
 
 typedef struct tl_region {
@@ -32,7 +32,7 @@ typedef struct tl_region {
     tl_region_belongs_fn *belongs;
     tl_region_found_fn *found;
     void *user;
-    tl_region_memory *memory; ///< NULL: little, on the stack. Filled by the walk
+    tl_region_memory *memory; ///< may be NULL
 } tl_region;
 
 /// Returns false when `found` ended the walk. The order is not specified, but always the same. `scale` may be NULL.
