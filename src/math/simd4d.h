@@ -563,6 +563,12 @@ static inline void tl_f64x4_store(double *four, tl_f64x4 a)
 
 #endif
 
+/// Absolute values.
+static inline tl_f64x4 tl_f64x4_abs(tl_f64x4 a)
+{
+    return tl_f64x4_max(a, tl_f64x4_sub(tl_f64x4_all(0.0), a));
+}
+
 /// Lanes 0 to 2 of a x b; the fourth is 0 where those of a and b are numbers.
 static inline tl_f64x4 tl_f64x4_cross(tl_f64x4 a, tl_f64x4 b)
 {

@@ -221,6 +221,7 @@ static void run_f64x4(const simd_input *in, simd_output **out)
     put_f64x4(out, "f64x4_swap_lanes", tl_f64x4_swap_lanes(a));
     put_f64x4(out, "f64x4_swap_halves", tl_f64x4_swap_halves(a));
     put_f64x4(out, "f64x4_cross", tl_f64x4_cross(a, b));
+    put_f64x4(out, "f64x4_abs", tl_f64x4_abs(a));
     put_f64(out, "f64x4_get_x", tl_f64x4_get_x(a));
     put_f64(out, "f64x4_get_y", tl_f64x4_get_y(a));
     put_f64(out, "f64x4_get_z", tl_f64x4_get_z(a));

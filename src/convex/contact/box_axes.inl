@@ -7,11 +7,6 @@
 // Edges whose cross product is shorter are parallel, and then the faces' normals are as shallow to so much of the size.
 #define BOX_PARALLEL 1e-7
 
-static inline tl_f64x4 four_absolute(tl_f64x4 a)
-{
-    return tl_f64x4_max(a, tl_f64x4_sub(tl_f64x4_all(0.0), a));
-}
-
 // Of three vectors, each times a number.
 static inline tl_f64x4 four_sum(const tl_f64x4 v[3], const double s[3])
 {
@@ -24,16 +19,16 @@ void TL_FIND_BOX_AXES(tl_box_axes *p)
     tl_f64x4 turn[3], size[3], columns[3], column_sizes[3];
     for (int i = 0; i < 3; i++) {
         turn[i] = tl_f64x4_load(p->turn[i]);
-        size[i] = four_absolute(turn[i]);
+        size[i] = tl_f64x4_abs(turn[i]);
         columns[i] = tl_f64x4_load(p->columns[i]);
-        column_sizes[i] = four_absolute(columns[i]);
+        column_sizes[i] = tl_f64x4_abs(columns[i]);
     }
     const tl_f64x4 half_a = tl_f64x4_load(p->half_a), half_b = tl_f64x4_load(p->half_b),
                    apart = tl_f64x4_load(p->apart);
     const tl_f64x4 faces_a = tl_f64x4_add(half_a, four_sum(column_sizes, p->half_b)),
                    faces_b = tl_f64x4_add(half_b, four_sum(size, p->half_a));
-    tl_f64x4_store(p->depths[0], tl_f64x4_sub(faces_a, four_absolute(apart)));
-    tl_f64x4_store(p->depths[1], tl_f64x4_sub(faces_b, four_absolute(four_sum(turn, p->apart))));
+    tl_f64x4_store(p->depths[0], tl_f64x4_sub(faces_a, tl_f64x4_abs(apart)));
+    tl_f64x4_store(p->depths[1], tl_f64x4_sub(faces_b, tl_f64x4_abs(four_sum(turn, p->apart))));
     const tl_f64x4 next_b = tl_f64x4_rotate_three(half_b), last_b = tl_f64x4_rotate_three(next_b);
     for (int i = 0; i < 3; i++) {
         const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
@@ -45,7 +40,7 @@ void TL_FIND_BOX_AXES(tl_box_axes *p)
                        reach_b = tl_f64x4_add(tl_f64x4_mul(next_b, last_size), tl_f64x4_mul(last_b, next_size)),
                        along = tl_f64x4_add(tl_f64x4_mul(n1, tl_f64x4_all(p->apart[i1])),
                                             tl_f64x4_mul(n2, tl_f64x4_all(p->apart[i2]))),
-                       deep = tl_f64x4_sub(tl_f64x4_add(reach_a, reach_b), four_absolute(along));
+                       deep = tl_f64x4_sub(tl_f64x4_add(reach_a, reach_b), tl_f64x4_abs(along));
         tl_f64x4_store(p->depths[2 + i], tl_f64x4_where_less(tl_f64x4_all(BOX_PARALLEL * BOX_PARALLEL), length_sq,
                                                              tl_f64x4_div(deep, tl_f64x4_sqrt(length_sq)),
                                                              tl_f64x4_all((double)INFINITY)));

@@ -69,11 +69,6 @@ static inline four_corners project_four(const clip_outline *o, const tl_patch *p
     return four;
 }
 
-static inline tl_f64x4 four_sizes(tl_f64x4 a)
-{
-    return tl_f64x4_max(a, tl_f64x4_sub(tl_f64x4_all(0.0), a));
-}
-
 static TL_ALWAYS_INLINE void load_clip_outline(clip_outline *o, uint32_t lanes, const tl_patch *patch)
 {
     const four_corners first = project_four(o, patch, 0);
@@ -87,7 +82,7 @@ static TL_ALWAYS_INLINE void load_clip_outline(clip_outline *o, uint32_t lanes, 
         tl_f64x4_store(&o->y[i], four.y);
         tl_f64x4_store(&o->edge_x[i], edge_x);
         tl_f64x4_store(&o->edge_y[i], edge_y);
-        tl_f64x4_store(&o->least[i], tl_f64x4_mul(gap, tl_f64x4_add(four_sizes(edge_x), four_sizes(edge_y))));
+        tl_f64x4_store(&o->least[i], tl_f64x4_mul(gap, tl_f64x4_add(tl_f64x4_abs(edge_x), tl_f64x4_abs(edge_y))));
         four = next;
     }
 }
