@@ -84,7 +84,8 @@ typedef struct tl_nav_wide_report {
 /// answered as without it. When a tile is added or removed, the tiles within the radius and one tile around it are
 /// dropped; the next call makes those anew, and no others unless the radius changes. Radius 0 frees the memory.
 /// O(polygons, and the pairs of walls around each). Changes the navmesh: no query may run meanwhile. `report_out` may
-/// be NULL. TL_ERR_MEMORY, TL_ERR_LIMIT: what was made stays. TL_ERR_NOT_FINITE, TL_ERR_ARGUMENT: the radius.
+/// be NULL. TL_ERR_MEMORY; TL_ERR_LIMIT, also where more than some 50,000 lines of sight, parted by vertices, leave a
+/// polygon (levels take 2,000 at most): what was made stays. TL_ERR_NOT_FINITE, TL_ERR_ARGUMENT: the radius.
 TL_API tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_def *def,
                                          tl_nav_wide_report *report_out);
 

@@ -454,6 +454,33 @@ static void test_arguments(void **state)
     tl_navmesh_destroy(navmesh);
 }
 
+// Over thousands of small polygons lines of sight part at each vertex, 49,000 here: a look ends after as many as the
+// query has nodes, and some more.
+static void test_lines_of_sight_are_bounded(void **state)
+{
+    (void)state;
+    test_random random = { 5 };
+    fixture_level level = fixture_random(&random, 0, FIXTURE_MAX_CELLS);
+    level.shake = FIXTURE_STEP / 4;
+    level.triangles = true;
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    const float side = (float)(FIXTURE_MAX_CELLS * FIXTURE_STEP) * level.cell_size;
+    const tl_vec3 middle = tl_vec3_make(0.5f * side, 0.0f, 0.5f * side);
+    tl_nav_location at;
+    TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, middle, tl_vec3_make(1, 99, 1), &at), TL_OK);
+    const tl_nav_corner corner = { .point = at.point, .polygon = at.polygon };
+    // The walls, at the level's rim, are hardly within reach.
+    const float reach = 0.48f * side;
+    float clearance = 0.0f;
+    tl_nav_query *small = fixture_query(512), *large = fixture_query(1 << 17);
+    TEST_RESULT(tl_nav_query_path_clearance(small, navmesh, NULL, &corner, 1, reach, &clearance), TL_ERR_NODES);
+    TEST_RESULT(tl_nav_query_path_clearance(large, navmesh, NULL, &corner, 1, reach, &clearance), TL_OK);
+    TEST_CHECK(clearance > 0.9f * reach);
+    tl_nav_query_destroy(small);
+    tl_nav_query_destroy(large);
+    tl_navmesh_destroy(navmesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -461,6 +488,7 @@ int main(void)
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_filter),
         cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_lines_of_sight_are_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

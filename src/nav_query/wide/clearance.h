@@ -31,6 +31,7 @@ typedef struct tl_nav_clearance {
     bool is_enough;         ///< of walls beyond a distance at which one forbids all of a polygon, none need be found
     tl_nav_scratch scratch; ///< what is left of the query's memory
     bool is_full;           ///< it was not enough
+    bool is_out_of_beams;   ///< full, for lines of sight branch without end (visible_walls.c)
 } tl_nav_clearance;
 
 /// Metres lost to rounding when a place of a coordinate's size is kept as floats, and distances are taken from it: the

@@ -28,8 +28,9 @@
 
 #include <string.h>
 
-// Nodes of the query that gathers walls, at first and at most: its memory holds the walls of one polygon.
-enum { FIRST_NODES = 1 << 10, LAST_NODES = 1 << 24 };
+// Nodes of the query that gathers walls, at first and at most: its memory holds the walls of one polygon. From
+// MOST_BEAMS on no more are taken for the sake of lines of sight.
+enum { FIRST_NODES = 1 << 10, LAST_NODES = 1 << 24, MOST_BEAMS = 1 << 15 };
 
 // Share by which a kept distance is too small: many roundings of the distance, and of the cut that asks for it.
 static const double ROUND_DOWN = 1.0 - 0x1p-20;
@@ -194,7 +195,7 @@ static tl_result gather_walls(wall_baker *b, uint32_t slot, uint32_t polygon, tl
             reach = reach > 0.0 && 2.0 * reach < whole_level ? tl_min_f64(2.0 * reach, b->reach) : b->reach;
             continue;
         }
-        if (b->query->max_nodes == LAST_NODES) {
+        if (b->query->max_nodes == LAST_NODES || (clearance.is_out_of_beams && b->query->max_nodes >= MOST_BEAMS)) {
             return TL_ERR_LIMIT;
         }
         TL_TRY(make_wall_query(b, 2 * b->query->max_nodes));

@@ -99,6 +99,11 @@ bool tl_nav_is_clear(const tl_nav_near_walls *near, tl_nav_spot a, tl_nav_spot b
     return true;
 }
 
+// Beams that one look follows: as many as the query has nodes, and these. Of the levels that the tests know none takes
+// more than 2,000, over a hundred metres of terrain. Among many small polygons that lie over one another, as only bytes
+// from strangers have them, beams part and meet again for millions.
+enum { SPARE_BEAMS = 1 << 14 };
+
 // What is seen of the surface from a shape through a window: an edge, or the part of it that earlier ones let see.
 typedef struct beam {
     tl_nav_met from, at;                 // polygons before and behind the window
@@ -360,10 +365,16 @@ bool tl_nav_add_visible_walls(tl_nav_clearance *clearance, tl_nav_met at, const 
     beam *bottom = (beam *)(void *)clearance->scratch.high;
     wall_walk walk = { clearance,        &reach, distance, (tl_nav_near_wall *)(void *)clearance->scratch.low,
                        near->wall_count, bottom, false };
+    uint32_t beams_left = clearance->query->max_nodes + SPARE_BEAMS;
     bool fits = cast_beams(&walk, at, NULL);
-    while (fits && !walk.is_covered && walk.top < bottom) {
+    while (fits && !walk.is_covered && walk.top < bottom && beams_left > 0) {
         const beam next = *walk.top++;
         fits = !((double)next.distance_sq < reach.distance_sq) || cast_beams(&walk, next.at, &next);
+        beams_left--;
+    }
+    if (fits && !walk.is_covered && walk.top < bottom) {
+        clearance->is_out_of_beams = true;
+        fits = false;
     }
     near->wall_count = walk.count;
     near->within = walk.distance;
