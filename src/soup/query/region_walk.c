@@ -108,7 +108,7 @@ static TL_NOINLINE bool is_first_copy(const tl_soup *soup, const tl_region *regi
 }
 
 // The triangle's slot, or the free one where it would be.
-static uint32_t *find_slot(const seen_triangles *seen, uint32_t triangle)
+static uint32_t *find_seen(const seen_triangles *seen, uint32_t triangle)
 {
     uint32_t slot = (uint32_t)tl_hash_mix(triangle) % seen->slot_count;
     while (seen->slots[slot] != 0 && seen->slots[slot] != triangle + 1) {
@@ -124,8 +124,8 @@ static bool is_new(const tl_soup *soup, region_pass *pass, const tl_walk_triangl
     if (seen == NULL) {
         return true;
     }
-    uint32_t *slot = find_slot(seen, triangle->triangle);
-    if (*slot != 0 || (pass->before != NULL && *find_slot(pass->before, triangle->triangle) != 0)) {
+    uint32_t *slot = find_seen(seen, triangle->triangle);
+    if (*slot != 0 || (pass->before != NULL && *find_seen(pass->before, triangle->triangle) != 0)) {
         return false;
     }
     if (seen->count == seen->slot_count / 4 * 3) {
