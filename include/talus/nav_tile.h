@@ -78,12 +78,12 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail);
 // it through the functions below.
 
 // tl_nav_tile.wide: which arrays have their wider elements. Each bit is set where a tile needs it, and only there.
-#define TL_NAV_WIDE_TRIANGLES 1u  ///< some patch has more than 256 vertices
-#define TL_NAV_WIDE_LATTICE   2u  ///< some lattice coordinate is no 16-bit number
-#define TL_NAV_WIDE_CORNERS   4u  ///< there are more than 65,536 lattice vertices
-#define TL_NAV_WIDE_LINKS     8u  ///< there are more than 32,768 polygons, or 32,767 portals
-#define TL_NAV_WIDE_FIRSTS    32u ///< more than 65,535 corners, detail vertices or detail triangles
+#define TL_NAV_WIDE_TRIANGLES 1u ///< some patch has more than 256 vertices
+#define TL_NAV_WIDE_LATTICE   2u ///< some lattice coordinate is no 16-bit number
+#define TL_NAV_WIDE_CORNERS   4u ///< there are more than 65,536 lattice vertices
+#define TL_NAV_WIDE_LINKS     8u ///< there are more than 32,768 polygons, or 32,767 portals
 #define TL_NAV_WIDE_FLAGS     16u ///< some polygon's flags do not fit 8 bits. A tile whose flags were changed may keep it
+#define TL_NAV_WIDE_FIRSTS    32u ///< more than 65,535 corners, detail vertices or detail triangles
 
 // Values of links beside polygons: below zero as integers, so that those of 16 bits become these by their sign.
 #define TL_NAV_LINK_WALL      UINT32_MAX ///< nothing lies across this edge

@@ -46,3 +46,5 @@ void TL_FIND_BOX_AXES(tl_box_axes *p)
                                                              tl_f64x4_all((double)INFINITY)));
     }
 }
+
+#undef TL_FIND_BOX_AXES

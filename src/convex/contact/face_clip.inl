@@ -255,3 +255,5 @@ bool TL_FACE_CLIP(const tl_face *a, const tl_face *b, const tl_patch_heights hei
     return a->count <= 4 && b->count <= 4 ? clip_faces(a, b, 4, heights, patch)
                                           : clip_faces(a, b, TL_SMALL_FACE, heights, patch);
 }
+
+#undef TL_FACE_CLIP

@@ -146,7 +146,7 @@ bool TL_SCAN_PLACE(const tl_frame *b_to_a, tl_vertex_row row_a, tl_vertex_row ro
     return true;
 }
 
-static inline four_points four_corners(const tl_placed_points *points, const uint8_t (*faces)[3], int corner)
+static inline four_points corners_of_four(const tl_placed_points *points, const uint8_t (*faces)[3], int corner)
 {
     const uint32_t at[4] = { faces[0][corner], faces[1][corner], faces[2][corner], faces[3][corner] };
     const four_points p = { tl_f64x4_gather(points->x, at), tl_f64x4_gather(points->y, at),
@@ -177,9 +177,9 @@ uint32_t TL_SCAN_NEAREST(const tl_placed_points *points, const uint8_t (*corners
     tl_f64x4 least = tl_f64x4_all((double)INFINITY);
     for (uint32_t i = 0; i < count; i += 4) {
         const uint32_t at = i + 4 <= count ? i : count - 4; // of the last four some may be computed again
-        const four_points last = four_corners(points, corners + at, 2),
-                          p = four_sub(four_corners(points, corners + at, 0), last),
-                          q = four_sub(four_corners(points, corners + at, 1), last);
+        const four_points last = corners_of_four(points, corners + at, 2),
+                          p = four_sub(corners_of_four(points, corners + at, 0), last),
+                          q = four_sub(corners_of_four(points, corners + at, 1), last);
         const four_points normal = { four_minor(p.y, q.z, p.z, q.y), four_minor(p.z, q.x, p.x, q.z),
                                      four_minor(p.x, q.y, p.y, q.x) };
         const tl_f64x4 offset = tl_f64x4_sub(four_dots(normal, last), turned_four),
