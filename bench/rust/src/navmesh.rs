@@ -14,6 +14,10 @@ use talus_sys as sys;
 
 const PATHS: usize = 2000;
 
+// Bits of a tile's `wide`: TL_NAV_WIDE_CORNERS and TL_NAV_WIDE_FIRSTS, which are macros.
+const WIDE_CORNERS: u32 = 4;
+const WIDE_FIRSTS: u32 = 32;
+
 /// The tiles of a bake, one here.
 struct Tiles(sys::tl_nav_tiles);
 
@@ -47,28 +51,40 @@ impl Tiles {
     }
 
     /// Part of the tile.
-    fn part<T>(&self, offset: u64, count: u32) -> &[T] {
+    fn part<T>(&self, offset: u32, count: u32) -> &[T] {
         let tile: *const sys::tl_nav_tile = self.tile();
-        // SAFETY: a tile's offsets are bytes from its beginning, where so many items lie.
-        unsafe { std::slice::from_raw_parts(tile.cast::<u8>().add(offset as usize).cast(), count as usize) }
+        // SAFETY: a tile's offsets count 8 bytes from its beginning, where so many items lie.
+        unsafe { std::slice::from_raw_parts(tile.cast::<u8>().add(8 * offset as usize).cast(), count as usize) }
+    }
+
+    /// Number `i` of an array of 16 bits each, or of 32 where the tile has the bit `wide`.
+    fn number(&self, offset: u32, wide: u32, i: u32) -> u32 {
+        if self.tile().wide & wide != 0 {
+            self.part::<u32>(offset, i + 1)[i as usize]
+        } else {
+            u32::from(self.part::<u16>(offset, i + 1)[i as usize])
+        }
     }
 
     /// The polygons as triangles in the plane.
     fn triangles(&self) -> Trimesh {
         let tile = self.tile();
-        let first: &[u32] = self.part(tile.first_corner, tile.polygon_count + 1);
-        let corners: &[sys::tl_vec3] = self.part(tile.corners, tile.corner_count);
-        let numbers: &[u32] = self.part(tile.corner_vertices, tile.corner_count);
+        // Of each polygon its corners, then added ones.
+        let points: &[sys::tl_vec3] = self.part(tile.detail_vertices, tile.detail_vertex_count);
         let mut vertices = vec![Vec2::ZERO; tile.vertex_count as usize];
-        for (corner, &number) in corners.iter().zip(numbers) {
-            vertices[number as usize] = Vec2::new(corner.x, corner.z);
-        }
         let mut triangles = Vec::new();
-        for ends in first.windows(2) {
-            let polygon = &numbers[ends[0] as usize..ends[1] as usize];
+        for p in 0..tile.polygon_count {
+            let first = self.number(tile.first_corner, WIDE_FIRSTS, p);
+            let end = self.number(tile.first_corner, WIDE_FIRSTS, p + 1);
+            let first_point = self.number(tile.detail_first_vertex, WIDE_FIRSTS, p);
+            let polygon: Vec<usize> =
+                (first..end).map(|corner| self.number(tile.corner_vertices, WIDE_CORNERS, corner) as usize).collect();
+            for (&vertex, point) in polygon.iter().zip(&points[first_point as usize..]) {
+                vertices[vertex] = Vec2::new(point.x, point.z);
+            }
             for pair in polygon[1..].windows(2) {
                 // x and z are mirrored to x and y: the winding turns.
-                triangles.push([polygon[0] as usize, pair[1] as usize, pair[0] as usize]);
+                triangles.push([polygon[0], pair[1], pair[0]]);
             }
         }
         Trimesh { vertices, triangles }
