@@ -231,9 +231,7 @@ static uint32_t keep_last(tl_patch *patch, const tl_patch_point *kept[4])
     for (; last.count < 4; known &= known - 1) {
         last.points[last.count++] = &patch->points[tl_lowest_bit(known)];
     }
-    if (!patch->in_order) {
-        sort_around(&last);
-    }
+    sort_around(&last);
     double area = whole_area(&last);
     if (!(area >= 2.0 * KEPT_AREA * box_area(patch))) {
         add_extremes(patch, &all);
@@ -343,5 +341,4 @@ void tl_patch_thin(tl_patch *patch)
         patch->points[i] = kept[i];
     }
     patch->count = c.count;
-    patch->in_order = false;
 }

@@ -49,7 +49,6 @@ static void add_deepest(tl_patch *patch, const tl_deepest *deepest)
                              { deepest->features[0], deepest->features[1] }, TL_NO_CONTACT };
     tl_patch_match(patch, &point);
     patch->points[patch->count++] = point;
-    patch->in_order = false;
 }
 
 // No point is deeper than the support along the normal. At the tip of a needle, corners that are within rounding of

@@ -169,7 +169,6 @@ void tl_patch_find(const tl_face *a, const tl_face *b, double limit, const tl_co
     }
     patch->limit = limit;
     patch->count = 0;
-    patch->in_order = false;
     patch->gap = EDGE_GAP * fmax(extent(a), extent(b));
     const tl_patch_heights heights[2] = { face_heights(a, patch), face_heights(b, patch) };
     if (a->count == 2 && b->count == 2) {

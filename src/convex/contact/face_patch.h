@@ -64,9 +64,8 @@ typedef struct tl_patch {
     uint32_t count;
     const tl_patch_point *chosen[TL_MAX_CONTACTS]; // by tl_patch_choose
     uint32_t chosen_count;
-    bool in_order; // they go around, counter-clockwise
-    double gap;    // metres; corners closer than this are one
-    double limit;  // metres; points farther apart than this are left out
+    double gap;   // metres; corners closer than this are one
+    double limit; // metres; points farther apart than this are left out
 } tl_patch;
 
 // A face's plane over the patch's.
