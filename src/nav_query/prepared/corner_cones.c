@@ -9,8 +9,8 @@
 //
 // A cone is kept as two directions of whole steps from its corner vertex v, 12 bytes with what follows, since a city
 // has a million: a direction D, whose larger component is M metres, becomes s D with s = TL_NAV_CONE_STEPS / M, rounded
-// by half a step in each component. D itself is off by up to 4 r, r the rounding of coordinates, in each component and
-// in where its line begins. So a point v + d that lies left of D has
+// by half a step in each component. D itself is off by up to 4 r, r the graph's rounding, in each component and in
+// where its line begins. So a point v + d that lies left of D has
 //
 //   cross(kept, d) >= -(e |d| + 4 r |kept|),  e = 1/2 + 4 r s and what floats round,
 //
@@ -128,15 +128,17 @@ static uint32_t join_cones(tl_nav_corner_cone *cones, uint32_t count)
 #define CONE_LEAST_SLACK 0.51
 
 // A slack is (1 + (code % 8) / 8) 2^(code / 8 - 1): the high bits of a float.
-enum { SLACK_SHIFT = 20, SLACK_LOWEST = 126 << 23, SLACK_CODE_SHIFT = 24, SLACK_LAST = 255 };
+enum { SLACK_SHIFT = 20, SLACK_LOWEST = 126 << 23, SLACK_CODE_SHIFT = 24 };
 
-// The code of a slack that is no smaller than `slack` >= 0.5; SLACK_LAST may be smaller.
+// The code of a slack of 0.5 and more, rounded up. As directions are longer than their rounding, it is below 2^17.
 static uint32_t slack_code(double slack)
 {
-    const float value = (float)tl_min_f64(slack * (1.0 + 1e-6), 1e9);
+    const float value = (float)(slack * (1.0 + 2.0 * (double)TL_FLOAT_ROUNDING));
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
-    return tl_min_u32((bits - SLACK_LOWEST + (1u << SLACK_SHIFT) - 1) >> SLACK_SHIFT, SLACK_LAST);
+    const uint32_t code = (bits - SLACK_LOWEST + (1u << SLACK_SHIFT) - 1) >> SLACK_SHIFT;
+    TL_ASSERT(code < 256);
+    return code;
 }
 
 // Steps a metre of a direction; 0 where it has no length, or so little that it leads anywhere.
@@ -151,24 +153,10 @@ static int16_t whole_steps(double steps)
     return (int16_t)lrint(steps);
 }
 
-// The rounding of coordinates in a polygon.
-static double polygon_rounding(const tl_navmesh *navmesh, const tl_nav_visibility_graph *graph, uint32_t slot,
-                               uint32_t polygon)
+static void write_cone(const tl_nav_visibility_graph *graph, const tl_nav_corner_cone *cone, uint32_t at)
 {
-    const tl_nav_ring ring = tl_nav_ring_at(navmesh, slot, polygon);
-    double largest = 0.0;
-    for (uint32_t i = 0; i < ring.count; i++) {
-        const tl_vec3 corner = ring.points[i];
-        largest = tl_max_f64(largest, tl_max_f64(fabs((double)corner.x), fabs((double)corner.z)));
-    }
-    return tl_max_f64(graph->rounding, TL_NAV_ON_LINE * largest);
-}
-
-static void write_cone(const tl_navmesh *navmesh, tl_nav_visibility_graph *graph, const tl_nav_corner_cone *cone,
-                       uint32_t at)
-{
-    tl_nav_corner_cones *cones = &graph->cones;
-    const double rounding = polygon_rounding(navmesh, graph, cone->slot, cone->polygon);
+    const tl_nav_corner_cones *cones = &graph->cones;
+    const double rounding = graph->rounding;
     const double left = steps_a_metre(cone->left_x, cone->left_z, rounding);
     const double right = steps_a_metre(cone->right_x, cone->right_z, rounding);
     cones->left_x[at] = whole_steps((double)cone->left_x * left);
@@ -177,7 +165,6 @@ static void write_cone(const tl_navmesh *navmesh, tl_nav_visibility_graph *graph
     cones->right_z[at] = whole_steps(-(double)cone->right_z * right);
     const uint32_t slack = slack_code(CONE_LEAST_SLACK + 4.0 * rounding * tl_max_f64(left, right));
     cones->vertex[at] = cone->vertex | slack << SLACK_CODE_SHIFT;
-    cones->rounding = tl_max_f64(cones->rounding, rounding);
 }
 
 // Room for `capacity` cones.
@@ -286,7 +273,7 @@ static uint32_t lay_polygon(const cone_layout *l, uint32_t slot, uint32_t polygo
     const uint32_t *range = old_cones(l->navmesh, l->reuse, slot, polygon);
     uint32_t count = range != NULL ? copy_cones(l->reuse, range, &l->graph->cones, at) : 0;
     for (uint32_t i = l->first[p]; i < l->first[p + 1]; i++, count++) {
-        write_cone(l->navmesh, l->graph, &l->grouped[i], at + count);
+        write_cone(l->graph, &l->grouped[i], at + count);
     }
     return count;
 }
@@ -295,7 +282,6 @@ static uint32_t lay_polygon(const cone_layout *l, uint32_t slot, uint32_t polygo
 static tl_result lay_cones(const cone_layout *l)
 {
     tl_nav_corner_cones *cones = &l->graph->cones;
-    cones->rounding = tl_max_f64(l->graph->rounding, l->reuse->old != NULL ? l->reuse->old->cones.rounding : 0.0);
     uint32_t p = 0;
     for (uint32_t slot = 0; slot < l->graph->slot_count; slot++) {
         const tl_nav_slot *in = &l->navmesh->slots[slot];
@@ -378,7 +364,7 @@ static void test_cones(const tl_nav_visibility_graph *graph, uint32_t base, floa
     const uint32_t *words = cones->vertex + base;
     const int16_t *left_x = cones->left_x + base, *left_z = cones->left_z + base;
     const int16_t *right_x = cones->right_x + base, *right_z = cones->right_z + base;
-    const float line = (float)(8.0 * TL_NAV_CONE_STEPS * cones->rounding);
+    const float line = (float)(8.0 * TL_NAV_CONE_STEPS * graph->rounding);
     float dx[N], dz[N], least[N], left[N], right[N];
     for (uint32_t k = 0; k < N; k++) {
         const tl_nav_corner_vertex *vertex = &graph->vertices[words[k] & (TL_NAV_MAX_CORNER_VERTICES - 1)];

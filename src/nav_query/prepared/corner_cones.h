@@ -30,7 +30,6 @@ typedef struct tl_nav_corner_cones {
     uint32_t count;
     uint64_t places; ///< of each array
     uint32_t *block; ///< that all arrays but the first stand in
-    double rounding; ///< metres within which the line of a direction is where it should be
 } tl_nav_corner_cones;
 
 /// Bytes of the cones, and of where they stand.
