@@ -242,6 +242,12 @@ static inline const void *tl_nav_tile_at(const tl_nav_tile *tile, uint32_t offse
     return (const char *)tile + 8 * (uint64_t)offset;
 }
 
+/// The same of a tile that its owner writes to.
+static inline void *tl_nav_tile_to_write(tl_nav_tile *tile, uint32_t offset)
+{
+    return (char *)tile + 8 * (uint64_t)offset;
+}
+
 /// Metres of a lattice coordinate: the one formula by which all tiles place their corners.
 /// `tile_index` * `tile_size` is the tile's own offset in the lattice; 0 for y.
 static inline float tl_nav_tile_position(float origin, int32_t tile_index, uint32_t tile_size, int32_t lattice,
@@ -525,11 +531,11 @@ TL_API tl_result tl_nav_tile_copy(const tl_nav_tile *tile, bool has_wide_flags, 
 /// Sets a polygon's flags: up to 255 without TL_NAV_WIDE_FLAGS.
 static inline void tl_nav_tile_set_flags(tl_nav_tile *tile, uint32_t polygon, uint64_t flags)
 {
-    char *at = (char *)tile + 8 * (uint64_t)tile->flags;
+    void *all = tl_nav_tile_to_write(tile, tile->flags);
     if ((tile->wide & TL_NAV_WIDE_FLAGS) != 0) {
-        ((uint64_t *)(void *)at)[polygon] = flags;
+        ((uint64_t *)all)[polygon] = flags;
     } else {
-        ((uint8_t *)at)[polygon] = (uint8_t)flags;
+        ((uint8_t *)all)[polygon] = (uint8_t)flags;
     }
 }
 

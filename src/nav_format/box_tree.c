@@ -91,17 +91,11 @@ void tl_nav_set_inner_box(tl_nav_tile_node *inner, const tl_nav_tile_node *a, co
     }
 }
 
-// To be written.
-static tl_nav_tile_node *tree_nodes_of(tl_nav_tile *tile)
-{
-    return (tl_nav_tile_node *)(void *)((char *)tile + 8 * (uint64_t)tile->nodes);
-}
-
 void tl_nav_tile_fit_boxes(tl_nav_tile *tile)
 {
     tile->bounds = tl_nav_tile_surface_bounds(tile);
     tile->node_steps = tl_nav_steps_over(tile->bounds);
-    tl_nav_tile_node *nodes = tree_nodes_of(tile);
+    tl_nav_tile_node *nodes = tl_nav_tile_to_write(tile, tile->nodes);
     for (uint32_t i = tile->node_count; i > 0; i--) {
         if ((nodes[i - 1].link & TL_NAV_NODE_LEAF) != 0) {
             tl_nav_set_leaf_box(tile, &nodes[i - 1]);
@@ -170,7 +164,7 @@ tl_result tl_nav_bake_box_tree(tl_nav_tile *tile, tl_arena *arena)
     uint32_t count = tile->polygon_count;
     tl_aabb *boxes = TL_PUSH(arena, tl_aabb, count);
     tree_build build = { boxes, TL_PUSH(arena, tl_sort_item, count), TL_PUSH(arena, tl_sort_item, count),
-                         tree_nodes_of(tile) };
+                         tl_nav_tile_to_write(tile, tile->nodes) };
     if (boxes == NULL || build.items == NULL || build.scratch == NULL) {
         return TL_ERR_MEMORY;
     }

@@ -263,15 +263,16 @@ static tl_result make_header(set_tile at, tl_detour_header *header, tl_detour_re
 
 static void write_polygon(const tl_nav_tile *tile, uint32_t p, uint8_t *bytes)
 {
+    const tl_nav_tile_part corners = tl_nav_tile_part_of(tile, tile->first_corner, p);
     tl_detour_polygon out;
     memset(&out, 0, sizeof out);
     out.first_link = UINT32_MAX;
     out.flags = (uint16_t)tl_nav_tile_flags(tile, p);
-    out.vertex_count = (uint8_t)(tl_nav_tile_first_corner(tile, p + 1) - tl_nav_tile_first_corner(tile, p));
+    out.vertex_count = (uint8_t)(corners.end - corners.begin);
     out.area_and_type = (uint8_t)(tl_nav_tile_area(tile, p) | TL_DETOUR_GROUND << 6);
     for (uint32_t k = 0; k < out.vertex_count; k++) {
         uint32_t across = tl_nav_tile_neighbour(tile, p, k);
-        out.vertices[k] = (uint16_t)tl_nav_tile_corner_vertex(tile, tl_nav_tile_first_corner(tile, p) + k);
+        out.vertices[k] = (uint16_t)tl_nav_tile_corner_vertex(tile, corners.begin + k);
         out.neighbours[k] = across == TL_NO_POLYGON ? 0
                             : across >= TL_PORTAL   ? (uint16_t)(TL_DETOUR_EXTERNAL | DETOUR_SIDES[across & 3u])
                                                     : (uint16_t)(across + 1);

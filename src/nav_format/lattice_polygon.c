@@ -19,10 +19,10 @@ void tl_nav_gather_polygon(const int32_t *vertices, const uint32_t *corners, uin
 
 void tl_nav_gather_tile_polygon(const tl_nav_tile *tile, uint32_t polygon, tl_nav_lattice_polygon *polygon_out)
 {
-    polygon_out->count = tl_nav_tile_first_corner(tile, polygon + 1) - tl_nav_tile_first_corner(tile, polygon);
+    const tl_nav_tile_part corners = tl_nav_tile_part_of(tile, tile->first_corner, polygon);
+    polygon_out->count = corners.end - corners.begin;
     for (uint32_t i = 0; i < polygon_out->count; i++) {
-        const tl_nav_lattice_point point =
-            tl_nav_tile_vertex(tile, tl_nav_tile_corner_vertex(tile, tl_nav_tile_first_corner(tile, polygon) + i));
+        const tl_nav_lattice_point point = tl_nav_tile_vertex(tile, tl_nav_tile_corner_vertex(tile, corners.begin + i));
         memcpy(polygon_out->points + 3 * (size_t)i, point.at, sizeof point.at);
     }
 }

@@ -131,7 +131,8 @@ static bool tile_links_back(const tl_nav_tile *tile, uint32_t polygon, uint32_t 
     const uint32_t other = tl_nav_tile_link(tile, corner);
     const uint32_t begin = tl_nav_tile_corner_vertex(tile, corner);
     const uint32_t end = tl_nav_tile_corner_vertex(tile, tl_nav_tile_next_corner(tile, polygon, corner));
-    for (uint32_t k = tl_nav_tile_first_corner(tile, other); k < tl_nav_tile_first_corner(tile, other + 1); k++) {
+    const tl_nav_tile_part corners = tl_nav_tile_part_of(tile, tile->first_corner, other);
+    for (uint32_t k = corners.begin; k < corners.end; k++) {
         if (tl_nav_tile_link(tile, k) == polygon && tl_nav_tile_corner_vertex(tile, k) == end &&
             tl_nav_tile_corner_vertex(tile, tl_nav_tile_next_corner(tile, other, k)) == begin) {
             return true;
@@ -166,7 +167,8 @@ static tl_result check_polygons(const tl_nav_tile *tile, tl_report *report)
         if (tl_nav_tile_area(tile, p) == 0 || tl_nav_double_area(&outline) <= 0 || !tl_nav_is_convex(&outline)) {
             return corrupt(report, "polygon", p);
         }
-        for (uint32_t k = tl_nav_tile_first_corner(tile, p); k < tl_nav_tile_first_corner(tile, p + 1); k++) {
+        const tl_nav_tile_part corners = tl_nav_tile_part_of(tile, tile->first_corner, p);
+        for (uint32_t k = corners.begin; k < corners.end; k++) {
             if (!is_link(tile, p, k)) {
                 return corrupt(report, "polygon", p);
             }

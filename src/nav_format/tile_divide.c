@@ -39,7 +39,8 @@ static tl_result number_cuts(const tl_nav_tile *tile, const uint32_t *layers, tl
     }
     uint32_t count = 0;
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        for (uint32_t k = tl_nav_tile_first_corner(tile, p); k < tl_nav_tile_first_corner(tile, p + 1); k++) {
+        const tl_nav_tile_part corners = tl_nav_tile_part_of(tile, tile->first_corner, p);
+        for (uint32_t k = corners.begin; k < corners.end; k++) {
             const uint32_t across = tl_nav_tile_link(tile, k);
             if (across < TL_NAV_LINK_PORTAL && across > p && layers[across] != layers[p]) {
                 const uint32_t a = tl_nav_tile_corner_vertex(tile, k);

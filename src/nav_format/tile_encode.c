@@ -13,11 +13,6 @@
 
 #include <string.h>
 
-static void *array_of(tl_nav_tile *tile, uint32_t offset)
-{
-    return (char *)tile + 8 * (uint64_t)offset;
-}
-
 // Which arrays need their wider elements.
 static void bake_widths(const tl_nav_tile_source *source, tl_nav_tile *tile)
 {
@@ -71,51 +66,47 @@ static void bake_header(const tl_nav_tile_source *source, const tl_nav_portals *
     bake_widths(source, tile);
 }
 
-// In 32 bits or in 16, which hold them.
-static void bake_integers(const uint32_t *from, size_t count, bool is_wide, void *to)
+// In 32 bits or in 16, which hold it.
+static void write_integer(void *array, size_t i, bool is_wide, uint32_t value)
 {
     if (is_wide) {
-        memcpy(to, from, count * sizeof *from);
-        return;
+        ((uint32_t *)array)[i] = value;
+    } else {
+        ((uint16_t *)array)[i] = (uint16_t)value;
     }
+}
+
+static void bake_integers(const uint32_t *from, size_t count, bool is_wide, void *to)
+{
     for (size_t i = 0; i < count; i++) {
-        ((uint16_t *)to)[i] = (uint16_t)from[i];
+        write_integer(to, i, is_wide, from[i]);
     }
 }
 
 static void bake_link(tl_nav_tile *tile, uint32_t corner, uint32_t link)
 {
-    void *links = array_of(tile, tile->links);
-    if ((tile->wide & TL_NAV_WIDE_LINKS) != 0) {
-        ((uint32_t *)links)[corner] = link;
-    } else {
-        ((uint16_t *)links)[corner] = (uint16_t)link;
-    }
+    write_integer(tl_nav_tile_to_write(tile, tile->links), corner, (tile->wide & TL_NAV_WIDE_LINKS) != 0, link);
 }
 
 static void bake_first(tl_nav_tile *tile, uint32_t array, uint32_t polygon, uint32_t first)
 {
-    if ((tile->wide & TL_NAV_WIDE_FIRSTS) != 0) {
-        ((uint32_t *)array_of(tile, array))[polygon] = first;
-    } else {
-        ((uint16_t *)array_of(tile, array))[polygon] = (uint16_t)first;
-    }
+    write_integer(tl_nav_tile_to_write(tile, array), polygon, (tile->wide & TL_NAV_WIDE_FIRSTS) != 0, first);
 }
 
 static void bake_polygons(const tl_nav_tile_source *source, tl_nav_tile *tile)
 {
     const tl_polygon_mesh *polygons = source->polygons;
     bake_integers(polygons->first, polygons->polygon_count + 1u, (tile->wide & TL_NAV_WIDE_FIRSTS) != 0,
-                  array_of(tile, tile->first_corner));
+                  tl_nav_tile_to_write(tile, tile->first_corner));
     bake_integers((const uint32_t *)polygons->vertices, 3 * (size_t)polygons->vertex_count,
-                  (tile->wide & TL_NAV_WIDE_LATTICE) != 0, array_of(tile, tile->vertices));
+                  (tile->wide & TL_NAV_WIDE_LATTICE) != 0, tl_nav_tile_to_write(tile, tile->vertices));
     bake_integers(polygons->indices, polygons->index_count, (tile->wide & TL_NAV_WIDE_CORNERS) != 0,
-                  array_of(tile, tile->corner_vertices));
+                  tl_nav_tile_to_write(tile, tile->corner_vertices));
     for (uint32_t k = 0; k < polygons->index_count; k++) {
         const uint32_t across = polygons->neighbours[k];
         bake_link(tile, k, across >= TL_PORTAL ? TL_NAV_LINK_WALL : across);
     }
-    uint8_t *areas = array_of(tile, tile->areas);
+    uint8_t *areas = tl_nav_tile_to_write(tile, tile->areas);
     for (uint32_t p = 0; p < polygons->polygon_count; p++) {
         tl_nav_tile_set_flags(tile, p, source->flags != NULL ? source->flags[p] : 1);
         areas[p] = (uint8_t)polygons->areas[p];
@@ -129,8 +120,10 @@ static void bake_portals(const tl_nav_portals *portals, tl_nav_tile *tile)
         bake_link(tile, portals->portals[i].corner, tl_nav_link_portal(i));
     }
     if (portals->portal_count > 0) {
-        memcpy(array_of(tile, tile->portals), portals->portals, portals->portal_count * sizeof(tl_nav_portal));
-        memcpy(array_of(tile, tile->profile), portals->profile, portals->profile_count * sizeof(tl_nav_profile_point));
+        memcpy(tl_nav_tile_to_write(tile, tile->portals), portals->portals,
+               portals->portal_count * sizeof(tl_nav_portal));
+        memcpy(tl_nav_tile_to_write(tile, tile->profile), portals->profile,
+               portals->profile_count * sizeof(tl_nav_profile_point));
     }
 }
 
@@ -182,13 +175,13 @@ static uint32_t bake_patch(const tl_nav_detail *detail, const tl_nav_tile *tile,
 static void bake_surface(const tl_nav_tile_source *source, tl_nav_tile *tile)
 {
     uint32_t first_vertex = 0, first_triangle = 0;
-    tl_vec3 *vertices = array_of(tile, tile->detail_vertices);
+    tl_vec3 *vertices = tl_nav_tile_to_write(tile, tile->detail_vertices);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         uint32_t vertex_count = 0;
         tl_nav_tile_corners(tile, p, &vertex_count);
         vertex_count = source->detail != NULL ? source->detail->patches[p].vertex_count : vertex_count;
         first_triangle += bake_patch(source->detail, tile, p, first_triangle, vertices + first_vertex,
-                                     array_of(tile, tile->detail_triangles));
+                                     tl_nav_tile_to_write(tile, tile->detail_triangles));
         first_vertex += vertex_count;
         bake_first(tile, tile->detail_first_vertex, p + 1, first_vertex);
         bake_first(tile, tile->detail_first_triangle, p + 1, first_triangle);

@@ -103,8 +103,9 @@ static void copy_kept_polygon(subset *s, uint32_t p)
     mesh->first[to] = mesh->index_count;
     mesh->areas[to] = tl_nav_tile_area(tile, p);
     s->flags[to] = tl_nav_tile_flags(tile, p);
-    for (uint32_t k = tl_nav_tile_first_corner(tile, p); k < tl_nav_tile_first_corner(tile, p + 1); k++) {
-        mesh->neighbours[mesh->index_count] = subset_across(s, p, k, k - tl_nav_tile_first_corner(tile, p));
+    const tl_nav_tile_part corners = tl_nav_tile_part_of(tile, tile->first_corner, p);
+    for (uint32_t k = corners.begin; k < corners.end; k++) {
+        mesh->neighbours[mesh->index_count] = subset_across(s, p, k, k - corners.begin);
         mesh->indices[mesh->index_count++] = s->vertex_number[tl_nav_tile_corner_vertex(tile, k)];
     }
     const tl_nav_surface surface = tl_nav_tile_surface(tile, p);

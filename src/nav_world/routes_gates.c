@@ -146,9 +146,10 @@ static void sort_stretches(seam_stretch *items, uint32_t count)
 
 static uint32_t fan_corner(const tl_nav_tile *tile, uint32_t polygon, uint32_t vertex)
 {
-    for (uint32_t i = tl_nav_tile_first_corner(tile, polygon); i < tl_nav_tile_first_corner(tile, polygon + 1); i++) {
+    const tl_nav_tile_part corners = tl_nav_tile_part_of(tile, tile->first_corner, polygon);
+    for (uint32_t i = corners.begin; i < corners.end; i++) {
         if (tl_nav_tile_corner_vertex(tile, i) == vertex) {
-            return i - tl_nav_tile_first_corner(tile, polygon);
+            return i - corners.begin;
         }
     }
     return UINT32_MAX;
@@ -159,7 +160,8 @@ static uint32_t vertex_on_side(const tl_nav_tile *tile, uint32_t polygon, uint32
 {
     const int32_t line = side == 1 || side == 2 ? (int32_t)tile->tile_size : 0;
     const int axis = side % 2 == 0 ? 0 : 2;
-    for (uint32_t i = tl_nav_tile_first_corner(tile, polygon); i < tl_nav_tile_first_corner(tile, polygon + 1); i++) {
+    const tl_nav_tile_part corners = tl_nav_tile_part_of(tile, tile->first_corner, polygon);
+    for (uint32_t i = corners.begin; i < corners.end; i++) {
         const uint32_t vertex = tl_nav_tile_corner_vertex(tile, i);
         const tl_nav_lattice_point v = tl_nav_tile_vertex(tile, vertex);
         if (v.at[axis] == line && v.at[2 - axis] == along) {

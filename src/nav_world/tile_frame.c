@@ -36,11 +36,10 @@ static float moved(const axis_move *move, float at)
 // A polygon's surface, whose first points are its corners: these from the lattice.
 static void move_polygon(tl_nav_tile *tile, uint32_t polygon, const axis_move *x, const axis_move *z)
 {
-    char *bytes = (char *)tile;
-    const uint32_t first = tl_nav_tile_first(tile, tile->detail_first_vertex, polygon);
-    const uint32_t count = tl_nav_tile_first(tile, tile->detail_first_vertex, polygon + 1) - first;
-    tl_vec3 *points = (tl_vec3 *)(void *)(bytes + 8 * (uint64_t)tile->detail_vertices) + first;
-    const uint32_t corner_count = tl_nav_tile_first_corner(tile, polygon + 1) - tl_nav_tile_first_corner(tile, polygon);
+    const tl_nav_tile_part corners = tl_nav_tile_part_of(tile, tile->first_corner, polygon),
+                           vertices = tl_nav_tile_part_of(tile, tile->detail_first_vertex, polygon);
+    const uint32_t corner_count = corners.end - corners.begin, count = vertices.end - vertices.begin;
+    tl_vec3 *points = (tl_vec3 *)tl_nav_tile_to_write(tile, tile->detail_vertices) + vertices.begin;
     for (uint32_t i = 0; i < corner_count; i++) {
         const tl_nav_lattice_point v = tl_nav_tile_lattice(tile, polygon, i);
         points[i].x = tl_nav_tile_position(tile->origin.x, tile->tile_x, tile->tile_size, v.at[0], tile->cell_size);

@@ -7,6 +7,7 @@
 #include "nav_fixture.h"
 
 #include "nav_query/navmesh/area_table.h"
+#include "nav_query/navmesh/fans.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_row.h"
 

@@ -282,6 +282,16 @@ static void number_fans_of(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
     }
 }
 
+void tl_nav_set_seam_twin(const tl_nav_rings *rings, uint64_t place, uint32_t twin, uint32_t count)
+{
+    const uint32_t near = twin >> tl_nav_seam_twin_shift(count);
+    tl_nav_ring_edge edge = tl_nav_edge_of(rings, place);
+    tl_nav_ring_seam *seam = &rings->seams[tl_nav_ring_seam_number(edge.to)];
+    seam->slot = (seam->slot & (TL_NAV_MAX_TILES - 1)) | (near >> TL_NAV_RING_TWIN_BITS) * TL_NAV_MAX_TILES;
+    edge.mark = (edge.mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) | (near & TL_NAV_RING_FAR_TWIN);
+    tl_nav_set_edge(rings, place, edge);
+}
+
 // Over the portals of a side: notes for each edge where its twin stands, and for the twin where the edge does. Portals
 // and the edges of a polygon across run along the side in opposite orders, a gap of wall between two at most.
 static void find_seam_twins(tl_navmesh *navmesh, uint32_t slot, uint32_t side)

@@ -17,4 +17,7 @@ void tl_nav_number_fans(tl_navmesh *navmesh, uint32_t slot);
 /// The same for the fans that touch one side of a slot's tile: those that change when a tile comes or goes there.
 void tl_nav_number_fans_on_side(tl_navmesh *navmesh, uint32_t slot, uint32_t side);
 
+/// Notes near which of the `count` edges of the ring across a seam's edge, at a place among all of the tile's, stands.
+void tl_nav_set_seam_twin(const tl_nav_rings *rings, uint64_t place, uint32_t twin, uint32_t count);
+
 #endif

@@ -51,16 +51,6 @@ uint32_t tl_nav_inner_twin(const tl_nav_rings *rings, uint32_t polygon, uint32_t
     return twin < TL_NAV_RING_FAR_TWIN ? twin : tl_nav_find_far_twin(rings, polygon, edge);
 }
 
-void tl_nav_set_seam_twin(const tl_nav_rings *rings, uint64_t place, uint32_t twin, uint32_t count)
-{
-    const uint32_t near = twin >> tl_nav_seam_twin_shift(count);
-    tl_nav_ring_edge edge = tl_nav_edge_of(rings, place);
-    tl_nav_ring_seam *seam = &rings->seams[tl_nav_ring_seam_number(edge.to)];
-    seam->slot = (seam->slot & (TL_NAV_MAX_TILES - 1)) | (near >> TL_NAV_RING_TWIN_BITS) * TL_NAV_MAX_TILES;
-    edge.mark = (edge.mark & ~(uint32_t)TL_NAV_RING_FAR_TWIN) | (near & TL_NAV_RING_FAR_TWIN);
-    tl_nav_set_edge(rings, place, edge);
-}
-
 void tl_nav_set_ring_number(const tl_nav_rings *rings, tl_nav_ring_numbers numbers, uint32_t i, uint32_t number)
 {
     if (rings->is_wide) {

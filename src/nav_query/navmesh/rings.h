@@ -31,7 +31,7 @@ enum {
 typedef struct tl_nav_ring_edge {
     uint32_t to; ///< across: a polygon of the tile, or TL_NAV_RING_...
     /// In the low bits the same edge's place in the ring across, or TL_NAV_RING_FAR_TWIN; over a seam the low bits of
-    /// near which it stands there, if anywhere (tl_nav_set_seam_twin). Above them which walls this vertex has.
+    /// near which it stands there, if anywhere (tl_nav_seam_twin_hint). Above them which walls this vertex has.
     uint32_t mark;
 } tl_nav_ring_edge;
 
@@ -255,10 +255,7 @@ static inline uint32_t tl_nav_seam_twin_shift(uint32_t count)
     return shift;
 }
 
-/// Notes near which of the `count` edges of the ring across a seam's edge, at a place among all of the tile's, stands.
-void tl_nav_set_seam_twin(const tl_nav_rings *rings, uint64_t place, uint32_t twin, uint32_t count);
-
-/// Where tl_nav_set_seam_twin says that an edge stands in the ring across, of `count` edges.
+/// Near where an edge of a seam stands in the ring across (tl_nav_set_seam_twin), of `count` edges.
 static inline uint32_t tl_nav_seam_twin_hint(const tl_nav_rings *rings, tl_nav_ring_edge edge, uint32_t count)
 {
     const uint32_t high = rings->seams[tl_nav_ring_seam_number(edge.to)].slot / TL_NAV_MAX_TILES;

@@ -52,11 +52,6 @@ tl_result tl_navmesh_polygon_area(const tl_navmesh *navmesh, tl_nav_ref polygon,
     return TL_OK;
 }
 
-static uint8_t *areas_of(tl_nav_tile *tile)
-{
-    return (uint8_t *)tile + 8 * (uint64_t)tile->areas;
-}
-
 // The copy of a slot's tile that may be written to, flags such as these too, made now if need be, also where older
 // versions have the one that is there; NULL: out of memory.
 static tl_nav_tile *writable_tile(tl_navmesh *navmesh, uint32_t index, uint64_t flags)
@@ -137,7 +132,7 @@ tl_result tl_navmesh_set_polygon_area(tl_navmesh *navmesh, tl_nav_ref polygon, u
     if (tile == NULL) {
         return TL_ERR_MEMORY;
     }
-    areas_of(tile)[index] = area;
+    ((uint8_t *)tl_nav_tile_to_write(tile, tile->areas))[index] = area;
     note_state(navmesh, slot);
     return TL_OK;
 }
@@ -213,9 +208,10 @@ tl_result tl_navmesh_restore_state(tl_navmesh *navmesh, int32_t tile_x, uint32_t
     if (tile == NULL) {
         return tl_report_fail(report, TL_ERR_MEMORY, NULL, TL_NO_ELEMENT, NULL);
     }
+    uint8_t *areas = tl_nav_tile_to_write(tile, tile->areas);
     for (uint32_t p = 0; p < count; p++) {
         write_flags(navmesh, tile, p, states[p].flags);
-        areas_of(tile)[p] = states[p].area;
+        areas[p] = states[p].area;
     }
     tl_nav_settle_flags(&navmesh->flags);
     note_state(navmesh, slot);
