@@ -57,17 +57,16 @@ tl_ray_packets_fn *tl_ray_packets_for(tl_ray_isa isa)
     return tl_cpu_has_level((int)isa) ? packets[isa] : NULL;
 }
 
-// AVX-512 on AMD's processors: Zen 4 and later trace a ray 5 to 15 per cent faster with it. On Intel's Sapphire Rapids
-// it is used where any hit will do, which gains 6 per cent; for closest hits it saves instructions and no time (2 to 12
-// per cent slower), so AVX2 is used there, and on unmeasured processors (bench_rays has a row for each). A machine with
-// AVX-512 always has AVX2.
+// AVX-512 on AMD's processors: Zen 4 and later trace a ray 5 to 15 per cent faster with it. On Intel's Emerald Rapids
+// it saves instructions and no time (7 to 14 per cent slower), so AVX2 is used there, and on unmeasured processors
+// (bench_rays has a row for each). A machine with AVX-512 always has AVX2.
 //
 // Where the target decides, kernels are named and not looked up, so that a linker can leave the others out.
 #if TL_CPU_LEVELS == 3
-static inline tl_ray_walk_fn *walk_of_features(uint32_t found, bool any)
+static inline tl_ray_walk_fn *walk_of_features(uint32_t found)
 {
     if ((found & TL_CPU_AVX2) != 0) {
-        bool wide = (any || (found & TL_CPU_AMD) != 0) && (found & TL_CPU_AVX512) != 0;
+        bool wide = (found & TL_CPU_AMD) != 0 && (found & TL_CPU_AVX512) != 0;
         return wide ? tl_ray_walk_avx512 : tl_ray_walk_avx2;
     }
     return (found & TL_CPU_VEC128) != 0 ? tl_ray_walk_vec128 : tl_ray_walk_scalar;
@@ -77,20 +76,18 @@ static inline tl_ray_walk_fn *walk_of_features(uint32_t found, bool any)
 static bool walk_first(const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *target, float tmax, bool is_segment,
                        const tl_ray_filter *filter, tl_ray_hit *hit_out)
 {
-    return walk_of_features(tl_cpu_look(), hit_out == NULL)(soup, origin, target, tmax, is_segment, filter, hit_out);
+    return walk_of_features(tl_cpu_look())(soup, origin, target, tmax, is_segment, filter, hit_out);
 }
 #endif
 
-static inline tl_ray_walk_fn *best_ray_walk(bool any)
+static inline tl_ray_walk_fn *best_ray_walk(void)
 {
 #if TL_CPU_LEVELS == 3
     const uint32_t found = __atomic_load_n(&tl_cpu_found, __ATOMIC_RELAXED);
-    return found != 0 ? walk_of_features(found, any) : walk_first;
+    return found != 0 ? walk_of_features(found) : walk_first;
 #elif TL_CPU_LEVELS == 1
-    (void)any;
     return tl_ray_walk_vec128;
 #else
-    (void)any;
     return tl_ray_walk_scalar;
 #endif
 }
@@ -107,9 +104,9 @@ tl_ray_isa tl_ray_best_isa(void)
 tl_ray_walk_fn *tl_ray_best_walk(void)
 {
 #if TL_CPU_LEVELS == 3
-    return walk_of_features(tl_cpu_features(), false);
+    return walk_of_features(tl_cpu_features());
 #else
-    return best_ray_walk(false);
+    return best_ray_walk();
 #endif
 }
 
@@ -176,20 +173,20 @@ bool tl_soup_line_of_sight_with(tl_ray_walk_fn *walk, const tl_soup *soup, tl_ve
 
 bool tl_soup_cast_ray(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter, tl_ray_hit *hit_out)
 {
-    return tl_soup_cast_ray_with(best_ray_walk(false), soup, ray, filter, hit_out);
+    return tl_soup_cast_ray_with(best_ray_walk(), soup, ray, filter, hit_out);
 }
 
 bool tl_soup_occluded(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter)
 {
-    return tl_soup_occluded_with(best_ray_walk(true), soup, ray, filter);
+    return tl_soup_occluded_with(best_ray_walk(), soup, ray, filter);
 }
 
 bool tl_soup_cast_segment(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter, tl_ray_hit *hit_out)
 {
-    return tl_soup_cast_segment_with(best_ray_walk(false), soup, a, b, filter, hit_out);
+    return tl_soup_cast_segment_with(best_ray_walk(), soup, a, b, filter, hit_out);
 }
 
 bool tl_soup_line_of_sight(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter)
 {
-    return tl_soup_line_of_sight_with(best_ray_walk(true), soup, a, b, filter);
+    return tl_soup_line_of_sight_with(best_ray_walk(), soup, a, b, filter);
 }
