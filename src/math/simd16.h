@@ -37,6 +37,16 @@ static inline tl_f32x16 tl_f32x16_join(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f3
     return _mm512_insertf32x8(_mm512_castps256_ps512(tl_f32x8_join(a, b)), tl_f32x8_join(c, d), 1);
 }
 
+static inline void tl_f32x16_transpose(tl_f32x16 rows[4])
+{
+    __m512 a = _mm512_unpacklo_ps(rows[0], rows[1]), b = _mm512_unpacklo_ps(rows[2], rows[3]);
+    __m512 c = _mm512_unpackhi_ps(rows[0], rows[1]), d = _mm512_unpackhi_ps(rows[2], rows[3]);
+    rows[0] = _mm512_shuffle_ps(a, b, _MM_SHUFFLE(1, 0, 1, 0));
+    rows[1] = _mm512_shuffle_ps(a, b, _MM_SHUFFLE(3, 2, 3, 2));
+    rows[2] = _mm512_shuffle_ps(c, d, _MM_SHUFFLE(1, 0, 1, 0));
+    rows[3] = _mm512_shuffle_ps(c, d, _MM_SHUFFLE(3, 2, 3, 2));
+}
+
 static inline float tl_f32x16_first(tl_f32x16 a)
 {
     return _mm512_cvtss_f32(a);
@@ -176,6 +186,19 @@ static inline tl_f32x16 tl_f32x16_join(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f3
 {
     tl_f32x16 r = { tl_f32x8_join(a, b), tl_f32x8_join(c, d) };
     return r;
+}
+
+/// Turns each quarter of four rows into its columns.
+static inline void tl_f32x16_transpose(tl_f32x16 rows[4])
+{
+    tl_f32x8 low[4] = { rows[0].low, rows[1].low, rows[2].low, rows[3].low };
+    tl_f32x8 high[4] = { rows[0].high, rows[1].high, rows[2].high, rows[3].high };
+    tl_f32x8_transpose(low);
+    tl_f32x8_transpose(high);
+    for (int i = 0; i < 4; i++) {
+        rows[i].low = low[i];
+        rows[i].high = high[i];
+    }
 }
 
 /// The first lane.

@@ -104,20 +104,22 @@ typedef struct packet_corner {
     tl_f32x16 x, y, z;
 } packet_corner;
 
+// A leaf, and what shears its corners for each ray.
 typedef struct packet_leaf {
     const float *x, *y, *z; // as in test_leaf
     uint32_t child;
     float extent, error;
+    tl_f32x16 origin_x, origin_y, origin_z, shear_x, shear_y;
 } packet_leaf;
 
-static TL_ALWAYS_INLINE packet_corner shear_corner(const ray_packet *p, const packet_leaf *leaf, uint32_t at)
+static TL_ALWAYS_INLINE packet_corner shear_corner(const packet_leaf *leaf, uint32_t at)
 {
     packet_corner c;
-    c.z = tl_f32x16_sub(tl_f32x16_all(leaf->z[at]), lanes_of(p->origin[p->axes[2]]));
-    c.x = tl_f32x16_sub(tl_f32x16_all(leaf->x[at]), lanes_of(p->origin[p->axes[0]]));
-    c.y = tl_f32x16_sub(tl_f32x16_all(leaf->y[at]), lanes_of(p->origin[p->axes[1]]));
-    c.x = tl_f32x16_mul_sub_from(lanes_of(p->shear[0]), c.z, c.x);
-    c.y = tl_f32x16_mul_sub_from(lanes_of(p->shear[1]), c.z, c.y);
+    c.z = tl_f32x16_sub(tl_f32x16_all(leaf->z[at]), leaf->origin_z);
+    c.x = tl_f32x16_sub(tl_f32x16_all(leaf->x[at]), leaf->origin_x);
+    c.y = tl_f32x16_sub(tl_f32x16_all(leaf->y[at]), leaf->origin_y);
+    c.x = tl_f32x16_mul_sub_from(leaf->shear_x, c.z, c.x);
+    c.y = tl_f32x16_mul_sub_from(leaf->shear_y, c.z, c.y);
     return c;
 }
 
@@ -217,21 +219,26 @@ static TL_ALWAYS_INLINE void visit_packet_leaf(ray_packet *p, const walk_ray *ra
     uint32_t n = tl_child_pair_count(child);
     const float *floats = (const float *)(const void *)(ids + 2 * (size_t)n);
     size_t stride = 4 * (size_t)n;
-    packet_leaf leaf = { floats + p->axes[0] * stride,
-                         floats + p->axes[1] * stride,
-                         floats + p->axes[2] * stride,
-                         child,
-                         head->extent,
-                         0.0f };
+    packet_leaf leaf;
+    leaf.x = floats + p->axes[0] * stride;
+    leaf.y = floats + p->axes[1] * stride;
+    leaf.z = floats + p->axes[2] * stride;
+    leaf.child = child;
+    leaf.extent = head->extent;
+    leaf.origin_x = lanes_of(p->origin[p->axes[0]]);
+    leaf.origin_y = lanes_of(p->origin[p->axes[1]]);
+    leaf.origin_z = lanes_of(p->origin[p->axes[2]]);
+    leaf.shear_x = lanes_of(p->shear[0]);
+    leaf.shear_y = lanes_of(p->shear[1]);
     leaf.error = p->corner_error * (LEAF_EXTENT_TERM * leaf.extent + LEAF_ERROR_TERM * p->corner_error) + FLT_MIN;
     bool changed = false;
     for (uint32_t i = 0; i < n; i++) {
         packet_triangle v;
-        v.a = shear_corner(p, &leaf, i);
-        v.c = shear_corner(p, &leaf, n + i);
+        v.a = shear_corner(&leaf, i);
+        v.c = shear_corner(&leaf, n + i);
         v.ca = cross_corners(v.c, v.a);
         for (uint32_t second = 0; second < 2 && ids[second * n + i] != TL_ID_NONE; second++) {
-            v.e = shear_corner(p, &leaf, (2 + second) * n + i);
+            v.e = shear_corner(&leaf, (2 + second) * n + i);
             v.ae = cross_corners(v.a, v.e);
             v.ec = cross_corners(v.e, v.c);
             changed |= test_triangle(p, &leaf, &v, rays, i + 4 * second, any);

@@ -45,24 +45,25 @@ typedef struct packet_vectors {
 
 static TL_ALWAYS_INLINE packet_vectors load_rays(const tl_ray_batch *batch, const uint32_t *index)
 {
-    tl_f32x4 low[4][4], high[4][4]; // by the ray in its quarter of the lanes, and the quarter
-    for (uint32_t i = 0; i < PACKET_RAYS; i++) {
-        const float *at = batch->rays != NULL ? &batch->rays[index[i]].origin.x : &batch->segments[index[i]].a.x;
-        low[i % 4][i / 4] = tl_f32x4_load(at);
-        high[i % 4][i / 4] = tl_f32x4_load(at + (batch->rays != NULL ? 3 : 2));
-    }
+    bool is_ray = batch->rays != NULL;
+    tl_f32x16 low[4], high[4]; // rays i, 4 + i, 8 + i and 12 + i, a quarter each: their first and last four floats
     for (uint32_t i = 0; i < 4; i++) {
-        tl_f32x4_transpose(&low[0][i], &low[1][i], &low[2][i], &low[3][i]);
-        tl_f32x4_transpose(&high[0][i], &high[1][i], &high[2][i], &high[3][i]);
+        tl_f32x4 from[4], to[4];
+        for (uint32_t k = 0; k < 4; k++) {
+            uint32_t ray = index[4 * k + i];
+            const float *at = is_ray ? &batch->rays[ray].origin.x : &batch->segments[ray].a.x;
+            from[k] = tl_f32x4_load(at);
+            to[k] = tl_f32x4_load(at + (is_ray ? 3 : 2));
+        }
+        low[i] = tl_f32x16_join(from[0], from[1], from[2], from[3]);
+        high[i] = tl_f32x16_join(to[0], to[1], to[2], to[3]);
     }
-    uint32_t first = batch->rays != NULL ? 0 : 1; // a segment's were read from a.z on
-    packet_vectors v;
-    for (uint32_t i = 0; i < 3; i++) {
-        const tl_f32x4 *to = high[first + i];
-        v.origin[i] = tl_f32x16_join(low[i][0], low[i][1], low[i][2], low[i][3]);
-        v.target[i] = tl_f32x16_join(to[0], to[1], to[2], to[3]);
-    }
-    v.tmax = batch->rays != NULL ? tl_f32x16_join(high[3][0], high[3][1], high[3][2], high[3][3]) : tl_f32x16_all(1.0f);
+    tl_f32x16_transpose(low);
+    tl_f32x16_transpose(high);
+    const tl_f32x16 *target = is_ray ? high : high + 1; // a segment's were read from a.z on
+    packet_vectors v = { { low[0], low[1], low[2] },
+                         { target[0], target[1], target[2] },
+                         is_ray ? high[3] : tl_f32x16_all(1.0f) };
     return v;
 }
 
