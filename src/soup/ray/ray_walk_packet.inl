@@ -144,6 +144,19 @@ static TL_ALWAYS_INLINE void leave_packet(ray_packet *p, uint32_t rays)
     tl_f32x16_store(p->limit, tl_f32x16_choose(rays, tl_f32x16_all(-1.0f), lanes_of(p->limit)));
 }
 
+// Notes a triangle that some rays may meet. They stay in the packet, as something else may surely be hit.
+static TL_NOINLINE void note_doubts(ray_packet *p, uint32_t child, uint32_t bit, uint32_t rays)
+{
+    for (; rays != 0; rays &= rays - 1) {
+        if (p->doubt_count == TL_PACKET_DOUBTS) {
+            p->alone |= rays;
+            return;
+        }
+        packet_doubt doubt = { child, (uint16_t)bit, (uint16_t)tl_lowest_bit(rays) };
+        p->doubts[p->doubt_count++] = doubt;
+    }
+}
+
 // Settles the rays that may meet a triangle, by the bounds of settle_lanes.
 static TL_ALWAYS_INLINE void settle_rays(ray_packet *p, const packet_leaf *leaf, const packet_triangle *v,
                                          uint32_t maybe, uint32_t met, uint32_t bit, bool any)
@@ -173,8 +186,10 @@ static TL_ALWAYS_INLINE void settle_rays(ray_packet *p, const packet_leaf *leaf,
     uint32_t sure = maybe & met & clear & tl_f32x16_less(zero, low), better = sure & tl_f32x16_less(high, ahead);
     if (any) {
         p->found |= better;
-        p->alone |= maybe & ~better; // unless something else is surely hit
         leave_packet(p, better);
+        if ((maybe & ~better) != 0) {
+            note_doubts(p, leaf->child, bit, maybe & ~better);
+        }
         return;
     }
     uint32_t rivals = sure & ~better;
@@ -282,8 +297,49 @@ static TL_ALWAYS_INLINE void walk_packet(const tl_soup *soup, ray_packet *p, boo
 
 #include "soup/ray/ray_walk_packet_measure.inl"
 
-static TL_ALWAYS_INLINE void report_packet(const tl_ray_batch *batch, const ray_packet *p)
+// Whether a ray of an any-hit query meets one of the triangles, from doubt `first` on, that the bounds left in doubt
+// for it.
+static bool meets_doubted(const tl_ray_batch *batch, const ray_packet *p, uint32_t first)
 {
+    uint32_t ray = p->doubts[first].ray;
+    const tl_vec3 *origin, *target;
+    tl_ray_job job;
+    job.soup = batch->soup;
+    job.filter = NULL; // packets have none
+    job.is_segment = batch->rays == NULL;
+    tl_ray_of_batch(batch, p->index[ray], &origin, &target, &job.t);
+    if (!tl_ray_prepare_inline(&job, origin, target)) {
+        return false;
+    }
+    for (uint32_t i = first; i < p->doubt_count; i++) {
+        const packet_doubt *doubt = &p->doubts[i];
+        const tl_soup_leaf *leaf = tl_soup_leaf_at(batch->soup, tl_child_leaf_offset(doubt->child));
+        uint32_t lane = lane_of_bit(doubt->bit, tl_child_pair_count(doubt->child));
+        if (doubt->ray == ray && tl_ray_decide(&job, leaf, lane)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Decides for the rays that hit nothing else. For a ray in doubt that is a third of what tracing it alone takes.
+static TL_NOINLINE void decide_doubts(const tl_ray_batch *batch, ray_packet *p)
+{
+    uint32_t open = p->rays & ~(p->found | p->alone);
+    for (uint32_t i = 0; i < p->doubt_count; i++) {
+        uint32_t ray = 1u << p->doubts[i].ray;
+        if ((open & ray) != 0 && meets_doubted(batch, p, i)) {
+            p->found |= ray;
+        }
+        open &= ~ray;
+    }
+}
+
+static TL_ALWAYS_INLINE void report_packet(const tl_ray_batch *batch, ray_packet *p)
+{
+    if (p->doubt_count != 0) {
+        decide_doubts(batch, p);
+    }
     uint32_t alone = p->alone & p->rays & ~p->found, pending = p->pending & p->rays & ~alone;
     for (uint32_t rays = p->rays & ~alone & ~pending; rays != 0; rays &= rays - 1) {
         uint32_t lane = tl_lowest_bit(rays);

@@ -5,6 +5,17 @@
 
 enum { PACKET_RAYS = 16, PACKET_ALL = 0xffff };
 
+// A triangle that a ray of an any-hit query may meet.
+typedef struct packet_doubt {
+    uint32_t child; // its leaf
+    uint16_t bit;   // as in leaf_lanes
+    uint16_t ray;
+} packet_doubt;
+
+#ifndef TL_PACKET_DOUBTS // a test has fewer
+#define TL_PACKET_DOUBTS 64
+#endif
+
 // A packet's rays, in lanes. What one value serves all rays for is the largest of theirs.
 typedef struct ray_packet {
     _Alignas(64) float origin[3][PACKET_RAYS];
@@ -19,6 +30,8 @@ typedef struct ray_packet {
     uint32_t bit[PACKET_RAYS];
     uint32_t rival_child[PACKET_RAYS]; // another one, surely hit too, that the bounds cannot tell from it
     uint32_t rival_bit[PACKET_RAYS];
+    packet_doubt doubts[TL_PACKET_DOUBTS];
+    uint32_t doubt_count;
     uint32_t index[PACKET_RAYS]; // of the ray in the batch
     uint32_t rays;               // bits: lanes that hold one
     uint32_t alone;              // bits: rays to be traced alone
@@ -231,7 +244,7 @@ static TL_ALWAYS_INLINE bool prepare_packet(const tl_soup *soup, bool one_origin
     tl_f32x16 limit = tl_f32x16_add(tmax, tl_f32x16_all(FLT_MIN));
     tl_f32x16_store(p->limit, tl_f32x16_choose(p->rays, limit, tl_f32x16_all(-1.0f)));
     tl_f32x16_store(p->ahead, tl_f32x16_mul(tmax, tl_f32x16_all(1.0f - T_MARGIN)));
-    p->alone = p->found = p->pending = p->contested = 0;
+    p->alone = p->found = p->pending = p->contested = p->doubt_count = 0;
     p->last_limit = INFINITY;
     return true;
 }
