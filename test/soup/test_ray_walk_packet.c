@@ -8,9 +8,10 @@
 #include "soup/ray/ray_job.h"
 #include "soup_models.h"
 
-// Packets with a stack that overflows soon, that count the rays they give up, and none of whose rays are left.
+// Packets with a stack and doubts that overflow soon, that count the rays they give up, and none of whose rays are left.
 #define TL_SIMD_LEVEL        0
 #define TL_PACKET_STACK_SIZE 32
+#define TL_PACKET_DOUBTS     8
 #define TL_RAY_WALK          test_walk
 #define TL_RAY_WALK_MANY     test_walk_many
 #define TL_RAY_PACKETS       test_packets
