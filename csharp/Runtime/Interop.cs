@@ -495,7 +495,8 @@ namespace Talus.Interop
         public uint block_count;
         public uint ring_count;
         public uint ring_cells;
-        public fixed uint unused[4];
+        public uint cap_count;
+        public fixed uint unused[3];
     }
 
     [StructLayout(LayoutKind.Sequential)]

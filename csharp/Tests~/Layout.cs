@@ -135,7 +135,8 @@ static unsafe class Layout
         Test.Equal(36, (byte*)&((tl_hull_climb*)at)->block_count - at, "tl_hull_climb.block_count");
         Test.Equal(40, (byte*)&((tl_hull_climb*)at)->ring_count - at, "tl_hull_climb.ring_count");
         Test.Equal(44, (byte*)&((tl_hull_climb*)at)->ring_cells - at, "tl_hull_climb.ring_cells");
-        Test.Equal(48, (byte*)((tl_hull_climb*)at)->unused - at, "tl_hull_climb.unused");
+        Test.Equal(48, (byte*)&((tl_hull_climb*)at)->cap_count - at, "tl_hull_climb.cap_count");
+        Test.Equal(52, (byte*)((tl_hull_climb*)at)->unused - at, "tl_hull_climb.unused");
         Test.Equal(64, sizeof(tl_hull_validation), "tl_hull_validation");
         Test.Equal(0, (byte*)&((tl_hull_validation*)at)->@base - at, "tl_hull_validation.base");
         Test.Equal(48, (byte*)&((tl_hull_validation*)at)->euler - at, "tl_hull_validation.euler");

@@ -130,12 +130,13 @@ typedef struct tl_hull_climb {
     uint32_t planes;      ///< of the faces
     uint32_t blocks;      ///< edge vectors and neighbours
     uint32_t table;       ///< [2 table_side^2 + ring_cells] a vertex to start from, or a ring to look in
-    uint32_t rings;       ///< maps of large faces
+    uint32_t rings;       ///< maps of large faces, then of caps
     uint32_t cell_bytes;  ///< 2 or 4, of a cell of the table
     uint32_t block_count; ///< V, and one for every seven neighbours of a vertex beyond eight
-    uint32_t ring_count;  ///< large faces with a ring
+    uint32_t ring_count;  ///< large faces with a ring, and caps
     uint32_t ring_cells;  ///< of all rings
-    uint32_t unused[4];   ///< zero
+    uint32_t cap_count;   ///< caps: many small faces that lie nearly in one plane
+    uint32_t unused[3];   ///< zero
 } tl_hull_climb;
 
 /// Private: where it lies.

@@ -400,7 +400,8 @@ pub struct tl_hull_climb {
     pub block_count: u32,
     pub ring_count: u32,
     pub ring_cells: u32,
-    pub unused: [u32; 4],
+    pub cap_count: u32,
+    pub unused: [u32; 3],
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -4390,7 +4391,8 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_hull_climb, block_count), 36);
         assert_eq!(core::mem::offset_of!(tl_hull_climb, ring_count), 40);
         assert_eq!(core::mem::offset_of!(tl_hull_climb, ring_cells), 44);
-        assert_eq!(core::mem::offset_of!(tl_hull_climb, unused), 48);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, cap_count), 48);
+        assert_eq!(core::mem::offset_of!(tl_hull_climb, unused), 52);
         assert_eq!(core::mem::size_of::<tl_hull_validation>(), 64);
         assert_eq!(core::mem::offset_of!(tl_hull_validation, base), 0);
         assert_eq!(core::mem::offset_of!(tl_hull_validation, euler), 48);

@@ -6,7 +6,7 @@
 #include "base/assert.h"
 #include "base/min_max.h"
 #include "hull/bake/quickhull.h"
-#include "hull/support/hull_support.h"
+#include "hull/support/cap_ring.h"
 
 #include <string.h>
 
@@ -184,15 +184,14 @@ static tl_result write_blocks(tl_hull *hull, const hull_encoder *e)
 }
 
 // What the queries of more than a few vertices need.
-static tl_result write_climb(tl_hull *hull, const hull_encoder *e)
+static tl_result write_climb(tl_hull *hull, const hull_encoder *e, const tl_hull_caps *caps)
 {
-    tl_hull_climb *climb = (tl_hull_climb *)(uintptr_t)tl_hull_climb_head(hull);
-    climb->table_scale = tl_hull_table_scale(hull);
     TL_TRY(write_blocks(hull, e));
-    return climb->table_side > 0 ? tl_hull_fill_table(hull, e->arena, e->stage) : TL_OK;
+    return tl_hull_climb_head(hull)->table_side > 0 ? tl_hull_fill_table(hull, caps, e->arena, e->stage) : TL_OK;
 }
 
-static tl_result write_hull(tl_hull *hull, const tl_hull_climb *climb, const hull_encoder *e)
+// All that comes before the table.
+static tl_result write_body(tl_hull *hull, const tl_hull_climb *climb, const hull_encoder *e)
 {
     TL_TRY(tl_stage_zero(e->stage, hull + 1, hull->blob.size - sizeof *hull));
     if (hull->vertex_count > TL_HULL_FEW) {
@@ -206,7 +205,53 @@ static tl_result write_hull(tl_hull *hull, const tl_hull_climb *climb, const hul
     if (tl_hull_scan_count(hull) > 0) {
         write_scan(hull);
     }
-    return hull->vertex_count > TL_HULL_FEW ? write_climb(hull, e) : TL_OK;
+    if (hull->vertex_count > TL_HULL_FEW) {
+        tl_hull_climb *head = (tl_hull_climb *)(uintptr_t)tl_hull_climb_head(hull);
+        head->table_scale = tl_hull_table_scale(hull);
+    }
+    return TL_OK;
+}
+
+static tl_hull *allocate_hull(const hull_encoder *e, uint64_t size)
+{
+    return tl_blob_allocate_part(&e->arena->allocator, TL_HULL_MAGIC, TL_HULL_VERSION, size, sizeof(tl_hull), size);
+}
+
+// Makes room for the rings of caps, which are found when all before the table is written: that stays what it is.
+static tl_result make_room_for_caps(tl_hull **hull, const tl_hull_caps *caps, const hull_encoder *e)
+{
+    tl_hull head = **hull;
+    tl_hull_climb climb = *tl_hull_climb_head(*hull);
+    const size_t body = (size_t)climb.table * TL_BLOB_ALIGNMENT;
+    tl_hull_count_caps(caps, &climb);
+    const uint64_t size = tl_hull_lay_out(&head, &climb);
+    tl_hull *larger = allocate_hull(e, size);
+    if (larger == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    TL_ASSERT((size_t)climb.table * TL_BLOB_ALIGNMENT == body);
+    head.blob = larger->blob;
+    memcpy(larger, *hull, body);
+    memcpy(larger, &head, sizeof head);
+    memcpy((char *)larger + TL_HULL_CLIMB_OFFSET, &climb, sizeof climb);
+    memset((char *)larger + body, 0, (size_t)size - body);
+    tl_blob_free(*hull);
+    *hull = larger;
+    return TL_OK;
+}
+
+static tl_result write_hull(tl_hull **hull, const tl_hull_climb *climb, const hull_encoder *e)
+{
+    TL_TRY(write_body(*hull, climb, e));
+    if ((*hull)->vertex_count <= TL_HULL_FEW) {
+        return TL_OK;
+    }
+    tl_hull_caps caps = { 0 };
+    if (tl_hull_climb_head(*hull)->table_side > 0) {
+        TL_TRY(tl_hull_find_caps(*hull, e->arena, e->stage, &caps));
+    }
+    TL_TRY(caps.count > 0 ? make_room_for_caps(hull, &caps, e) : TL_OK);
+    return write_climb(*hull, e, &caps);
 }
 
 // The counts that the layout follows from; the size of the whole.
@@ -240,13 +285,13 @@ tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points
     tl_hull_climb climb;
     uint64_t size;
     TL_TRY(lay_out(&e, &head, &climb, &size));
-    tl_hull *hull = tl_blob_allocate_part(&arena->allocator, TL_HULL_MAGIC, TL_HULL_VERSION, size, sizeof *hull, size);
+    tl_hull *hull = allocate_hull(&e, size);
     if (hull == NULL) {
         return TL_ERR_MEMORY;
     }
     head.blob = hull->blob;
     memcpy(hull, &head, sizeof head);
-    const tl_result result = write_hull(hull, &climb, &e);
+    const tl_result result = write_hull(&hull, &climb, &e);
     if (result != TL_OK) {
         tl_blob_free(hull);
         return result;

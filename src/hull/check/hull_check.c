@@ -5,7 +5,8 @@
 // passes ends, since each of its steps is a true gain; and it ends at a maximum, since the surface is convex there.
 
 #include "hull/bake/quickhull.h"
-#include "hull/support/face_ring.h"
+#include "hull/support/cap_ring.h"
+#include "hull/support/direction_table.h"
 
 #include "base/assert.h"
 #include "base/blob_check.h"
@@ -14,6 +15,9 @@
 
 #include <float.h>
 #include <string.h>
+
+// Cells of rings, a half-edge: 4 of faces' rings, at most 8 a vertex of caps'.
+enum { MAX_RING_CELLS = 8 };
 
 static bool same_float_bits(float a, float b)
 {
@@ -63,7 +67,8 @@ static tl_result check_climb_counts(const tl_hull *hull, tl_report *report)
     if (climb->block_count < hull->vertex_count || climb->block_count > max_blocks) {
         return wrong_field(report, "block_count");
     }
-    if (climb->ring_count > hull->face_count || climb->ring_cells > tl_face_ring_cells(hull->half_edge_count)) {
+    if (climb->ring_count > hull->face_count || climb->cap_count > climb->ring_count ||
+        climb->ring_cells > MAX_RING_CELLS * (uint64_t)hull->half_edge_count) {
         return wrong_field(report, "ring_count");
     }
     return TL_OK;
@@ -299,21 +304,30 @@ static tl_result check_cells(const tl_hull *hull, tl_report *report)
     return TL_OK;
 }
 
+// Rings of faces, then those of caps. As any vertex is a right start, the latter are only proven to be safe to read.
 static tl_result check_face_rings(const tl_hull *hull, tl_report *report)
 {
     const tl_hull_climb *climb = tl_hull_climb_head(hull);
+    const tl_face_ring *rings = tl_hull_rings(hull);
     uint32_t count = 0, first = 2 * climb->table_side * climb->table_side;
     for (uint32_t face = 0; face < hull->face_count && climb->ring_count > 0; face++) {
         const uint32_t corners = tl_hull_face_at(hull, face).count;
         if (tl_face_has_ring(corners)) {
             tl_face_ring expected = tl_face_ring_make(hull, face, first);
-            if (memcmp(&expected, &tl_hull_rings(hull)[count++], sizeof expected) != 0) {
+            if (memcmp(&expected, &rings[count++], sizeof expected) != 0) {
                 return wrong_element(report, "ring", count - 1);
             }
             first += tl_face_ring_cells(corners);
         }
     }
-    return TL_OK;
+    const uint64_t end = tl_hull_cell_count(climb);
+    for (; count < climb->ring_count; count++) {
+        if (!tl_is_cap_ring(&rings[count], first, end)) {
+            return wrong_element(report, "ring", count);
+        }
+        first += tl_cap_cells(rings[count].cell_count & ~TL_RING_OF_CAP);
+    }
+    return first == end ? TL_OK : wrong_field(report, "ring_cells");
 }
 
 static tl_result check_ring_counts(const tl_hull *hull, tl_report *report)
@@ -324,9 +338,10 @@ static tl_result check_ring_counts(const tl_hull *hull, tl_report *report)
     for (uint32_t f = 0; f < hull->face_count; f++) {
         tl_hull_count_ring(hull->vertex_count, tl_hull_face_at(hull, f).count, &expected);
     }
-    return expected.ring_count == climb->ring_count && expected.ring_cells == climb->ring_cells
-               ? TL_OK
-               : wrong_field(report, "ring_count");
+    const bool caps_fit = climb->cap_count == 0 ? expected.ring_cells == climb->ring_cells
+                                                : climb->table_side > 0 && expected.ring_cells < climb->ring_cells;
+    return caps_fit && expected.ring_count + climb->cap_count == climb->ring_count ? TL_OK
+                                                                                   : wrong_field(report, "ring_count");
 }
 
 static tl_result check_direction_table(const tl_hull *hull, tl_report *report)

@@ -4,7 +4,7 @@
 
 #include "hull/support/direction_table.h"
 #include "base/assert.h"
-#include "hull/support/face_ring.h"
+#include "hull/support/cap_ring.h"
 
 // With 16 cells a vertex the start is right in seven of eight queries. Four times as many would halve the rest, and
 // their memory would cost more than that gains,
@@ -145,18 +145,29 @@ static bool is_among_wedges(const tl_hull *hull, const uint32_t *table, uint32_t
 {
     uint32_t vertex = table[cell] & ~TL_TABLE_RING, others = 0;
     const int32_t steps[4][2] = { { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
-    for (int k = 0; k < 4 && rings[vertex] != TL_NO_FACE_RING; k++) {
+    for (int k = 0; k < 4; k++) {
         uint32_t other = table[cell_beside(hull, cell, steps[k][0], steps[k][1])] & ~TL_TABLE_RING;
         others += other != vertex && rings[other] == rings[vertex];
     }
     return others >= 3;
 }
 
-static void name_rings(const tl_hull *hull, uint32_t *table, const uint32_t *rings)
+// Whether a cell's middle lies in the disc of the cap whose ring its vertex has.
+static bool is_among_normals(const tl_hull *hull, const tl_hull_caps *caps, uint32_t cell, uint32_t ring)
+{
+    const tl_hull_climb *climb = tl_hull_climb_head(hull);
+    const uint32_t side = climb->table_side, face_rings = climb->ring_count - caps->count;
+    const table_row row = { hull, NULL, NULL, cell / (side * side), cell / side % side };
+    return ring >= face_rings && tl_is_in_cap(hull, &caps->caps[ring - face_rings], middle_of_cell(&row, cell % side));
+}
+
+static void name_rings(const tl_hull *hull, uint32_t *table, const uint32_t *rings, const tl_hull_caps *caps)
 {
     const uint32_t side = tl_hull_climb_head(hull)->table_side, cells = 2 * side * side;
     for (uint32_t cell = 0; cell < cells; cell++) {
-        if (is_among_wedges(hull, table, cell, rings)) {
+        const uint32_t ring = rings[table[cell]];
+        if (ring != TL_NO_FACE_RING &&
+            (is_among_wedges(hull, table, cell, rings) || is_among_normals(hull, caps, cell, ring))) {
             table[cell] |= TL_TABLE_RING; // beside its vertex, which the next cells need
         }
     }
@@ -184,7 +195,7 @@ static void write_short_cells(tl_hull *hull, const uint32_t *table)
     }
 }
 
-tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena, tl_stage *stage)
+tl_result tl_hull_fill_table(tl_hull *hull, const tl_hull_caps *caps, tl_arena *arena, tl_stage *stage)
 {
     const tl_hull_climb *climb = tl_hull_climb_head(hull);
     const bool is_short = climb->cell_bytes == sizeof(uint16_t);
@@ -200,10 +211,11 @@ tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena, tl_stage *stage)
     }
     if (rings != NULL) {
         tl_hull_fill_rings(hull, table, rings);
+        TL_TRY(tl_hull_fill_caps(hull, caps, table, rings, stage));
     }
     TL_TRY(fill_squares(hull, table, rings, stage));
     if (rings != NULL) {
-        name_rings(hull, table, rings);
+        name_rings(hull, table, rings, caps);
     }
     if (is_short) {
         write_short_cells(hull, table);

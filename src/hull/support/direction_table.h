@@ -16,6 +16,7 @@
 #ifndef TALUS_SRC_HULL_DIRECTION_TABLE_H
 #define TALUS_SRC_HULL_DIRECTION_TABLE_H
 
+#include "base/lowest_bit.h"
 #include "base/min_max.h"
 #include "hull/support/hull_support.h"
 
@@ -52,21 +53,62 @@ static inline uint32_t tl_table_cell(tl_vec3 scaled, uint32_t side)
     return ((sign >> 31) * side + row) * side + column;
 }
 
-static inline uint32_t tl_ring_cell(const tl_face_ring *ring, tl_vec3 d)
+// Levels of a cap's ring, and the least cells of one. Ten levels, each a quarter as wide as the one outside, lead from
+// the outermost circle, which is about as wide as a cell of the table, to what a float direction can tell.
+#define TL_CAP_LEVELS      10u
+#define TL_CAP_LEAST_CELLS 8u
+
+// Cells of one level; the outermost, 0, has `cell_count`, a power of two.
+static inline uint32_t tl_cap_level_cells(uint32_t cell_count, uint32_t level)
 {
-    float a = ring->u[0] * d.x + ring->u[1] * d.y + ring->u[2] * d.z;
-    float b = ring->v[0] * d.x + ring->v[1] * d.y + ring->v[2] * d.z;
-    float t = b / tl_maxf(fabsf(a) + fabsf(b), FLT_MIN);
-    // 0 .. 4 once around: a diamond's perimeter instead of the angle.
-    float around = 2.0f - copysignf(1.0f - t, a);
-    return (uint32_t)(int32_t)(around * (0.25f * TL_TABLE_INWARD * (float)ring->cell_count));
+    return tl_max_u32(cell_count >> level, TL_CAP_LEAST_CELLS);
+}
+
+// Cells of all levels outside of one.
+static inline uint32_t tl_cap_cells_before(uint32_t cell_count, uint32_t level)
+{
+    const uint32_t halvings = tl_lowest_bit(cell_count / TL_CAP_LEAST_CELLS) + 1, halved = tl_min_u32(level, halvings);
+    return 2 * cell_count - (2 * cell_count >> halved) + TL_CAP_LEAST_CELLS * (level - halved);
+}
+
+// Cells of all of them.
+static inline uint32_t tl_cap_cells(uint32_t cell_count)
+{
+    return tl_cap_cells_before(cell_count, TL_CAP_LEVELS);
+}
+
+static inline uint32_t tl_float_exponent(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits >> 23;
+}
+
+// The level of a cap's ring whose circle is nearest to a direction `reach` off the normal, in units of the outermost
+// circle, for a direction with |x| + |y| + |z| = size: two binades a level.
+static inline uint32_t tl_cap_level(float reach, float size)
+{
+    const int32_t binades = (int32_t)tl_float_exponent(size) - (int32_t)tl_float_exponent(reach);
+    return (uint32_t)tl_clamp_i32((binades + 1) / 2, 0, (int32_t)TL_CAP_LEVELS - 1);
 }
 
 // The cell of a ring, counted from the table's first.
-static inline uint32_t tl_cell_in_ring(const tl_hull *hull, uint32_t index, tl_vec3 direction)
+static inline uint32_t tl_cell_in_ring(const tl_hull *hull, uint32_t index, tl_vec3 d)
 {
     const tl_face_ring *ring = &tl_hull_rings(hull)[index];
-    return ring->first + tl_ring_cell(ring, direction);
+    const float a = ring->u[0] * d.x + ring->u[1] * d.y + ring->u[2] * d.z;
+    const float b = ring->v[0] * d.x + ring->v[1] * d.y + ring->v[2] * d.z;
+    const float reach = fabsf(a) + fabsf(b), t = b / tl_maxf(reach, FLT_MIN);
+    // 0 .. 4 once around: a diamond's perimeter instead of the angle.
+    const float around = 2.0f - copysignf(1.0f - t, a);
+    uint32_t first = ring->first, cell_count = ring->cell_count;
+    if ((cell_count & TL_RING_OF_CAP) != 0) {
+        cell_count &= ~TL_RING_OF_CAP;
+        const uint32_t level = tl_cap_level(reach, fabsf(d.x) + fabsf(d.y) + fabsf(d.z));
+        first += tl_cap_cells_before(cell_count, level);
+        cell_count = tl_cap_level_cells(cell_count, level);
+    }
+    return first + (uint32_t)(int32_t)(around * (0.25f * TL_TABLE_INWARD * (float)cell_count));
 }
 
 // For a direction in the range of hull_support.h.

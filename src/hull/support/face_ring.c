@@ -61,10 +61,9 @@ tl_face_ring tl_face_ring_make(const tl_hull *hull, uint32_t face, uint32_t firs
 // Of the middle of a cell, in space.
 static tl_vec3d cell_direction(const tl_vec3d axes[2], const double extent[2], uint32_t cell, uint32_t cell_count)
 {
-    double around = 4.0 * ((double)cell + 0.5) / (double)cell_count;
-    double t = around < 2.0 ? around - 1.0 : 3.0 - around;
-    double a = around < 2.0 ? 1.0 - fabs(t) : fabs(t) - 1.0;
-    return tl_vec3d_add(tl_vec3d_scale(axes[0], a / extent[0]), tl_vec3d_scale(axes[1], t / extent[1]));
+    double at[2];
+    tl_ring_cell_middle(cell, cell_count, at);
+    return tl_vec3d_add(tl_vec3d_scale(axes[0], at[0] / extent[0]), tl_vec3d_scale(axes[1], at[1] / extent[1]));
 }
 
 static void fill_ring(const tl_hull *hull, uint32_t face, const tl_face_ring *ring, uint32_t *table)

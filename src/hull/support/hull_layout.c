@@ -48,7 +48,7 @@ uint64_t tl_hull_sources_offset(const tl_hull *head)
 static uint64_t lay_out_climb(const tl_hull *head, tl_hull_climb *climb, uint64_t bytes)
 {
     const bool scanned = head->vertex_count <= TL_HULL_SCAN_LIMIT;
-    climb->table_side = scanned ? 0 : tl_hull_table_side(head->vertex_count, climb->ring_count > 0);
+    climb->table_side = scanned ? 0 : tl_hull_table_side(head->vertex_count, climb->ring_count > climb->cap_count);
     climb->cell_bytes = head->vertex_count <= TL_TABLE_SHORT_RING ? sizeof(uint16_t) : sizeof(uint32_t);
     climb->planes = place_units(&bytes, tl_hull_plane_bytes(head));
     climb->table = place_units(&bytes, tl_hull_cell_count(climb) * climb->cell_bytes);

@@ -40,11 +40,14 @@ typedef struct tl_climb_block {
 #define TL_TABLE_RING       0x80000000u // in a cell of the table: not a vertex, look in that ring
 #define TL_TABLE_SHORT_RING 0x8000u     // the same in a cell of two bytes; ring and vertices are below it
 
-// A large face: where a direction points in its plane tells the vertex, by cells of their own behind the table's.
+// A large face: where a direction points in its plane tells the vertex, by cells of their own behind the table's. Or a
+// cap (cap_ring.h), whose ring has levels.
 typedef struct tl_face_ring {
     float u[3], v[3];           // axes of the plane, stretched by the face's extents
-    uint32_t first, cell_count; // in the table
+    uint32_t first, cell_count; // in the table; of a cap: of its outermost level, with TL_RING_OF_CAP
 } tl_face_ring;
+
+#define TL_RING_OF_CAP 0x80000000u
 
 // Where a half-edge starts.
 static inline tl_vec3 tl_hull_corner(const tl_hull *hull, uint32_t half_edge)
@@ -163,7 +166,8 @@ uint64_t tl_hull_cell_count(const tl_hull_climb *climb);
 // What directions are multiplied by; for a hull whose bounds and planes are there.
 tl_vec3 tl_hull_table_scale(const tl_hull *hull);
 // Fills the table of an otherwise finished hull.
-tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena, tl_stage *stage);
+struct tl_hull_caps;
+tl_result tl_hull_fill_table(tl_hull *hull, const struct tl_hull_caps *caps, tl_arena *arena, tl_stage *stage);
 
 // hull_layout.c
 // Fills in what follows from V, F, 2 E and the flags, and for a hull of more than TL_HULL_FEW vertices from

@@ -22,27 +22,44 @@
 
 typedef enum climb_end { END_FARTHEST, END_LEVEL, END_HIGHER } climb_end;
 
+// Of the gain by double arithmetic from one vertex to another: two differences' and products' roundings and two sums'
+// make less than eight; no product of three floats' differences underflows in double.
+#define TL_SETTLE_ERROR 1.7763568394002505e-15 // 8 * 2^-52
+
+// As tl_compare_along(direction, a, b), of which it is the quick half: a hull's edges are short beside its distance
+// from the origin.
+static inline int settle_compare(tl_vec3 direction, tl_vec3 a, tl_vec3 b)
+{
+    const double x = (double)direction.x * ((double)a.x - (double)b.x);
+    const double y = (double)direction.y * ((double)a.y - (double)b.y);
+    const double z = (double)direction.z * ((double)a.z - (double)b.z);
+    const double gain = x + y + z, error = TL_SETTLE_ERROR * (fabs(x) + fabs(y) + fabs(z));
+    return gain > error ? 1 : gain < -error ? -1 : tl_compare_along(direction, a, b);
+}
+
 // Compares exactly what rounding left open around a vertex: nothing is as far; something is exactly as far; or
-// something is farther, and `vertex` becomes that.
+// something is farther, and `vertex` becomes the farthest of it.
 static inline climb_end settle(const tl_hull *hull, tl_vec3 direction, const tl_climber *climber, uint32_t *vertex)
 {
     const tl_climb_block *blocks = tl_hull_blocks(hull);
     const tl_vec3 *vertices = tl_hull_vertices(hull);
+    uint32_t best = *vertex;
     climb_end end = END_FARTHEST;
     for (uint32_t at = *vertex; at != TL_NO_VERTEX; at = tl_climb_block_after(&blocks[at])) {
         // The last lane of all blocks but a vertex's last one is no neighbour, and repeats the first.
         uint32_t lanes = tl_climb_block_after(&blocks[at]) != TL_NO_VERTEX ? 0x7fu : 0xffu;
         uint32_t open = tl_climber_open(tl_climber_gains_at(climber, &blocks[at])) & lanes;
         for (; open != 0; open &= open - 1) {
-            uint32_t other = blocks[at].link[tl_lowest_bit(open)];
-            int order = tl_compare_along(direction, vertices[other], vertices[*vertex]);
-            if (order > 0) {
-                *vertex = other;
-                return END_HIGHER;
+            const uint32_t lane = tl_lowest_bit(open), other = blocks[at].link[lane];
+            if (lane > 0 && other == blocks[at].link[0]) {
+                break; // unused lanes repeat the first neighbour
             }
-            end = order == 0 ? END_LEVEL : end;
+            const int order = settle_compare(direction, vertices[other], vertices[best]);
+            best = order > 0 ? other : best;
+            end = order > 0 ? END_HIGHER : order == 0 && end == END_FARTHEST && other != best ? END_LEVEL : end;
         }
     }
+    *vertex = best;
     return end;
 }
 
@@ -51,15 +68,15 @@ TL_NOINLINE uint32_t TL_SUPPORT_CLIMB(const tl_hull *hull, float x, float y, flo
 {
     const tl_vec3 direction = { x, y, z };
     tl_climber climber = tl_climber_make(x, y, z);
-    for (;;) {
-        if (tl_hull_climb_blocks(hull, &climber, &vertex)) {
-            return vertex;
-        }
-        climb_end end = settle(hull, direction, &climber, &vertex);
-        if (end != END_HIGHER) {
-            return end == END_LEVEL ? tl_hull_climb_exact(hull, direction, vertex) : vertex;
-        }
+    if (tl_hull_climb_blocks(hull, &climber, &vertex)) {
+        return vertex;
     }
+    // What follows is as hard to tell: no float step would be certain.
+    climb_end end;
+    do {
+        end = settle(hull, direction, &climber, &vertex);
+    } while (end == END_HIGHER);
+    return end == END_LEVEL ? tl_hull_climb_exact(hull, direction, vertex) : vertex;
 }
 
 uint32_t TL_SUPPORT_MARCH(const tl_hull *hull, tl_vec3 from, tl_vec3 step, uint32_t count, uint32_t vertex,
