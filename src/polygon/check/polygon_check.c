@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The validator: each polygon by itself, then its links; polygon_cover.c checks the polygons of one contour together.
-// It shares no step with the bake: links are checked in both directions and by one sort of all open edges, convexity by
-// the turning directions.
+// It shares no step with the bake but the sweep that tells whether segments meet (test_sweep compares that with all
+// pairs): links are checked in both directions and by one sort of all open edges, convexity by the turning directions.
 
 #include "polygon/check/polygon_check.h"
 

@@ -41,6 +41,11 @@ static inline uint32_t tl_mesh_next(const tl_polygon_mesh *mesh, uint32_t polygo
 tl_result tl_polygon_check_outline(tl_polygon_checker *checker, const tl_sort_item *polygons, uint32_t count,
                                    uint32_t contour);
 
+/// Whether no two of `count` polygons of one group overlap, and no corner of one lies inside another's edge. False
+/// where that is not proven: then pairs are to be looked at.
+tl_result tl_polygon_sweep_cover(tl_polygon_checker *checker, const tl_sort_item *polygons, uint32_t count,
+                                 bool *is_proven_out);
+
 /// Overlaps, T-junctions, areas and outlines, contour by contour. The mesh's polygons are all convex.
 tl_result tl_polygon_check_cover(tl_polygon_checker *checker);
 

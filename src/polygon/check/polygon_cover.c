@@ -15,6 +15,9 @@
 
 #include <string.h>
 
+// Below so many polygons pairs are quicker.
+enum { SMALLEST_SWEPT_GROUP = 64 };
+
 typedef struct lattice_box {
     int32_t min_x, max_x, min_z, max_z;
 } lattice_box;
@@ -176,6 +179,22 @@ static void check_t_junctions(cover *c)
     }
 }
 
+// Pairs take the square of the time where many polygons are as wide as the contour: a comb's, a spiral's.
+static tl_result check_cover_of(cover *c)
+{
+    bool is_proven = false;
+    if (c->end - c->first >= SMALLEST_SWEPT_GROUP) {
+        const tl_arena_mark mark = tl_arena_get_mark(&c->checker->arena);
+        TL_TRY(tl_polygon_sweep_cover(c->checker, c->order + c->first, c->end - c->first, &is_proven));
+        tl_arena_rollback(&c->checker->arena, mark);
+    }
+    if (!is_proven) {
+        check_overlaps(c);
+        check_t_junctions(c);
+    }
+    return TL_OK;
+}
+
 // Joins neighbours of several contours; a piece is named by its lowest polygon.
 static uint32_t *join_polygon_pieces(const tl_polygon_mesh *mesh, tl_arena *arena)
 {
@@ -301,8 +320,7 @@ tl_result tl_polygon_check_cover(tl_polygon_checker *checker)
         while (c.end < checker->mesh->polygon_count && c.order[c.end].key >> GROUP_SHIFT == group) {
             c.end++;
         }
-        check_overlaps(&c);
-        check_t_junctions(&c);
+        TL_TRY(check_cover_of(&c));
         if (is_whole != NULL && contour != TL_SEVERAL_CONTOURS && is_whole[contour]) {
             tl_arena_mark mark = tl_arena_get_mark(&checker->arena);
             TL_TRY(tl_polygon_check_outline(checker, c.order + c.first, c.end - c.first, contour));
