@@ -79,9 +79,17 @@ tl_result tl_character_mover_create(const tl_character_def *def, tl_character_mo
     m->tan_slope = sqrt(1.0 - m->cos_slope * m->cos_slope) / m->cos_slope;
     m->items = (tl_mover_item *)tl_allocate_array(&allocator, used.max_triangles, sizeof *m->items);
     m->contacts = (tl_mover_contact *)tl_allocate_array(&allocator, used.max_triangles, sizeof *m->contacts);
-    if (m->items == NULL || m->contacts == NULL) {
+    const uint64_t box_numbers = TL_MOVER_BOX_ARRAYS * tl_mover_box_room(used.max_triangles);
+    m->box_numbers = (float *)tl_allocate_array(&allocator, box_numbers, sizeof *m->box_numbers);
+    if (m->items == NULL || m->contacts == NULL || m->box_numbers == NULL) {
         tl_character_mover_destroy(m);
         return TL_ERR_MEMORY;
+    }
+    memset(m->box_numbers, 0, (size_t)box_numbers * sizeof *m->box_numbers);
+    float **arrays[TL_MOVER_BOX_ARRAYS] = { &m->boxes.low_x,  &m->boxes.low_y,  &m->boxes.low_z,  &m->boxes.high_x,
+                                            &m->boxes.high_y, &m->boxes.high_z, &m->boxes.away_sq };
+    for (size_t i = 0; i < TL_MOVER_BOX_ARRAYS; i++) {
+        *arrays[i] = m->box_numbers + i * (size_t)tl_mover_box_room(used.max_triangles);
     }
     *mover_out = m;
     return TL_OK;
@@ -92,6 +100,8 @@ void tl_character_mover_destroy(tl_character_mover *mover)
     if (mover != NULL) {
         const tl_allocator allocator = mover->allocator;
         tl_release_array(&allocator, mover->items, mover->def.max_triangles, sizeof *mover->items);
+        tl_release_array(&allocator, mover->box_numbers,
+                         TL_MOVER_BOX_ARRAYS * tl_mover_box_room(mover->def.max_triangles), sizeof *mover->box_numbers);
         tl_release_array(&allocator, mover->contacts, mover->def.max_triangles, sizeof *mover->contacts);
         tl_release_array(&allocator, mover, 1, sizeof *mover);
     }

@@ -20,6 +20,20 @@ typedef struct tl_mover_contact {
     bool supports; ///< can be stood on
 } tl_mover_contact;
 
+/// The boxes of all items in float, for a look at all of them at once.
+typedef struct tl_mover_boxes {
+    float *low_x, *low_y, *low_z, *high_x, *high_y, *high_z;
+    float *away_sq; ///< 4 m2: of tl_mover_measure_boxes
+} tl_mover_boxes;
+
+/// Loops run over whole lanes: each array has room for them.
+enum { TL_MOVER_BOX_ARRAYS = 7, TL_MOVER_BOX_LANES = 8 };
+
+static inline uint64_t tl_mover_box_room(uint32_t max_triangles)
+{
+    return ((uint64_t)max_triangles + TL_MOVER_BOX_LANES - 1) / TL_MOVER_BOX_LANES * TL_MOVER_BOX_LANES;
+}
+
 struct tl_character_mover {
     tl_character_def def;
     tl_allocator allocator;
@@ -39,6 +53,9 @@ struct tl_character_mover {
     double least_gap; ///< there
     uint32_t item_count, contact_count;
     tl_mover_item *items;       ///< [def.max_triangles]
+    bool has_boxes;             ///< the items are many, and their boxes are filled in
+    tl_mover_boxes boxes;       ///< of the items
+    float *box_numbers;         ///< [TL_MOVER_BOX_ARRAYS * tl_mover_box_room()]: theirs
     tl_mover_contact *contacts; ///< [def.max_triangles]: of the last tl_mover_find_contacts
 };
 
@@ -51,6 +68,10 @@ static inline tl_mover_core tl_mover_core_at(const tl_character_mover *m, tl_vec
 
 /// Collects what the capsule may come near while its feet stay between two corners; false: more than max_triangles.
 bool tl_mover_collect(tl_character_mover *m, tl_vec3d low, tl_vec3d high);
+
+/// How far the items' boxes are from a box at least, in boxes.away_sq: what lies within `reach` of it has no more than
+/// the number returned. Where the items are many.
+float tl_mover_measure_boxes(tl_character_mover *m, tl_vec3d low, tl_vec3d high, double reach);
 
 /// Finds the contacts at a place, unless they are known, and returns the smallest gap, also of those that do not count;
 /// INFINITY: none.

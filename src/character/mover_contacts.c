@@ -123,7 +123,14 @@ double tl_mover_find_contacts(tl_character_mover *m, tl_vec3d feet)
     const double reach = m->radius + CONTACT_SHARE * m->gap, beyond = m->radius + BEYOND_SHARE * m->gap;
     double least = (double)INFINITY;
     m->contact_count = 0;
+    tl_vec3d top = core.low;
+    top.y += core.length;
+    const float most_sq = m->has_boxes ? tl_mover_measure_boxes(m, core.low, top, reach) : 0.0f;
+    const float *away_sq = m->has_boxes ? m->boxes.away_sq : NULL;
     for (uint32_t i = 0; i < m->item_count; i++) {
+        if (away_sq != NULL && away_sq[i] > most_sq) {
+            continue;
+        }
         tl_mover_item *item = &m->items[i];
         if (item->instance == m->ignored_instance || tl_mover_is_far(item, &core, reach)) {
             continue;
