@@ -63,6 +63,26 @@ static tl_vec3d corner_in_world(const collection *c, tl_vec3d corner)
     return tl_frame_point(&c->frame, tl_vec3d_mul(corner, c->scale));
 }
 
+// In the world the box is that of the floats.
+static void set_corners(const collection *c, const tl_soup_triangle *triangle, tl_mover_item *item)
+{
+    const tl_vec3 *corners = triangle->corners;
+    if (c->at == NULL) {
+        for (int k = 0; k < 3; k++) {
+            item->corners[k] = tl_vec3d_from(corners[k]);
+        }
+        item->low = tl_vec3d_from(tl_min(tl_min(corners[0], corners[1]), corners[2]));
+        item->high = tl_vec3d_from(tl_max(tl_max(corners[0], corners[1]), corners[2]));
+        item->shape = NULL;
+        item->known = false;
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        item->corners[k] = corner_in_world(c, tl_vec3d_from(corners[c->mirrored ? (3 - k) % 3 : k]));
+    }
+    tl_mover_set_triangle(item);
+}
+
 static bool collect_triangle(const tl_soup_triangle *triangle, void *user)
 {
     collection *c = (collection *)user;
@@ -70,11 +90,7 @@ static bool collect_triangle(const tl_soup_triangle *triangle, void *user)
     if (item == NULL) {
         return false;
     }
-    for (int k = 0; k < 3; k++) {
-        tl_vec3d corner = tl_vec3d_from(triangle->corners[c->mirrored ? (3 - k) % 3 : k]);
-        item->corners[k] = c->at != NULL ? corner_in_world(c, corner) : corner;
-    }
-    tl_mover_set_triangle(item);
+    set_corners(c, triangle, item);
     item->instance = c->instance;
     item->triangle = triangle->triangle;
     item->material = triangle->material;

@@ -21,6 +21,9 @@
 // gap.
 #define AHEAD_RADII 1.5
 
+// Who is at the gap to this share of it, 2 um, stands there.
+#define STAND_SHARE 0.0009765625
+
 enum { MAX_DESCENTS = 4 };
 
 static double flat_length(tl_vec3d a)
@@ -89,10 +92,17 @@ static bool settle_within(tl_character_mover *m, tl_vec3d *feet, double drop, do
     return true;
 }
 
-// To the ground within `drop`, when it can be stood on, no edge above `highest`; else the feet stay. False: there is no
-// such ground. It is mostly near, so what is farther down is collected only where it is not.
+// To the ground within `drop`, from where it may stand already, when it can be stood on, no edge above `highest`; else
+// the feet stay. False: there is no such ground. It is mostly near, so what is farther down is collected only where it
+// is not.
 static bool settle_down(tl_character_mover *m, tl_vec3d *feet, double drop, double lean, double highest)
 {
+    tl_mover_find_contacts(m, *feet);
+    const tl_mover_contact *here = tl_mover_support(m, highest);
+    if (here != NULL && here->normal.y >= lean && fabs(here->gap - m->gap) <= STAND_SHARE * m->gap) {
+        m->ground_height = here->point.y;
+        return true;
+    }
     double known = feet->y - m->feet_low.y;
     if (known > 0.0 && known < drop && settle_within(m, feet, known, lean, highest)) {
         return true;
