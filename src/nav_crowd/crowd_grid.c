@@ -86,33 +86,36 @@ static void copy_seen_agents(uint32_t block, uint32_t worker, void *user)
     }
 }
 
-// A counting sort by cell. `cell` holds the place in the snapshot then.
+// A counting sort by cell. `cell` holds the place in the snapshot then. From the last agent back, so that each cell's
+// entry moves from its end to its begin: that leaves the agents of a cell in the order of their places.
 static void sort_agents(tl_nav_crowd *crowd)
 {
     const crowd_grid *grid = &crowd->grid;
     const crowd_fields *a = &crowd->a;
     const uint32_t used = crowd->head->used;
-    memset(grid->first, 0, ((size_t)grid->cell_count + 1) * sizeof *grid->first);
-    crowd->seen.max_radius = 0.0f;
+    uint32_t *first = grid->first, *cell = grid->cell;
+    memset(first, 0, (size_t)grid->cell_count * sizeof *first);
+    float max_radius = 0.0f;
     for (uint32_t i = 0; i < used; i++) {
         if (a->status[i] != CROWD_FREE) {
-            grid->first[grid->cell[i] + 1]++;
-            crowd->seen.max_radius = tl_max_f32(crowd->seen.max_radius, a->radius[i]);
+            first[cell[i]]++;
+            max_radius = tl_max_f32(max_radius, a->radius[i]);
         }
     }
+    crowd->seen.max_radius = max_radius;
+    uint32_t end = 0;
     for (uint32_t c = 0; c < grid->cell_count; c++) {
-        grid->first[c + 1] += grid->first[c];
+        end += first[c];
+        first[c] = end;
     }
-    // Each cell's entry moves to its end, so that it is the next one's begin.
-    for (uint32_t i = 0; i < used; i++) {
+    first[grid->cell_count] = end;
+    for (uint32_t i = used; i-- > 0;) {
         if (a->status[i] != CROWD_FREE) {
-            const uint32_t k = grid->first[grid->cell[i]]++;
+            const uint32_t k = --first[cell[i]];
             crowd->seen.agents[k].agent = i;
-            grid->cell[i] = k;
+            cell[i] = k;
         }
     }
-    memmove(grid->first + 1, grid->first, (size_t)grid->cell_count * sizeof *grid->first);
-    grid->first[0] = 0;
 }
 
 void tl_crowd_fill_grid(const crowd_step *step)
