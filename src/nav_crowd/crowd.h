@@ -16,6 +16,7 @@
 #include <talus/nav_crowd.h>
 
 #include <math.h>
+#include <stdatomic.h>
 
 enum {
     CROWD_MAX_WALLS = 8,      ///< that an agent keeps
@@ -41,6 +42,7 @@ enum {
 /// Elsewhere it is held before a gap that is too narrow.
 #define CROWD_HELD_AFTER 3.0f ///< seconds
 
+#define CROWD_CACHE_LINE 64 ///< bytes
 #define CROWD_NO_PLACE   UINT32_MAX
 #define CROWD_MAGIC      0x44574f52u ///< "ROWD"
 #define CROWD_VERSION    4u
@@ -232,6 +234,13 @@ typedef struct crowd_tree {
     bool is_asked;             ///< in this step
 } crowd_tree;
 
+/// The blocks of agents that one worker takes first, in a cache line of its own.
+typedef struct crowd_block_run {
+    atomic_uint next;
+    uint32_t end;
+    char behind[CROWD_CACHE_LINE - 2 * sizeof(uint32_t)];
+} crowd_block_run;
+
 struct tl_nav_crowd {
     tl_allocator allocator;
     tl_nav_crowd_def def;
@@ -243,6 +252,7 @@ struct tl_nav_crowd {
     uint32_t *work; ///< [paths_per_step]: places whose paths are searched in this step
     uint32_t work_capacity;
     tl_nav_query **queries; ///< one for each worker
+    crowd_block_run *runs;  ///< one for each worker
     uint32_t worker_count;
     tl_nav_filter filters[TL_NAV_CROWD_FILTER_COUNT];
     crowd_tree trees[CROWD_MAX_SHARED];

@@ -192,6 +192,10 @@ static tl_result allocate_queries(tl_nav_crowd *crowd)
         return TL_ERR_MEMORY;
     }
     memset(crowd->queries, 0, crowd->worker_count * sizeof(tl_nav_query *));
+    crowd->runs = (crowd_block_run *)tl_allocate_array(&crowd->allocator, crowd->worker_count, sizeof *crowd->runs);
+    if (crowd->runs == NULL) {
+        return TL_ERR_MEMORY;
+    }
     tl_nav_query_def def = tl_default_nav_query_def();
     def.max_nodes = crowd->def.max_nodes;
     def.allocator = &crowd->allocator;
@@ -243,6 +247,7 @@ void tl_nav_crowd_destroy(tl_nav_crowd *crowd)
     for (uint32_t i = 0; crowd->queries != NULL && i < crowd->worker_count; i++) {
         tl_nav_query_destroy(crowd->queries[i]);
     }
+    tl_release_array(&crowd->allocator, crowd->runs, crowd->worker_count, sizeof *crowd->runs);
     tl_release_array(&crowd->allocator, crowd->queries, crowd->worker_count, sizeof(tl_nav_query *));
     tl_release_array(&crowd->allocator, crowd->head, crowd->state_bytes, 1);
     release_step(crowd);

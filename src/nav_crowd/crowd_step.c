@@ -53,16 +53,41 @@ static void list_block_agents(const crowd_step *step, uint32_t block, block_agen
     }
 }
 
+// Each worker takes the same blocks first in every step, as their agents are in its cache, and then what others have
+// left.
+static void deal_blocks(tl_nav_crowd *crowd, uint32_t count)
+{
+    for (uint32_t w = 0; w < crowd->worker_count; w++) {
+        atomic_init(&crowd->runs[w].next, (uint32_t)((uint64_t)count * w / crowd->worker_count));
+        crowd->runs[w].end = (uint32_t)((uint64_t)count * (w + 1) / crowd->worker_count);
+    }
+}
+
+// A block that nobody has taken: as many are asked for as there are.
+static uint32_t take_block(tl_nav_crowd *crowd, uint32_t worker)
+{
+    for (uint32_t n = 0; n < crowd->worker_count; n++) {
+        crowd_block_run *run = &crowd->runs[(worker + n) % crowd->worker_count];
+        const uint32_t block = atomic_fetch_add_explicit(&run->next, 1, memory_order_relaxed);
+        if (block < run->end) {
+            return block;
+        }
+    }
+    TL_ASSERT(false);
+    return 0;
+}
+
 // In the order of places, not of the snapshot: the fields of an agent, which are written too, fill thirty cache lines
 // that it shares with its neighbours in that order, and what it reads of others fills a few. All agents of a block do
 // one thing before the next: its code and tables stay in the nearest cache.
-static void step_block(uint32_t block, uint32_t worker, void *user)
+static void step_block(uint32_t index, uint32_t worker, void *user)
 {
+    (void)index;
     const crowd_step *step = (const crowd_step *)user;
     tl_nav_crowd *crowd = step->crowd;
     tl_nav_query *query = crowd->queries[worker];
     block_agents agents;
-    list_block_agents(step, block, &agents);
+    list_block_agents(step, take_block(crowd, worker), &agents);
     for (uint32_t n = 0; n < agents.count; n++) {
         const uint32_t i = agents.place[n];
         tl_crowd_look_for_walls(step, i, query);
@@ -164,7 +189,9 @@ tl_result tl_nav_crowd_step(tl_nav_crowd *crowd, const tl_navmesh *navmesh, floa
     tl_crowd_run_tasks(&step, search_one, step.work_count);
     tl_crowd_lead_groups(&step);
     tl_crowd_fill_grid(&step);
-    tl_crowd_run_tasks(&step, step_block, tl_block_count(head->used, CROWD_BLOCK));
+    const uint32_t blocks = tl_block_count(head->used, CROWD_BLOCK);
+    deal_blocks(crowd, blocks);
+    tl_crowd_run_tasks(&step, step_block, blocks);
     tl_crowd_grant_links(&step);
     finish(&step, report_out);
     head->step++;
