@@ -3,6 +3,7 @@
 // Prepared navmeshes: the same lengths as without the graph, whatever tiles and links come and go; memory.
 // That these are the shortest of all is tested beside the search over polygons (test_shortest_path.c).
 
+#include "base/hash.h"
 #include "nav_fixture.h"
 #include "nav_query/prepared/visibility_graph.h"
 
@@ -302,7 +303,91 @@ static void change_tile(fixture_level *level, tl_navmesh *const both[2], test_ra
     }
 }
 
-// A graph that is mended after edits has the vertices and edges of one that is baked at once.
+// What a graph holds, whatever its numbers and order: sums of hashes.
+typedef struct graph_content {
+    uint64_t vertices, edges, cones;
+} graph_content;
+
+static uint64_t name_of_polygon(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    const int32_t place[4] = { tile->tile_x, tile->tile_z, (int32_t)tile->layer, (int32_t)polygon };
+    return tl_hash_bytes(place, sizeof place, 1);
+}
+
+static uint64_t name_of_vertex(const tl_navmesh *navmesh, uint32_t v)
+{
+    const tl_nav_corner_vertex *vertex = &navmesh->graph->vertices[v];
+    TEST_CHECK(vertex->turn != 0 && navmesh->graph->marks[v] == 0);
+    const uint64_t polygon = name_of_polygon(navmesh, vertex->place.slot, vertex->place.polygon);
+    const float values[7] = {
+        vertex->x,           vertex->y, vertex->z, vertex->walls.first_x, vertex->walls.first_z, vertex->walls.last_x,
+        vertex->walls.last_z
+    };
+    return tl_hash_bytes(values, sizeof values, polygon + vertex->place.edge);
+}
+
+static void add_cones(const tl_navmesh *navmesh, uint32_t slot, const uint64_t *names, graph_content *content)
+{
+    const tl_nav_corner_cones *cones = &navmesh->graph->tiles[slot].cones;
+    TEST_CHECK(cones->polygon_count == navmesh->slots[slot].tile->polygon_count);
+    for (uint32_t p = 0; p < cones->polygon_count; p++) {
+        for (uint32_t i = cones->first[p]; i < cones->first[p + 1]; i++) {
+            const int16_t ends[4] = { cones->left_x[i], cones->left_z[i], cones->right_x[i], cones->right_z[i] };
+            const uint64_t cone[2] = { names[tl_nav_cone_vertex(cones, i)], cones->vertex[i] >> 24 };
+            content->cones +=
+                tl_hash_bytes(ends, sizeof ends, tl_hash_bytes(cone, sizeof cone, name_of_polygon(navmesh, slot, p)));
+        }
+    }
+}
+
+// Landmarks are no longer than edges let them be.
+static void check_landmarks(const tl_nav_visibility_graph *graph, uint32_t v)
+{
+    const tl_nav_corner_vertex *from = &graph->vertices[v];
+    for (uint32_t e = 0; e < from->edge_count; e++) {
+        const tl_nav_corner_vertex *to = &graph->vertices[from->edges[e].to];
+        const double x = (double)to->x - (double)from->x, z = (double)to->z - (double)from->z;
+        const double most = sqrt(x * x + z * z) + (double)graph->landmark_error;
+        for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
+            const float a = graph->landmarks[v][k], b = graph->landmarks[from->edges[e].to][k];
+            TEST_CHECK(isfinite(a) && fabs((double)a - (double)b) <= most);
+        }
+    }
+}
+
+static graph_content content_of(const tl_navmesh *navmesh)
+{
+    graph_content content = { 0, 0, 0 };
+    const tl_nav_visibility_graph *graph = navmesh->graph;
+    uint64_t *names = calloc(graph->vertex_room + 1, sizeof *names);
+    uint32_t vertices = 0, edges = 0;
+    for (uint32_t v = 0; v < graph->vertex_room; v++) {
+        names[v] = graph->vertices[v].turn != 0 ? name_of_vertex(navmesh, v) : 0;
+        content.vertices += names[v];
+        vertices += graph->vertices[v].turn != 0;
+    }
+    for (uint32_t v = 0; v < graph->vertex_room; v++) {
+        const tl_nav_corner_vertex *vertex = &graph->vertices[v];
+        for (uint32_t e = 0; e < vertex->edge_count; e++) {
+            const uint64_t ends[3] = { names[v], names[vertex->edges[e].to], vertex->edges[e].turns };
+            TEST_CHECK(e == 0 || vertex->edges[e - 1].to < vertex->edges[e].to);
+            content.edges += tl_hash_bytes(ends, sizeof ends, 1);
+        }
+        edges += vertex->edge_count;
+        check_landmarks(graph, v);
+    }
+    for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
+        if (navmesh->slots[slot].tile != NULL) {
+            add_cones(navmesh, slot, names, &content);
+        }
+    }
+    TEST_CHECK(vertices == graph->vertex_count && edges == graph->edge_count);
+    free(names);
+    return content;
+}
+
+// A graph that is mended after edits has the vertices, edges and cones of one that is baked at once.
 static void test_mended(void **state)
 {
     (void)state;
@@ -326,6 +411,10 @@ static void test_mended(void **state)
             TEST_RESULT(tl_navmesh_prepare(fresh, &def, &anew), TL_OK);
             TEST_CHECK(made.kind == anew.kind && made.corner_vertex_count == anew.corner_vertex_count);
             TEST_CHECK(made.edge_count == anew.edge_count);
+            if (made.kind != TL_NAV_PREPARED_NONE) {
+                const graph_content a = content_of(both[0]), b = content_of(fresh);
+                TEST_CHECK(a.vertices == b.vertices && a.edges == b.edges && a.cones == b.cones);
+            }
             tl_navmesh_destroy(fresh);
             mended += made.renewed_count < made.corner_vertex_count;
             renewed += made.renewed_count;
@@ -337,6 +426,35 @@ static void test_mended(void **state)
         tl_navmesh_destroy(both[1]);
     }
     TEST_CHECK(turning > 600 && mended > 240 && renewed < vertices / 3 * 2);
+}
+
+// A thousand edits of the same tiles leave no more memory than one, and no other graph.
+static void test_many_edits(void **state)
+{
+    (void)state;
+    test_random random = { 12 };
+    const tl_nav_prepare_def def = { 0, NULL, TL_DEF_COOKIE };
+    fixture_level level = fixture_random(&random, 1, 16);
+    level.tile_cells = 4;
+    tl_navmesh *navmesh = fixture_build(&level, NULL), *fresh = fixture_build(&level, NULL);
+    tl_nav_prepared first, made;
+    TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &first), TL_OK);
+    for (uint32_t edit = 0; edit < 1000; edit++) {
+        const int32_t x = (int32_t)test_random_below(&random, 2), z = (int32_t)test_random_below(&random, 2);
+        tl_nav_tile *tile = fixture_build_tile(&level, x, z, NULL);
+        if (tile != NULL) {
+            TEST_RESULT(tl_navmesh_remove_tile(navmesh, x, z), TL_OK);
+            TEST_RESULT(edit % 3 == 0 ? tl_navmesh_prepare(navmesh, &def, NULL) : TL_OK, TL_OK);
+            TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
+        }
+        TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &made), TL_OK);
+        TEST_CHECK(made.bytes == first.bytes && made.edge_count == first.edge_count);
+    }
+    TEST_RESULT(tl_navmesh_prepare(fresh, &def, NULL), TL_OK);
+    const graph_content a = content_of(navmesh), b = content_of(fresh);
+    TEST_CHECK(a.vertices == b.vertices && a.edges == b.edges && a.cones == b.cones);
+    tl_navmesh_destroy(navmesh);
+    tl_navmesh_destroy(fresh);
 }
 
 static tl_nav_location location_of(const tl_navmesh *navmesh, const tl_nav_corner_vertex *vertex)
@@ -360,10 +478,10 @@ static void test_edges_are_sights(void **state)
         tl_navmesh *navmesh = fixture_build(&level, NULL), *plain = fixture_build(&level, NULL);
         TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, NULL), TL_OK);
         const tl_nav_visibility_graph *graph = navmesh->graph;
-        for (uint32_t i = 0; graph != NULL && i < graph->vertex_count; i++) {
+        for (uint32_t i = 0; graph != NULL && i < graph->vertex_room; i++) {
             const tl_nav_corner_vertex *from = &graph->vertices[i];
-            for (uint32_t k = from[0].first_edge; k < from[1].first_edge; k++) {
-                const tl_nav_corner_vertex *to = &graph->vertices[graph->edges[k].to];
+            for (uint32_t k = 0; k < from->edge_count; k++) {
+                const tl_nav_corner_vertex *to = &graph->vertices[from->edges[k].to];
                 const tl_nav_path_request request = { NULL, location_of(plain, from), location_of(plain, to) };
                 tl_nav_shortest_path path;
                 TEST_RESULT(tl_nav_query_find_shortest_path(query, plain, &request, NULL, &path), TL_OK);
@@ -463,6 +581,7 @@ int main(void)
         cmocka_unit_test(test_links),
         cmocka_unit_test(test_edges_are_sights),
         cmocka_unit_test(test_mended),
+        cmocka_unit_test(test_many_edits),
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_mending_memory),
     };

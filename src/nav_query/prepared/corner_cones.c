@@ -25,7 +25,7 @@
 #include "base/assert.h"
 #include "base/min_max.h"
 #include "nav_query/exact/wedge_sight.h"
-#include "nav_query/prepared/graph_reuse.h"
+#include "nav_query/prepared/visibility_graph.h"
 
 #include <math.h>
 #include <string.h>
@@ -127,16 +127,13 @@ static uint32_t join_cones(tl_nav_corner_cone *cones, uint32_t count)
 // Half a step, and the roundings of dot products of floats, 2^-22 of 32767 steps.
 #define CONE_LEAST_SLACK 0.51
 
-// A slack is (1 + (code % 8) / 8) 2^(code / 8 - 1): the high bits of a float.
-enum { SLACK_SHIFT = 20, SLACK_LOWEST = 126 << 23, SLACK_CODE_SHIFT = 24 };
-
 // The code of a slack of 0.5 and more, rounded up. As directions are longer than their rounding, it is below 2^17.
 static uint32_t slack_code(double slack)
 {
     const float value = (float)(slack * (1.0 + 2.0 * (double)TL_FLOAT_ROUNDING));
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
-    const uint32_t code = (bits - SLACK_LOWEST + (1u << SLACK_SHIFT) - 1) >> SLACK_SHIFT;
+    const uint32_t code = (bits - TL_NAV_SLACK_LOWEST + (1u << TL_NAV_SLACK_SHIFT) - 1) >> TL_NAV_SLACK_SHIFT;
     TL_ASSERT(code < 256);
     return code;
 }
@@ -153,10 +150,8 @@ static int16_t whole_steps(double steps)
     return (int16_t)lrint(steps);
 }
 
-static void write_cone(const tl_nav_visibility_graph *graph, const tl_nav_corner_cone *cone, uint32_t at)
+static void write_cone(const tl_nav_corner_cones *cones, double rounding, const tl_nav_corner_cone *cone, uint32_t at)
 {
-    const tl_nav_corner_cones *cones = &graph->cones;
-    const double rounding = graph->rounding;
     const double left = steps_a_metre(cone->left_x, cone->left_z, rounding);
     const double right = steps_a_metre(cone->right_x, cone->right_z, rounding);
     cones->left_x[at] = whole_steps((double)cone->left_x * left);
@@ -164,68 +159,95 @@ static void write_cone(const tl_nav_visibility_graph *graph, const tl_nav_corner
     cones->right_x[at] = whole_steps(-(double)cone->right_x * right);
     cones->right_z[at] = whole_steps(-(double)cone->right_z * right);
     const uint32_t slack = slack_code(CONE_LEAST_SLACK + 4.0 * rounding * tl_max_f64(left, right));
-    cones->vertex[at] = cone->vertex | slack << SLACK_CODE_SHIFT;
+    cones->vertex[at] = cone->vertex | slack << TL_NAV_SLACK_CODE_SHIFT;
 }
 
-// Room for `capacity` cones.
-static bool allocate_cones(const tl_allocator *allocator, tl_nav_corner_cones *cones, uint32_t capacity)
+// Words of 4 bytes of the block of so many cones.
+static uint64_t cone_words(uint32_t polygon_count, uint32_t count)
 {
-    // An even number, so that each array of halves is whole words.
-    cones->places = ((uint64_t)capacity + TL_NAV_CONES_AT_ONCE + 1) & ~(uint64_t)1;
-    cones->block = tl_allocate_array(allocator, 3 * cones->places, sizeof *cones->block);
-    if (cones->block == NULL) {
+    return (uint64_t)polygon_count + 1 + 3 * (uint64_t)count + TL_NAV_CONES_AT_ONCE;
+}
+
+uint64_t tl_nav_cones_size(const tl_nav_corner_cones *cones)
+{
+    return cones->first != NULL ? cone_words(cones->polygon_count, cones->count) * sizeof *cones->first : 0;
+}
+
+// A block for so many cones. False: out of memory.
+static bool allocate_cones(const tl_allocator *allocator, uint32_t polygon_count, uint32_t count,
+                           tl_nav_corner_cones *cones_out)
+{
+    memset(cones_out, 0, sizeof *cones_out);
+    cones_out->polygon_count = polygon_count;
+    cones_out->count = count;
+    cones_out->first =
+        (uint32_t *)tl_allocate_array(allocator, cone_words(polygon_count, count), sizeof *cones_out->first);
+    if (cones_out->first == NULL) {
         return false;
     }
-    cones->vertex = cones->block;
-    int16_t **arrays[4] = { &cones->left_x, &cones->left_z, &cones->right_x, &cones->right_z };
-    for (uint32_t i = 0; i < 4; i++) {
-        *arrays[i] = (int16_t *)(void *)(cones->block + cones->places) + i * cones->places;
-    }
+    // What is read behind the halves are others, or the words: any do, as the words behind are those of corner vertex
+    // 0.
+    int16_t *halves = (int16_t *)(void *)(cones_out->first + polygon_count + 1);
+    cones_out->left_x = halves;
+    cones_out->left_z = halves + count;
+    cones_out->right_x = halves + 2 * (size_t)count;
+    cones_out->right_z = halves + 3 * (size_t)count;
+    cones_out->vertex = cones_out->first + polygon_count + 1 + 2 * (size_t)count;
+    memset(cones_out->vertex + count, 0, TL_NAV_CONES_AT_ONCE * sizeof *cones_out->vertex);
     return true;
 }
 
-// What is read behind the last cone, with it.
-static void clear_behind_cones(const tl_nav_corner_cones *cones)
+void tl_nav_free_cones(const tl_allocator *allocator, tl_nav_corner_cones *cones)
 {
-    memset(cones->vertex + cones->count, 0, TL_NAV_CONES_AT_ONCE * sizeof *cones->vertex);
-    int16_t *const arrays[4] = { cones->left_x, cones->left_z, cones->right_x, cones->right_z };
-    for (uint32_t i = 0; i < 4; i++) {
-        memset(arrays[i] + cones->count, 0, TL_NAV_CONES_AT_ONCE * sizeof *arrays[i]);
-    }
+    tl_release_array(allocator, cones->first, cone_words(cones->polygon_count, cones->count), sizeof *cones->first);
+    memset(cones, 0, sizeof *cones);
 }
 
-// The cones of the list by polygon, joined: those of polygon p at [first[p], first[p + 1]).
-static void sort_cones(const tl_nav_cone_list *list, const tl_nav_visibility_graph *graph, uint32_t *first,
-                       tl_nav_corner_cone *grouped)
+tl_result tl_nav_group_cones(tl_nav_cone_list *list, uint32_t slot_count, uint32_t *first)
 {
-    memset(first, 0, ((size_t)graph->polygon_count + 1) * sizeof *first);
-    for (uint64_t i = 0; i < list->count; i++) {
-        first[graph->slot_first[list->cones[i].slot] + list->cones[i].polygon]++;
+    tl_nav_corner_cone *grouped =
+        (tl_nav_corner_cone *)tl_allocate_array(list->allocator, list->capacity, sizeof *grouped);
+    if (grouped == NULL || list->count > UINT32_MAX) {
+        tl_release_array(list->allocator, grouped, list->capacity, sizeof *grouped);
+        return grouped == NULL ? TL_ERR_MEMORY : TL_ERR_LIMIT;
     }
-    for (uint32_t p = 1; p <= graph->polygon_count; p++) {
-        first[p] += first[p - 1];
+    memset(first, 0, ((size_t)slot_count + 1) * sizeof *first);
+    for (uint64_t i = 0; i < list->count; i++) {
+        first[list->cones[i].slot]++;
+    }
+    for (uint32_t slot = 1; slot <= slot_count; slot++) {
+        first[slot] += first[slot - 1];
     }
     for (uint64_t i = list->count; i > 0; i--) {
-        const tl_nav_corner_cone *last = &list->cones[i - 1];
-        grouped[--first[graph->slot_first[last->slot] + last->polygon]] = *last;
+        grouped[--first[list->cones[i - 1].slot]] = list->cones[i - 1];
     }
-    uint32_t total = 0;
-    for (uint32_t p = 0; p < graph->polygon_count; p++) {
-        const uint32_t count = join_cones(grouped + first[p], first[p + 1] - first[p]);
-        memmove(grouped + total, grouped + first[p], count * sizeof *grouped);
-        first[p] = total;
-        total += count;
-    }
-    first[graph->polygon_count] = total;
+    tl_release_array(list->allocator, list->cones, list->capacity, sizeof *grouped);
+    list->cones = grouped;
+    return TL_OK;
 }
 
-// A polygon's cones in the graph before, from first[0] to first[1]; NULL: there are none to reuse.
-static const uint32_t *old_cones(const tl_navmesh *navmesh, const tl_nav_graph_reuse *reuse, uint32_t slot,
-                                 uint32_t polygon)
+// The new cones of a tile by polygon, joined: those of polygon p at [first[p], first[p + 1]) of `sorted`.
+static void sort_cones(const tl_nav_corner_cone *fresh, uint64_t count, uint32_t polygon_count, uint32_t *first,
+                       tl_nav_corner_cone *sorted)
 {
-    return tl_nav_is_tile_reused(navmesh, reuse, slot)
-               ? reuse->old->cones.first + reuse->old->slot_first[slot] + polygon
-               : NULL;
+    memset(first, 0, ((size_t)polygon_count + 1) * sizeof *first);
+    for (uint64_t i = 0; i < count; i++) {
+        first[fresh[i].polygon]++;
+    }
+    for (uint32_t p = 1; p <= polygon_count; p++) {
+        first[p] += first[p - 1];
+    }
+    for (uint64_t i = count; i > 0; i--) {
+        sorted[--first[fresh[i - 1].polygon]] = fresh[i - 1];
+    }
+    uint32_t total = 0;
+    for (uint32_t p = 0; p < polygon_count; p++) {
+        const uint32_t joined = join_cones(sorted + first[p], first[p + 1] - first[p]);
+        memmove(sorted + total, sorted + first[p], joined * sizeof *sorted);
+        first[p] = total;
+        total += joined;
+    }
+    first[polygon_count] = total;
 }
 
 static void copy_run(const tl_nav_corner_cones *from, uint32_t first, uint32_t count, const tl_nav_corner_cones *to,
@@ -236,202 +258,76 @@ static void copy_run(const tl_nav_corner_cones *from, uint32_t first, uint32_t c
     memcpy(to->left_z + at, from->left_z + first, bytes);
     memcpy(to->right_x + at, from->right_x + first, bytes);
     memcpy(to->right_z + at, from->right_z + first, bytes);
+    memcpy(to->vertex + at, from->vertex + first, count * sizeof *from->vertex);
 }
 
-// Copies the cones of a polygon that are reused to the graph's from `at` on: all that follow one another at once.
-// Returns their number.
-static uint32_t copy_cones(const tl_nav_graph_reuse *reuse, const uint32_t *range, const tl_nav_corner_cones *to,
-                           uint32_t at)
+// Copies the cones from `begin` to `end` that are not dropped, all that follow one another at once. Returns their
+// number.
+static uint32_t copy_kept(const tl_nav_corner_cones *from, uint32_t begin, uint32_t end, const bool *is_dropped,
+                          const tl_nav_corner_cones *to, uint32_t at)
 {
-    const tl_nav_corner_cones *from = &reuse->old->cones;
     uint32_t count = 0;
-    for (uint32_t i = range[0]; i < range[1]; i++) {
-        const uint32_t begin = i;
-        for (; i < range[1] && reuse->now[tl_nav_cone_vertex(from, i)] != TL_NAV_NO_VERTEX; i++) {
-            const uint32_t slack = from->vertex[i] & ~(TL_NAV_MAX_CORNER_VERTICES - 1);
-            to->vertex[at + count + (i - begin)] = reuse->now[tl_nav_cone_vertex(from, i)] | slack;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t first = i;
+        while (i < end && !is_dropped[i]) {
+            i++;
         }
-        copy_run(from, begin, i - begin, to, at + count);
-        count += i - begin;
+        copy_run(from, first, i - first, to, at + count);
+        count += i - first;
     }
     return count;
 }
 
-// What lay_cones puts into a graph.
-typedef struct cone_layout {
-    const tl_navmesh *navmesh;
-    tl_nav_visibility_graph *graph;
-    const tl_nav_graph_reuse *reuse;
-    const uint32_t *first;             // by polygon, of the new ones
-    const tl_nav_corner_cone *grouped; // those
-    tl_stage *stage;
-} cone_layout;
-
-// The cones of one polygon, from `at` on; returns their number. `p`: its number in the graph.
-static uint32_t lay_polygon(const cone_layout *l, uint32_t slot, uint32_t polygon, uint32_t p, uint32_t at)
+static uint32_t count_kept(const tl_nav_corner_cones *cones, const bool *is_dropped)
 {
-    const uint32_t *range = old_cones(l->navmesh, l->reuse, slot, polygon);
-    uint32_t count = range != NULL ? copy_cones(l->reuse, range, &l->graph->cones, at) : 0;
-    for (uint32_t i = l->first[p]; i < l->first[p + 1]; i++, count++) {
-        write_cone(l->graph, &l->grouped[i], at + count);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < cones->count; i++) {
+        kept += is_dropped[i] ? 0 : 1;
     }
-    return count;
+    return kept;
 }
 
-// Goes through all polygons, and writes their cones and where they stand.
-static tl_result lay_cones(const cone_layout *l)
+static tl_result lay_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint32_t slot,
+                           uint32_t polygon_count, const bool *is_dropped, const uint32_t *first,
+                           const tl_nav_corner_cone *sorted)
 {
-    tl_nav_corner_cones *cones = &l->graph->cones;
-    uint32_t p = 0;
-    for (uint32_t slot = 0; slot < l->graph->slot_count; slot++) {
-        const tl_nav_slot *in = &l->navmesh->slots[slot];
-        for (uint32_t polygon = 0; in->tile != NULL && polygon < in->rings.polygon_count; polygon++, p++) {
-            cones->first[p] = cones->count;
-            cones->count += lay_polygon(l, slot, polygon, p, cones->count);
-            TL_TRY(tl_stage_tick(l->stage, p));
+    tl_nav_corner_cones *old = &graph->tiles[slot].cones, made;
+    const uint64_t count = (uint64_t)count_kept(old, is_dropped) + first[polygon_count];
+    if (count > UINT32_MAX - TL_NAV_CONES_AT_ONCE) {
+        return TL_ERR_LIMIT;
+    }
+    if (!allocate_cones(allocator, polygon_count, (uint32_t)count, &made)) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t at = 0;
+    for (uint32_t p = 0; p < polygon_count; p++) {
+        made.first[p] = at;
+        at += old->count > 0 ? copy_kept(old, old->first[p], old->first[p + 1], is_dropped, &made, at) : 0;
+        for (uint32_t i = first[p]; i < first[p + 1]; i++) {
+            write_cone(&made, graph->rounding, &sorted[i], at++);
         }
     }
-    cones->first[p] = cones->count;
-    clear_behind_cones(cones);
+    made.first[polygon_count] = at;
+    TL_ASSERT(at == made.count);
+    graph->tile_bytes += tl_nav_cones_size(&made) - tl_nav_cones_size(old);
+    tl_nav_free_cones(allocator, old);
+    *old = made;
     return TL_OK;
 }
 
-// How many cones of the graph before are reused.
-static uint32_t count_reused(const tl_navmesh *navmesh, const tl_nav_graph_reuse *reuse)
+tl_result tl_nav_remake_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint32_t slot,
+                              uint32_t polygon_count, const bool *is_dropped, const tl_nav_corner_cone *fresh,
+                              uint64_t count)
 {
-    uint32_t count = 0;
-    for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
-        const uint32_t *first = old_cones(navmesh, reuse, slot, 0);
-        const uint32_t end = first != NULL ? first[navmesh->slots[slot].rings.polygon_count] : 0;
-        for (uint32_t i = first != NULL ? first[0] : 0; i < end; i++) {
-            count += reuse->now[tl_nav_cone_vertex(&reuse->old->cones, i)] != TL_NAV_NO_VERTEX ? 1 : 0;
-        }
-    }
-    return count;
-}
-
-tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, tl_nav_visibility_graph *graph,
-                             const tl_nav_graph_reuse *reuse, tl_stage *stage)
-{
-    tl_nav_corner_cones *cones = &graph->cones;
-    const uint32_t reused = count_reused(navmesh, reuse);
-    if (list->count + reused > UINT32_MAX - TL_NAV_CONES_AT_ONCE || graph->vertex_count > TL_NAV_MAX_CORNER_VERTICES) {
-        return TL_ERR_LIMIT;
-    }
-    const uint64_t places = (uint64_t)graph->polygon_count + 1;
-    uint32_t *first = tl_allocate_array(list->allocator, places, sizeof *first);
-    tl_nav_corner_cone *grouped = tl_allocate_array(list->allocator, list->count, sizeof *grouped);
-    cones->first = tl_allocate_array(list->allocator, places, sizeof *cones->first);
-    tl_result result = first != NULL && grouped != NULL && cones->first != NULL ? TL_OK : TL_ERR_MEMORY;
-    const cone_layout layout = { navmesh, graph, reuse, first, grouped, stage };
+    const uint64_t places = (uint64_t)polygon_count + 1;
+    uint32_t *first = (uint32_t *)tl_allocate_array(allocator, places, sizeof *first);
+    tl_nav_corner_cone *sorted = (tl_nav_corner_cone *)tl_allocate_array(allocator, count, sizeof *sorted);
+    tl_result result = first != NULL && sorted != NULL ? TL_OK : TL_ERR_MEMORY;
     if (result == TL_OK) {
-        sort_cones(list, graph, first, grouped);
-        result = allocate_cones(list->allocator, cones, reused + first[graph->polygon_count]) ? TL_OK : TL_ERR_MEMORY;
+        sort_cones(fresh, count, polygon_count, first, sorted);
+        result = lay_cones(allocator, graph, slot, polygon_count, is_dropped, first, sorted);
     }
-    if (result == TL_OK) {
-        result = lay_cones(&layout);
-    }
-    tl_release_array(list->allocator, grouped, list->count, sizeof *grouped);
-    tl_release_array(list->allocator, first, places, sizeof *first);
+    tl_release_array(allocator, first, places, sizeof *first);
+    tl_release_array(allocator, sorted, count, sizeof *sorted);
     return result;
-}
-
-void tl_nav_free_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph)
-{
-    tl_release_array(allocator, graph->cones.first, (uint64_t)graph->polygon_count + 1, sizeof *graph->cones.first);
-    tl_release_array(allocator, graph->cones.block, 3 * graph->cones.places, sizeof *graph->cones.block);
-}
-
-// A point on a polygon.
-typedef struct spot {
-    uint32_t slot, polygon;
-    tl_vec3 point;
-} spot;
-
-static float leg_length(float x, float z, const tl_nav_corner_vertex *vertex)
-{
-    float to_x = x - vertex->x;
-    float to_z = z - vertex->z;
-    return sqrtf(to_x * to_x + to_z * to_z);
-}
-
-// Which of the cones from `base` on a point is in. Simple loops, which compilers make wide.
-static void test_cones(const tl_nav_visibility_graph *graph, uint32_t base, float x, float z,
-                       uint32_t is_in[TL_NAV_CONES_AT_ONCE])
-{
-    enum { N = TL_NAV_CONES_AT_ONCE };
-    const tl_nav_corner_cones *cones = &graph->cones;
-    const uint32_t *words = cones->vertex + base;
-    const int16_t *left_x = cones->left_x + base, *left_z = cones->left_z + base;
-    const int16_t *right_x = cones->right_x + base, *right_z = cones->right_z + base;
-    const float line = (float)(8.0 * TL_NAV_CONE_STEPS * graph->rounding);
-    float dx[N], dz[N], least[N], left[N], right[N];
-    for (uint32_t k = 0; k < N; k++) {
-        const tl_nav_corner_vertex *vertex = &graph->vertices[words[k] & (TL_NAV_MAX_CORNER_VERTICES - 1)];
-        dx[k] = x - vertex->x;
-        dz[k] = z - vertex->z;
-    }
-    for (uint32_t k = 0; k < N; k++) {
-        const union {
-            uint32_t bits;
-            float value;
-        } slack = { (words[k] >> SLACK_CODE_SHIFT << SLACK_SHIFT) + SLACK_LOWEST };
-        least[k] = -(slack.value * (fabsf(dx[k]) + fabsf(dz[k])) + line);
-    }
-    for (uint32_t k = 0; k < N; k++) {
-        left[k] = (float)left_x[k] * dz[k] - (float)left_z[k] * dx[k];
-    }
-    for (uint32_t k = 0; k < N; k++) {
-        right[k] = (float)right_x[k] * dz[k] - (float)right_z[k] * dx[k];
-    }
-    for (uint32_t k = 0; k < N; k++) {
-        is_in[k] = (left[k] >= least[k] ? 1u : 0u) & (right[k] >= least[k] ? 1u : 0u);
-    }
-}
-
-// The corner vertices in whose cones a point lies; `other` is the other end of the path. TL_NAV_NO_NODE: they are more
-// than capacity.
-static uint32_t vertices_in_cones(const tl_nav_visibility_graph *graph, const spot *at, tl_vec3 other,
-                                  tl_nav_corner_leg *legs_out, uint32_t capacity)
-{
-    const tl_nav_corner_cones *cones = &graph->cones;
-    const uint32_t *first = cones->first + graph->slot_first[at->slot] + at->polygon;
-    const float x = at->point.x;
-    const float z = at->point.z;
-    uint32_t count = 0;
-    for (uint32_t base = first[0]; base < first[1]; base += TL_NAV_CONES_AT_ONCE) {
-        uint32_t is_in[TL_NAV_CONES_AT_ONCE];
-        test_cones(graph, base, x, z, is_in);
-        for (uint32_t k = 0; k < TL_NAV_CONES_AT_ONCE && base + k < first[1]; k++) {
-            if (count == capacity) {
-                return TL_NAV_NO_NODE;
-            }
-            legs_out[count].vertex = tl_nav_cone_vertex(cones, base + k);
-            count += is_in[k];
-        }
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_nav_corner_vertex *vertex = &graph->vertices[legs_out[i].vertex];
-        legs_out[i].length = leg_length(x, z, vertex);
-        legs_out[i].total = legs_out[i].length + leg_length(other.x, other.z, vertex);
-    }
-    return count;
-}
-
-bool tl_nav_find_ends(const tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph, tl_nav_ends *ends_out)
-{
-    const spot start = { search->start_slot, search->start_polygon, search->start };
-    const spot goal = { search->goal_slot, search->goal_polygon, search->goal };
-    uint32_t room = search->query->max_nodes;
-    ends_out->starts = search->query->legs;
-    ends_out->start_count = vertices_in_cones(graph, &start, search->goal, ends_out->starts, room);
-    if (ends_out->start_count == TL_NAV_NO_NODE) {
-        search->query->is_short = true;
-        return false;
-    }
-    room -= ends_out->start_count;
-    ends_out->goals = ends_out->starts + ends_out->start_count;
-    ends_out->goal_count = vertices_in_cones(graph, &goal, search->start, ends_out->goals, room);
-    search->query->is_short = search->query->is_short || ends_out->goal_count == TL_NAV_NO_NODE;
-    return ends_out->goal_count != TL_NAV_NO_NODE;
 }

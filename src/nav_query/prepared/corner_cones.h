@@ -6,10 +6,9 @@
 #define TALUS_SRC_NAV_QUERY_CORNER_CONES_H
 
 #include "base/stage.h"
-#include "nav_query/prepared/path_ends.h"
 #include "nav_query/search/wedge.h"
 
-typedef struct tl_nav_graph_reuse tl_nav_graph_reuse; // graph_reuse.h
+typedef struct tl_nav_visibility_graph tl_nav_visibility_graph; // visibility_graph.h
 
 /// So many cones are tested at once: more than loops that compilers write out, and so leave without vectors.
 enum { TL_NAV_CONES_AT_ONCE = 24 };
@@ -20,22 +19,28 @@ enum { TL_NAV_CONES_AT_ONCE = 24 };
 /// Steps of the larger component of a cone's direction.
 #define TL_NAV_CONE_STEPS 32767.0
 
-/// The cones from which a path may go straight to a corner vertex and turn there, by polygon: 12 bytes each. A cone is
-/// two directions from its vertex in whole steps, and a slack for their rounding (corner_cones.c). The arrays have
-/// TL_NAV_CONES_AT_ONCE more entries than cones, so that a whole batch can be read.
+/// The cones from which a path may go straight to a corner vertex and turn there, by polygon of a tile: 12 bytes each.
+/// A cone is two directions from its vertex in whole steps, and a slack for their rounding (corner_cones.c). A batch of
+/// TL_NAV_CONES_AT_ONCE can be read from any of them on, whose vertices are all within the graph's room.
 typedef struct tl_nav_corner_cones {
-    uint32_t *first; ///< [polygon_count + 1]
+    uint32_t *first; ///< [polygon_count + 1]; the block that all arrays stand in, or NULL: there is no tile
     int16_t *left_x, *left_z, *right_x, *right_z;
     uint32_t *vertex; ///< its corner vertex, and in the high 8 bits the code of its slack
+    uint32_t polygon_count;
     uint32_t count;
-    uint64_t places; ///< of each array
-    uint32_t *block; ///< that all arrays but the first stand in
 } tl_nav_corner_cones;
 
-/// Bytes of the cones, and of where they stand.
-static inline uint64_t tl_nav_cones_size(const tl_nav_corner_cones *cones, uint32_t polygon_count)
+// A slack is (1 + (code % 8) / 8) 2^(code / 8 - 1): the high bits of a float.
+enum { TL_NAV_SLACK_SHIFT = 20, TL_NAV_SLACK_LOWEST = 126 << 23, TL_NAV_SLACK_CODE_SHIFT = 24 };
+
+/// How much wider a cone is than its directions tell, in steps, by its word in `vertex`.
+static inline float tl_nav_cone_slack(uint32_t word)
 {
-    return ((uint64_t)polygon_count + 1) * sizeof *cones->first + 3 * cones->places * sizeof *cones->block;
+    const union {
+        uint32_t bits;
+        float value;
+    } slack = { (word >> TL_NAV_SLACK_CODE_SHIFT << TL_NAV_SLACK_SHIFT) + TL_NAV_SLACK_LOWEST };
+    return slack.value;
 }
 
 static inline uint32_t tl_nav_cone_vertex(const tl_nav_corner_cones *cones, uint32_t cone)
@@ -60,14 +65,17 @@ typedef struct tl_nav_cone_list {
 /// Adds the cones of a wedge that is seen from a corner vertex. TL_ERR_MEMORY.
 tl_result tl_nav_add_cones(tl_nav_cone_list *list, const tl_nav_visibility_graph *graph, uint32_t vertex,
                            const tl_nav_wedge *wedge);
-/// Puts the cones into the graph, by polygon, behind those that are reused. TL_ERR_MEMORY, TL_ERR_LIMIT; the graph
-/// keeps what tl_nav_free_cones frees.
-tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, tl_nav_visibility_graph *graph,
-                             const tl_nav_graph_reuse *reuse, tl_stage *stage);
-void tl_nav_free_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph);
-
-/// The corner vertices whose cones hold the start, and those whose cones hold the goal. False: the query is too small.
-bool tl_nav_find_ends(const tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph,
-                      tl_nav_ends *ends_out);
+/// Groups the cones by slot, stably: those of slot s at [first[s], first[s + 1]) of the list. `first` [slot_count + 1].
+/// TL_ERR_MEMORY.
+tl_result tl_nav_group_cones(tl_nav_cone_list *list, uint32_t slot_count, uint32_t *first);
+/// Makes a tile's cones: those before that are not dropped, and `count` new ones, in any order. `is_dropped`, by cone,
+/// may be NULL where there were none. TL_ERR_MEMORY: they are as they were. TL_ERR_LIMIT.
+tl_result tl_nav_remake_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint32_t slot,
+                              uint32_t polygon_count, const bool *is_dropped, const tl_nav_corner_cone *fresh,
+                              uint64_t count);
+/// Releases the block; there is no tile then.
+void tl_nav_free_cones(const tl_allocator *allocator, tl_nav_corner_cones *cones);
+/// Bytes of the block.
+uint64_t tl_nav_cones_size(const tl_nav_corner_cones *cones);
 
 #endif

@@ -17,15 +17,15 @@
 
 uint64_t tl_nav_corner_distances_size(const tl_nav_visibility_graph *graph)
 {
-    uint64_t pairs = (uint64_t)graph->vertex_count * graph->vertex_count;
+    uint64_t pairs = (uint64_t)graph->vertex_room * graph->vertex_room;
     // A corner vertex has 16 bits in it.
-    return graph->vertex_count <= UINT16_MAX ? pairs * (sizeof *graph->table + sizeof *graph->table_next) : UINT64_MAX;
+    return graph->vertex_room <= UINT16_MAX ? pairs * (sizeof *graph->table + sizeof *graph->table_next) : UINT64_MAX;
 }
 
 tl_result tl_nav_bake_corner_distances(const tl_allocator *allocator, const tl_host *host,
                                        tl_nav_visibility_graph *graph)
 {
-    uint32_t n = graph->vertex_count;
+    uint32_t n = graph->vertex_room;
     uint64_t pairs = (uint64_t)n * n;
     tl_nav_dijkstra lengths;
     tl_stage stage;
@@ -48,7 +48,7 @@ tl_result tl_nav_bake_corner_distances(const tl_allocator *allocator, const tl_h
 
 void tl_nav_free_corner_distances(const tl_allocator *allocator, tl_nav_visibility_graph *graph)
 {
-    uint64_t pairs = (uint64_t)graph->vertex_count * graph->vertex_count;
+    uint64_t pairs = (uint64_t)graph->vertex_room * graph->vertex_room;
     tl_release_array(allocator, graph->table, pairs, sizeof *graph->table);
     tl_release_array(allocator, graph->table_next, pairs, sizeof *graph->table_next);
     graph->table = NULL;
@@ -90,7 +90,7 @@ tl_nav_meeting tl_nav_best_by_table(const tl_nav_visibility_graph *graph, tl_nav
         if (!(start->total < best.length * margin)) {
             continue;
         }
-        const float *row = graph->table + (uint64_t)start->vertex * graph->vertex_count;
+        const float *row = graph->table + (uint64_t)start->vertex * graph->vertex_room;
         tl_nav_corner_leg *nearest = NULL;
         for (uint32_t k = 0; k < goal_count; k++) {
             float length = start->length + row[ends->goals[k].vertex] + ends->goals[k].length;
@@ -115,7 +115,7 @@ tl_nav_meeting tl_nav_best_by_table(const tl_nav_visibility_graph *graph, tl_nav
 uint32_t tl_nav_unpack_table(const tl_nav_visibility_graph *graph, const tl_nav_meeting *meeting, uint64_t *vertices,
                              uint32_t capacity)
 {
-    const uint16_t *next = graph->table_next + (uint64_t)meeting->start->vertex * graph->vertex_count;
+    const uint16_t *next = graph->table_next + (uint64_t)meeting->start->vertex * graph->vertex_room;
     uint32_t count = 0;
     for (uint32_t at = meeting->goal->vertex;; at = next[at]) {
         if (count == capacity) {

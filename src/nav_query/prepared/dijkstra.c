@@ -21,10 +21,10 @@ tl_result tl_nav_dijkstra_init(const tl_allocator *allocator, const tl_nav_visib
     memset(lengths_out, 0, sizeof *lengths_out);
     lengths_out->graph = graph;
     lengths_out->stage = stage;
-    lengths_out->length = tl_allocate_array(allocator, graph->vertex_count, sizeof *lengths_out->length);
-    lengths_out->before = tl_allocate_array(allocator, graph->vertex_count, sizeof *lengths_out->before);
+    lengths_out->length = tl_allocate_array(allocator, graph->vertex_room, sizeof *lengths_out->length);
+    lengths_out->before = tl_allocate_array(allocator, graph->vertex_room, sizeof *lengths_out->before);
     lengths_out->heap =
-        tl_allocate_array(allocator, (uint64_t)graph->vertex_count + graph->edge_count, sizeof *lengths_out->heap);
+        tl_allocate_array(allocator, (uint64_t)graph->vertex_room + graph->edge_count, sizeof *lengths_out->heap);
     if (lengths_out->length == NULL || lengths_out->before == NULL || lengths_out->heap == NULL) {
         tl_nav_dijkstra_free(allocator, lengths_out);
         return TL_ERR_MEMORY;
@@ -35,10 +35,9 @@ tl_result tl_nav_dijkstra_init(const tl_allocator *allocator, const tl_nav_visib
 void tl_nav_dijkstra_free(const tl_allocator *allocator, tl_nav_dijkstra *lengths)
 {
     const tl_nav_visibility_graph *graph = lengths->graph;
-    tl_release_array(allocator, lengths->length, graph->vertex_count, sizeof *lengths->length);
-    tl_release_array(allocator, lengths->before, graph->vertex_count, sizeof *lengths->before);
-    tl_release_array(allocator, lengths->heap, (uint64_t)graph->vertex_count + graph->edge_count,
-                     sizeof *lengths->heap);
+    tl_release_array(allocator, lengths->length, graph->vertex_room, sizeof *lengths->length);
+    tl_release_array(allocator, lengths->before, graph->vertex_room, sizeof *lengths->before);
+    tl_release_array(allocator, lengths->heap, (uint64_t)graph->vertex_room + graph->edge_count, sizeof *lengths->heap);
 }
 
 static void open_vertex(tl_nav_dijkstra *lengths, uint32_t vertex)
@@ -60,8 +59,8 @@ static tl_result spread_lengths(tl_nav_dijkstra *lengths)
             TL_TRY(tl_stage_add(lengths->stage, 0));
         }
         const tl_nav_corner_vertex *vertex = &graph->vertices[next.vertex];
-        for (uint32_t k = vertex[0].first_edge; k < vertex[1].first_edge; k++) {
-            const tl_nav_visibility_edge *edge = &graph->edges[k];
+        for (uint32_t k = 0; k < vertex->edge_count; k++) {
+            const tl_nav_visibility_edge *edge = &vertex->edges[k];
             double length = next.length + tl_nav_visibility_edge_length(vertex, edge);
             if (length < lengths->length[edge->to]) {
                 lengths->length[edge->to] = length;
@@ -75,7 +74,7 @@ static tl_result spread_lengths(tl_nav_dijkstra *lengths)
 
 tl_result tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint32_t source_count)
 {
-    for (uint32_t i = 0; i < lengths->graph->vertex_count; i++) {
+    for (uint32_t i = 0; i < lengths->graph->vertex_room; i++) {
         lengths->length[i] = (double)INFINITY;
     }
     for (uint32_t i = 0; i < source_count; i++) {

@@ -29,7 +29,7 @@ typedef struct tl_nav_dijkstra {
     tl_stage *stage;          ///< NULL: silent
     double *length;           ///< by corner vertex: metres; INFINITY: no way
     uint32_t *before;         ///< by corner vertex: the one before it on the way there; itself for a source
-    tl_nav_open_vertex *heap; ///< [edge_count + corner_vertex_count]: an entry each time a length falls
+    tl_nav_open_vertex *heap; ///< [edge_count + vertex_room]: an entry each time a length falls
     uint32_t heap_count;
 } tl_nav_dijkstra;
 

@@ -164,13 +164,13 @@ static const tl_nav_kept_leg *kept_between(const tl_nav_visibility_graph *graph,
                                            const tl_nav_corner_vertex *to)
 {
     const uint32_t end = (uint32_t)(to - graph->vertices);
-    uint32_t k = from[0].first_edge;
-    while (k < from[1].first_edge && graph->edges[k].to < end) {
+    const tl_nav_kept_leg *legs = graph->kept.legs + graph->kept.leg_first[from - graph->vertices];
+    uint32_t k = 0;
+    while (k < from->edge_count && from->edges[k].to < end) {
         k++;
     }
-    const bool is_kept =
-        k < from[1].first_edge && graph->edges[k].to == end && graph->kept.legs[k].enters != TL_NAV_NO_PLACE;
-    return is_kept ? &graph->kept.legs[k] : NULL;
+    const bool is_kept = k < from->edge_count && from->edges[k].to == end && legs[k].enters != TL_NAV_NO_PLACE;
+    return is_kept ? &legs[k] : NULL;
 }
 
 static void add_refs(tl_nav_trail *trail, const tl_nav_ref *refs, uint32_t count)

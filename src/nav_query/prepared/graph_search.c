@@ -173,8 +173,8 @@ static void expand_stop(graph_search *s, uint32_t index)
     double x = (double)vertex->x - (from != NULL ? (double)from->x : s->start_x);
     double z = (double)vertex->z - (from != NULL ? (double)from->z : s->start_z);
     uint32_t turns = tl_nav_turns_at(vertex, x, z, s->rounding);
-    for (uint32_t k = vertex[0].first_edge; k < vertex[1].first_edge; k++) {
-        const tl_nav_visibility_edge *edge = &s->graph->edges[k];
+    for (uint32_t k = 0; k < vertex->edge_count; k++) {
+        const tl_nav_visibility_edge *edge = &vertex->edges[k];
         double on_x = (double)edge->x - (double)vertex->x;
         double on_z = (double)edge->z - (double)vertex->z;
         if (!may_go_on(s, turns, x, z, on_x, on_z)) {

@@ -5,6 +5,7 @@
 #ifndef TALUS_SRC_NAV_QUERY_GRAPH_SEARCH_H
 #define TALUS_SRC_NAV_QUERY_GRAPH_SEARCH_H
 
+#include "nav_query/prepared/path_ends.h"
 #include "nav_query/prepared/visibility_graph.h"
 
 /// A node: a corner vertex that the search has reached.

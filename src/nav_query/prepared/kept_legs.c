@@ -43,11 +43,12 @@ static tl_result keep_fans(leg_keeper *k)
 {
     tl_nav_kept_legs *kept = &k->kept;
     const tl_allocator *allocator = &k->navmesh->allocator;
-    for (uint32_t v = 0; v < k->graph->vertex_count; v++) {
+    for (uint32_t v = 0; v < k->graph->vertex_room; v++) {
         tl_nav_ring_place fan[TL_NAV_MAX_FAN];
-        const uint32_t count = tl_nav_fan_of(k->navmesh, &k->graph->vertices[v], fan);
+        const bool is_free = k->graph->vertices[v].turn == 0;
+        const uint32_t count = is_free ? 0 : tl_nav_fan_of(k->navmesh, &k->graph->vertices[v], fan);
         tl_nav_ref *to = room_for(allocator, &kept->fans, kept->fan_count, &k->fan_capacity, count);
-        if (to == NULL) {
+        if (to == NULL && count > 0) {
             return TL_ERR_MEMORY;
         }
         kept->fan_first[v] = (uint32_t)kept->fan_count;
@@ -56,7 +57,7 @@ static tl_result keep_fans(leg_keeper *k)
         }
         kept->fan_count += count;
     }
-    kept->fan_first[k->graph->vertex_count] = (uint32_t)kept->fan_count;
+    kept->fan_first[k->graph->vertex_room] = (uint32_t)kept->fan_count;
     return TL_OK;
 }
 
@@ -123,9 +124,10 @@ static tl_result keep_all(leg_keeper *k)
     tl_nav_kept_legs *kept = &k->kept;
     const tl_nav_visibility_graph *graph = k->graph;
     TL_TRY(keep_fans(k));
-    for (uint32_t v = 0; v < graph->vertex_count; v++) {
-        for (uint32_t e = graph->vertices[v].first_edge; e < graph->vertices[v + 1].first_edge; e++) {
-            tl_nav_kept_leg *leg = &kept->legs[e];
+    tl_nav_kept_leg *leg = kept->legs;
+    for (uint32_t v = 0; v < graph->vertex_room; v++) {
+        kept->leg_first[v] = (uint32_t)(leg - kept->legs);
+        for (uint32_t e = 0; e < graph->vertices[v].edge_count; e++, leg++) {
             tl_nav_ref *to = room_for(&k->navmesh->allocator, &kept->polygons, kept->polygon_count,
                                       &k->polygon_capacity, MAX_LEG_POLYGONS);
             uint32_t count = 0;
@@ -135,7 +137,7 @@ static tl_result keep_all(leg_keeper *k)
             leg->first = (uint32_t)kept->polygon_count;
             leg->enters = leg->arrives = TL_NAV_NO_PLACE;
             leg->padding = 0;
-            keep_leg(k, v, &graph->edges[e], to, leg, &count);
+            keep_leg(k, v, &graph->vertices[v].edges[e], to, leg, &count);
             kept->polygon_count += count;
             if (kept->polygon_count > UINT32_MAX - MAX_LEG_POLYGONS) {
                 return TL_ERR_LIMIT;
@@ -170,8 +172,10 @@ tl_result tl_nav_keep_legs(const tl_navmesh *navmesh, tl_nav_visibility_graph *g
     k.navmesh = navmesh;
     k.graph = graph;
     k.kept.legs = tl_allocate_array(allocator, (uint64_t)graph->edge_count + 1, sizeof *k.kept.legs);
-    k.kept.fan_first = tl_allocate_array(allocator, (uint64_t)graph->vertex_count + 1, sizeof *k.kept.fan_first);
-    tl_result result = k.kept.legs != NULL && k.kept.fan_first != NULL ? keep_all(&k) : TL_ERR_MEMORY;
+    k.kept.leg_first = tl_allocate_array(allocator, graph->vertex_room, sizeof *k.kept.leg_first);
+    k.kept.fan_first = tl_allocate_array(allocator, (uint64_t)graph->vertex_room + 1, sizeof *k.kept.fan_first);
+    const bool fits = k.kept.legs != NULL && k.kept.leg_first != NULL && k.kept.fan_first != NULL;
+    tl_result result = fits ? keep_all(&k) : TL_ERR_MEMORY;
     if (result == TL_OK) {
         result = trim(allocator, &k.kept.fans, k.kept.fan_count, k.fan_capacity);
         k.fan_capacity = result == TL_OK ? k.kept.fan_count : k.fan_capacity;
@@ -182,7 +186,8 @@ tl_result tl_nav_keep_legs(const tl_navmesh *navmesh, tl_nav_visibility_graph *g
     }
     if (result != TL_OK) {
         tl_release_array(allocator, k.kept.legs, (uint64_t)graph->edge_count + 1, sizeof *k.kept.legs);
-        tl_release_array(allocator, k.kept.fan_first, (uint64_t)graph->vertex_count + 1, sizeof *k.kept.fan_first);
+        tl_release_array(allocator, k.kept.leg_first, graph->vertex_room, sizeof *k.kept.leg_first);
+        tl_release_array(allocator, k.kept.fan_first, (uint64_t)graph->vertex_room + 1, sizeof *k.kept.fan_first);
         tl_release_array(allocator, k.kept.fans, k.fan_capacity, sizeof *k.kept.fans);
         tl_release_array(allocator, k.kept.polygons, k.polygon_capacity, sizeof *k.kept.polygons);
         return result;
@@ -195,7 +200,8 @@ void tl_nav_free_legs(const tl_allocator *allocator, tl_nav_visibility_graph *gr
 {
     tl_nav_kept_legs *kept = &graph->kept;
     tl_release_array(allocator, kept->legs, (uint64_t)graph->edge_count + 1, sizeof *kept->legs);
-    tl_release_array(allocator, kept->fan_first, (uint64_t)graph->vertex_count + 1, sizeof *kept->fan_first);
+    tl_release_array(allocator, kept->leg_first, graph->vertex_room, sizeof *kept->leg_first);
+    tl_release_array(allocator, kept->fan_first, (uint64_t)graph->vertex_room + 1, sizeof *kept->fan_first);
     tl_release_array(allocator, kept->fans, kept->fan_count, sizeof *kept->fans);
     tl_release_array(allocator, kept->polygons, kept->polygon_count, sizeof *kept->polygons);
     memset(kept, 0, sizeof *kept);
@@ -208,6 +214,6 @@ uint64_t tl_nav_kept_legs_size(const tl_nav_visibility_graph *graph)
         return 0;
     }
     return ((uint64_t)graph->edge_count + 1) * sizeof *kept->legs +
-           ((uint64_t)graph->vertex_count + 1) * sizeof *kept->fan_first +
+           (2 * (uint64_t)graph->vertex_room + 1) * sizeof *kept->fan_first +
            (kept->fan_count + kept->polygon_count) * sizeof *kept->fans;
 }

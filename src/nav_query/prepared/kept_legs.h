@@ -21,9 +21,10 @@ typedef struct tl_nav_kept_leg {
 } tl_nav_kept_leg;
 
 typedef struct tl_nav_kept_legs {
-    tl_nav_kept_leg *legs; ///< [edge_count + 1], by edge of the graph; NULL: none are kept
+    tl_nav_kept_leg *legs; ///< [edge_count + 1], of the edges of one corner vertex after another; NULL: none are kept
+    uint32_t *leg_first;   ///< [vertex_room], by corner vertex
     tl_nav_ref *polygons;  ///< [polygon_count] of legs
-    uint32_t *fan_first;   ///< [vertex_count + 1]
+    uint32_t *fan_first;   ///< [vertex_room + 1]
     tl_nav_ref *fans;      ///< [fan_count]: the polygons around each corner vertex, from wall to wall, turning left
     uint64_t polygon_count, fan_count;
 } tl_nav_kept_legs;

@@ -5,11 +5,12 @@
 #ifndef TALUS_SRC_NAV_QUERY_LANDMARKS_H
 #define TALUS_SRC_NAV_QUERY_LANDMARKS_H
 
-#include "nav_query/prepared/graph_reuse.h"
+#include "base/stage.h"
+#include "nav_query/prepared/path_ends.h"
+#include "nav_query/prepared/visibility_graph.h"
 
-/// Chooses landmarks and fills in the graph's distances to them; or mends those of the graph before. TL_ERR_MEMORY.
-tl_result tl_nav_find_landmarks(const tl_allocator *allocator, const tl_host *host, const tl_nav_graph_reuse *reuse,
-                                tl_nav_visibility_graph *graph);
+/// Chooses landmarks and fills in the distances from them. TL_ERR_MEMORY, TL_ERR_CANCELLED.
+tl_result tl_nav_measure_landmarks(const tl_allocator *allocator, tl_nav_visibility_graph *graph, tl_stage *stage);
 
 /// Bounds of the distances from an end of a path to the landmarks, by its legs.
 typedef struct tl_nav_landmark_bounds {

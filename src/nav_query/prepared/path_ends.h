@@ -26,4 +26,10 @@ typedef struct tl_nav_meeting {
     tl_nav_corner_leg *start, *goal;
 } tl_nav_meeting;
 
+typedef struct tl_nav_visibility_graph tl_nav_visibility_graph; // visibility_graph.h
+
+/// The corner vertices whose cones hold the start, and those whose cones hold the goal. False: the query is too small.
+bool tl_nav_find_ends(const tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph,
+                      tl_nav_ends *ends_out);
+
 #endif

@@ -12,6 +12,7 @@
 #include "nav_query/exact/shortest_search.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/prepared/corner_cones.h"
+#include "nav_query/prepared/corner_names.h"
 #include "nav_query/prepared/kept_legs.h"
 
 #include <math.h>
@@ -24,13 +25,8 @@ enum { TL_NAV_LANDMARKS = 16 };
 #define TL_NAV_TURN_LEFT  1u
 #define TL_NAV_TURN_RIGHT 2u
 
-typedef struct tl_nav_corner_vertex {
-    float x, y, z;
-    uint32_t turn;           ///< its number in rings
-    uint32_t first_edge;     ///< its edges end where the next corner vertex's begin
-    tl_nav_ring_walls walls; ///< on both sides of the free way around it
-    tl_nav_ring_place place; ///< in the ring where its fan begins
-} tl_nav_corner_vertex;
+/// No corner vertex.
+#define TL_NAV_NO_VERTEX UINT32_MAX
 
 /// From one corner vertex to another along which a shortest path may come and go.
 typedef struct tl_nav_visibility_edge {
@@ -39,21 +35,58 @@ typedef struct tl_nav_visibility_edge {
     uint32_t turns; ///< TL_NAV_TURN_...: of a path that comes along the edge, at its end
 } tl_nav_visibility_edge;
 
-struct tl_nav_visibility_graph {
-    tl_nav_corner_vertex *vertices; ///< [vertex_count + 1]
-    tl_nav_visibility_edge *edges;
-    float (*landmarks)[TL_NAV_LANDMARKS]; ///< metres by corner vertex, from each landmark
-    uint32_t *slot_first;                 ///< by slot: where its polygons begin in the cones
-    uint32_t *slot_salt;                  ///< by slot: that of its tile (tl_nav_slot); 0: it has none
-    uint32_t vertex_count, edge_count, polygon_count, slot_count;
+/// A corner vertex keeps its number as long as its name in rings stays. Then the number is free, and the next new
+/// corner vertex takes it.
+typedef struct tl_nav_corner_vertex {
+    float x, y, z;
+    uint32_t turn;           ///< its name in rings; 0: the number is free
+    tl_nav_ring_walls walls; ///< on both sides of the free way around it
+    tl_nav_ring_place place; ///< in the ring where its fan begins
+    uint32_t next;           ///< of those whose fans begin in the same tile, or of free numbers; or TL_NAV_NO_VERTEX
+    uint32_t edge_count, reach_count;
+    const tl_nav_visibility_edge
+        *edges; ///< [edge_count] by rising `to`, and behind them its reach, in its tile's block
+} tl_nav_corner_vertex;
+
+/// The slots whose polygons have cones of a corner vertex: reach_count of them, by rising number.
+static inline const uint32_t *tl_nav_reach_of(const tl_nav_corner_vertex *vertex)
+{
+    return vertex->edge_count + vertex->reach_count > 0
+               ? (const uint32_t *)(const void *)(vertex->edges + vertex->edge_count)
+               : NULL;
+}
+
+/// What the graph keeps by slot. An edit writes that of the tiles that it is seen from, and of no others.
+typedef struct tl_nav_graph_tile {
+    uint32_t salt;         ///< that of the slot's tile (tl_nav_slot); 0: it has none
+    uint32_t first_vertex; ///< of those whose fans begin in it (tl_nav_corner_vertex.next)
+    uint32_t *sights;      ///< their edges and reaches
+    uint64_t sight_words;  ///< 4 bytes each
     tl_nav_corner_cones cones;
+} tl_nav_graph_tile;
+
+struct tl_nav_visibility_graph {
+    tl_nav_corner_vertex *vertices;       ///< [vertex_capacity]
+    float (*landmarks)[TL_NAV_LANDMARKS]; ///< [vertex_capacity] metres, from each landmark
+    tl_nav_graph_tile *tiles;             ///< [slot_count]
+    uint32_t vertex_room;                 ///< the numbers of corner vertices are below; some may be free
+    uint32_t vertex_capacity;
+    uint32_t vertex_count; ///< that are there
+    uint32_t free_vertex;  ///< the first free number, or TL_NAV_NO_VERTEX
+    uint32_t slot_count;
+    uint32_t edge_count;
+    uint64_t tile_bytes;   ///< of the tiles' blocks
     float *table;          ///< metres by corner vertex and corner vertex, or NULL (corner_distances.c)
     uint16_t *table_next;  ///< by the same pair: the next corner vertex on the path from the second to the first
     tl_nav_kept_legs kept; ///< where there is a table
     double rounding;       ///< metres within which a point is on a line
     float landmark_error;  ///< metres by which a difference of two landmark distances may be wrong
     uint32_t mends;        ///< of its landmark distances since they were measured
-    uint32_t looked;       ///< corner vertices that have looked around when it was baked
+    uint32_t last_fan;     ///< the navmesh's, when it was mended last
+    uint32_t looked;       ///< corner vertices that have looked around when it was mended last
+    // Queries read none of these; older versions of the navmesh leave them to the newest.
+    tl_nav_corner_names names;
+    uint8_t *marks; ///< [vertex_capacity] while it is mended: graph_changes.h; else 0
 };
 
 /// The sides to which a path that comes along (x, z) to a corner vertex may turn there: those on which its walls are.
@@ -70,13 +103,19 @@ static inline uint32_t tl_nav_turns_at(const tl_nav_corner_vertex *vertex, doubl
     return (left ? TL_NAV_TURN_LEFT : 0u) | (right ? TL_NAV_TURN_RIGHT : 0u);
 }
 
-/// Bakes the visibility graph of a navmesh without forks at seams. What the navmesh's graph knows that edits since then
-/// have not changed is taken over. TL_ERR_MEMORY, TL_ERR_LIMIT.
-tl_result tl_nav_bake_visibility_graph(const tl_navmesh *navmesh, const tl_host *host,
-                                       tl_nav_visibility_graph **graph_out);
+/// A graph of nothing. NULL: out of memory.
+tl_nav_visibility_graph *tl_nav_create_visibility_graph(const tl_allocator *allocator);
+void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibility_graph *graph);
 /// Bytes that the graph takes, without its table.
 uint64_t tl_nav_visibility_graph_size(const tl_nav_visibility_graph *graph);
-void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibility_graph *graph);
+
+/// Makes room for so many more corner vertices. TL_ERR_MEMORY, TL_ERR_LIMIT.
+tl_result tl_nav_reserve_corner_vertices(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint64_t more);
+/// A free number, for which there is room. The caller writes the corner vertex.
+uint32_t tl_nav_take_corner_vertex(tl_nav_visibility_graph *graph);
+void tl_nav_give_corner_vertex(tl_nav_visibility_graph *graph, uint32_t vertex);
+/// Makes room for the slots of the navmesh, and copies what older versions of it read. TL_ERR_MEMORY.
+tl_result tl_nav_own_graph_arrays(const tl_navmesh *navmesh, tl_nav_visibility_graph *graph);
 
 /// Whether the navmesh has a graph, and it is that of its tiles.
 static inline bool tl_nav_has_current_graph(const tl_navmesh *navmesh)

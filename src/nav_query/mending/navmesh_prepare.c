@@ -2,8 +2,8 @@
 //
 // Preparing a navmesh for shortest paths: its visibility graph, and a table of distances if it fits.
 
+#include "nav_query/mending/graph_mend.h"
 #include "nav_query/prepared/corner_distances.h"
-#include "nav_query/prepared/visibility_graph.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
@@ -63,24 +63,36 @@ static tl_result own_graph(tl_navmesh *navmesh)
     return TL_OK;
 }
 
+// Brings the graph up to date, or makes one.
+static tl_result update_graph(tl_navmesh *navmesh, const tl_host *host)
+{
+    if (!tl_nav_can_mend_graph(navmesh, navmesh->graph)) {
+        free_graph(navmesh);
+        navmesh->graph = tl_nav_create_visibility_graph(&navmesh->allocator);
+        if (navmesh->graph == NULL) {
+            return TL_ERR_MEMORY;
+        }
+    }
+    TL_TRY(own_graph(navmesh));
+    tl_nav_free_corner_distances(&navmesh->allocator, navmesh->graph);
+    tl_nav_free_legs(&navmesh->allocator, navmesh->graph);
+    TL_TRY(tl_nav_mend_graph(navmesh, host, navmesh->graph));
+    navmesh->graph_edit = navmesh->edit.number;
+    return TL_OK;
+}
+
 static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *def, uint32_t *renewed_out)
 {
     static const tl_nav_derived derived = { NULL, free_graph, outlive_state };
     const tl_host host = { NULL, NULL, def->progress };
     navmesh->derived[TL_NAV_DERIVED_GRAPH] = &derived;
     if (!tl_nav_has_current_graph(navmesh)) {
-        tl_nav_visibility_graph *fresh = NULL;
-        const bool has_graph = !floors_fork(navmesh);
-        if (has_graph) {
-            TL_TRY(tl_nav_bake_visibility_graph(navmesh, &host, &fresh));
-            *renewed_out = fresh->looked;
-        }
-        free_graph(navmesh);
-        navmesh->graph = fresh;
-        navmesh->graph_edit = navmesh->edit.number;
-        if (!has_graph) {
+        if (floors_fork(navmesh)) {
+            free_graph(navmesh);
             return TL_OK;
         }
+        TL_TRY(update_graph(navmesh, &host));
+        *renewed_out = navmesh->graph->looked;
     }
     TL_TRY(own_graph(navmesh));
     const tl_allocator *allocator = &navmesh->allocator;

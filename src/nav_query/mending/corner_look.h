@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// What can be seen from a corner vertex (corner_look.c).
+
+#ifndef TALUS_SRC_NAV_QUERY_CORNER_LOOK_H
+#define TALUS_SRC_NAV_QUERY_CORNER_LOOK_H
+
+#include "nav_query/mending/corner_sights.h"
+
+/// Looks of corner vertices, and what all of them have seen.
+typedef struct tl_nav_corner_look {
+    const tl_nav_graph_changes *changes;
+    tl_nav_query *query;
+    tl_nav_seen seen;
+    tl_nav_cone_list cones;
+    uint32_t vertex;      ///< that looks
+    uint32_t *last_looks; ///< [graph->slot_count], by slot: the last look that had cones in it, counted from 1
+    uint32_t look_count;
+    tl_result result; ///< of `seen`
+} tl_nav_corner_look;
+
+/// TL_ERR_MEMORY. tl_nav_end_looks frees what it keeps, after an error too.
+tl_result tl_nav_begin_looks(const tl_nav_graph_changes *changes, tl_nav_corner_look *look_out);
+void tl_nav_end_looks(tl_nav_corner_look *look);
+
+/// Looks around from a corner vertex. TL_ERR_MEMORY, TL_ERR_LIMIT.
+tl_result tl_nav_look_around(tl_nav_corner_look *look, uint32_t vertex);
+
+#endif

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+//
+// Landmark distances after an edit: mended, not measured anew.
+//
+// A bound needs no distances: any numbers serve that differ along no edge by more than it is long. Old ones break that
+// only at edges that are new; from there they are lowered as in Dijkstra's algorithm, until none does. They are rounded
+// down, so what is lowered breaks it nowhere, and errors do not add up: from a vertex that was lowered to one that was
+// not, a path leaves the first kind once. Nothing raises them again where a way has closed: bounds stay right, and are
+// worth a little less after each edit; so now and then all are measured.
+
+#include "nav_query/mending/landmark_mend.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "math/tolerance.h"
+#include "nav_query/prepared/dijkstra.h"
+#include "nav_query/prepared/landmarks.h"
+
+#include <math.h>
+#include <string.h>
+
+// Mends after which all distances are measured: those of ways that have closed since then are too short.
+enum { MAX_MENDS = 64 };
+
+// The vertices from which a landmark's distances are lowered.
+typedef struct landmark_mend {
+    const tl_allocator *allocator;
+    tl_nav_visibility_graph *graph;
+    const tl_nav_number_list *lookers; // with new edges
+    uint32_t *asked;                   // by those: for which landmarks their distance asks for a lower one, a bit each
+    tl_nav_open_vertex *heap;
+    uint64_t heap_capacity;
+    uint32_t heap_count;
+} landmark_mend;
+
+static float round_down(double length)
+{
+    const float rounded = (float)length;
+    return (double)rounded > length ? nextafterf(rounded, 0.0f) : rounded;
+}
+
+// New corner vertices have no distances yet.
+static void forget_fresh(const tl_nav_graph_changes *changes)
+{
+    for (uint64_t i = changes->first_fresh; i < changes->lookers.count; i++) {
+        for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
+            changes->graph->landmarks[changes->lookers.numbers[i]][k] = INFINITY;
+        }
+    }
+}
+
+// Lowers a vertex's distances where one of its edges leads to a shorter one.
+static void lower_by_edges(tl_nav_visibility_graph *graph, uint32_t i)
+{
+    const tl_nav_corner_vertex *vertex = &graph->vertices[i];
+    for (uint32_t e = 0; e < vertex->edge_count; e++) {
+        const double length = tl_nav_visibility_edge_length(vertex, &vertex->edges[e]);
+        const float *to = graph->landmarks[vertex->edges[e].to];
+        for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
+            if ((double)graph->landmarks[i][k] > (double)to[k] + length) {
+                graph->landmarks[i][k] = round_down((double)to[k] + length);
+            }
+        }
+    }
+}
+
+// For which landmarks a vertex's distance asks for a lower one at the end of an edge: a bit each.
+static uint32_t landmarks_to_lower(const tl_nav_visibility_graph *graph, uint32_t i)
+{
+    const tl_nav_corner_vertex *vertex = &graph->vertices[i];
+    uint32_t asked = 0;
+    for (uint32_t e = 0; e < vertex->edge_count; e++) {
+        const double length = tl_nav_visibility_edge_length(vertex, &vertex->edges[e]);
+        const float *to = graph->landmarks[vertex->edges[e].to];
+        for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
+            asked |= (uint32_t)((double)to[k] > (double)graph->landmarks[i][k] + length) << k;
+        }
+    }
+    return asked;
+}
+
+static tl_result open_lowered(landmark_mend *m, uint32_t vertex, uint32_t landmark)
+{
+    if (m->heap_count == m->heap_capacity) {
+        tl_nav_open_vertex *grown =
+            (tl_nav_open_vertex *)tl_grow_array(m->allocator, m->heap, &m->heap_capacity, sizeof *grown);
+        if (grown == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        m->heap = grown;
+    }
+    const tl_nav_open_vertex item = { (double)m->graph->landmarks[vertex][landmark], vertex };
+    tl_nav_open_vertex_push(m->heap, &m->heap_count, item, NULL);
+    return TL_OK;
+}
+
+// Lowers one landmark's distances from open vertices on.
+static tl_result spread_lowered(landmark_mend *m, uint32_t landmark)
+{
+    tl_nav_visibility_graph *graph = m->graph;
+    while (m->heap_count > 0) {
+        const tl_nav_open_vertex next = tl_nav_open_vertex_pop(m->heap, &m->heap_count, NULL);
+        if (next.length > (double)graph->landmarks[next.vertex][landmark]) {
+            continue;
+        }
+        const tl_nav_corner_vertex *vertex = &graph->vertices[next.vertex];
+        for (uint32_t e = 0; e < vertex->edge_count; e++) {
+            const tl_nav_visibility_edge *edge = &vertex->edges[e];
+            const double length = next.length + tl_nav_visibility_edge_length(vertex, edge);
+            if (length < (double)graph->landmarks[edge->to][landmark]) {
+                graph->landmarks[edge->to][landmark] = round_down(length);
+                TL_TRY(open_lowered(m, edge->to, landmark));
+            }
+        }
+    }
+    return TL_OK;
+}
+
+// A component of new vertices alone has no place of any set: all of them are as far from it.
+static float settle_fresh(const tl_nav_graph_changes *changes)
+{
+    float longest = 0.0f;
+    for (uint64_t i = changes->first_fresh; i < changes->lookers.count; i++) {
+        for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
+            float *length = &changes->graph->landmarks[changes->lookers.numbers[i]][k];
+            *length = *length < INFINITY ? *length : 0.0f;
+            longest = *length > longest ? *length : longest;
+        }
+    }
+    return longest;
+}
+
+static tl_result lower_all(const tl_nav_graph_changes *changes, landmark_mend *m, tl_stage *stage)
+{
+    tl_nav_visibility_graph *graph = m->graph;
+    forget_fresh(changes);
+    for (uint64_t i = 0; i < m->lookers->count; i++) {
+        lower_by_edges(graph, m->lookers->numbers[i]);
+    }
+    for (uint64_t i = 0; i < m->lookers->count; i++) {
+        m->asked[i] = landmarks_to_lower(graph, m->lookers->numbers[i]);
+    }
+    for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
+        for (uint64_t i = 0; i < m->lookers->count; i++) {
+            if ((m->asked[i] >> k & 1) != 0) {
+                TL_TRY(open_lowered(m, m->lookers->numbers[i], k));
+            }
+        }
+        TL_TRY(spread_lowered(m, k));
+        TL_TRY(tl_stage_add(stage, 1));
+    }
+    graph->mends++;
+    graph->landmark_error = fmaxf(graph->landmark_error, TL_FLOAT_GAMMA(4) * settle_fresh(changes));
+    return tl_stage_end(stage);
+}
+
+static tl_result mend_in_memory(const tl_nav_graph_changes *changes, tl_stage *stage)
+{
+    const tl_nav_number_list *lookers = &changes->lookers;
+    landmark_mend m = { changes->allocator, changes->graph, lookers, NULL, NULL, 0, 0 };
+    m.asked = (uint32_t *)tl_allocate_array(changes->allocator, lookers->count, sizeof *m.asked);
+    const tl_result result = m.asked != NULL ? lower_all(changes, &m, stage) : TL_ERR_MEMORY;
+    tl_release_array(changes->allocator, m.asked, lookers->count, sizeof *m.asked);
+    tl_release_array(changes->allocator, m.heap, m.heap_capacity, sizeof *m.heap);
+    return result;
+}
+
+tl_result tl_nav_mend_landmarks(const tl_nav_graph_changes *changes, const tl_host *host)
+{
+    tl_nav_visibility_graph *graph = changes->graph;
+    tl_stage stage;
+    TL_TRY(tl_stage_begin(&stage, host, "landmarks", TL_NAV_LANDMARKS));
+    const bool is_fresh = changes->lookers.count - changes->first_fresh == graph->vertex_count;
+    return is_fresh || graph->mends >= MAX_MENDS ? tl_nav_measure_landmarks(changes->allocator, graph, &stage)
+                                                 : mend_in_memory(changes, &stage);
+}
