@@ -40,7 +40,7 @@ typedef struct tl_nav_prepared {
     tl_nav_prepared_kind kind;
     uint32_t corner_vertex_count; ///< vertices of the navmesh at which a shortest path may turn
     uint32_t edge_count;          ///< of the visibility graph, each counted from both ends
-    uint32_t renewed_count;       ///< corner vertices that this call looked around from: after an edit not all of them
+    uint32_t renewed_count;       ///< corner vertices that this call looked from: after an edit not all of them
     uint64_t bytes;               ///< held now, graph and table
     uint64_t table_bytes;         ///< that a table takes, or would take; UINT64_MAX: more than 65,535 corner vertices
 } tl_nav_prepared;
@@ -50,12 +50,12 @@ typedef struct tl_nav_prepared {
 ///
 /// Answers stay the same: the shortest paths. The graph serves filters that pass every polygon at the same cost, while
 /// there are no off-mesh links, and until a tile or link is added or removed; then searches are as before, until this
-/// is called again. It then looks around anew only from corner vertices that may see what changed, and copies the rest.
+/// is called again. It then looks anew only from corner vertices that may see what changed, and leaves the rest alone.
 /// Where a seam leads to two floors at once (a polygon is linked to two others over the same stretch)
 /// there is no graph. NULL def: the default one. `prepared_out` (may be NULL) says what was baked. A navmesh that is
 /// prepared already keeps its graph, and gets or loses the table as the def says. O(what all corner vertices
 /// see), and a Dijkstra search from each of them for the table: 1 to 3 ms for levels of 100 to 200 polygons, 28 ms for
-/// 300 corner vertices in the open; the graph alone 0.8 s and 23 MB for a city of 26,000 polygons. Changes the navmesh:
+/// 300 corner vertices in the open; the graph alone 0.7 s and 26 MB for a city of 26,000 polygons. Changes the navmesh:
 /// no query may run meanwhile. On failure the navmesh is not prepared: TL_ERR_MEMORY, TL_ERR_LIMIT, TL_ERR_CANCELLED;
 /// or nothing is changed: TL_ERR_ARGUMENT.
 TL_API tl_result tl_navmesh_prepare(tl_navmesh *navmesh, const tl_nav_prepare_def *def, tl_nav_prepared *prepared_out);

@@ -313,7 +313,8 @@ bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight)
     look_from_root(&s, add_start(&s));
     for (uint32_t i = 0; i < s.query->wedge_count && s.trouble == TL_NAV_SEARCH_FOUND; i++) {
         const tl_nav_wedge *wedge = &s.query->wedges[i];
-        if (wedge->edge < TL_NAV_WEDGE_LANDS && may_turn_before(wedge, sight->walls, s.rounding)) {
+        if (wedge->edge < TL_NAV_WEDGE_LANDS && (sight->looks == NULL || sight->looks(sight->user, wedge)) &&
+            may_turn_before(wedge, sight->walls, s.rounding)) {
             expand_wedge(&s, i);
         }
     }

@@ -45,6 +45,7 @@ tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search);
 /// Who wants to know what can be seen from a point.
 typedef struct tl_nav_sight {
     void (*note)(void *user, uint32_t turn); ///< a vertex is seen at which a path that comes straight to it may turn
+    bool (*looks)(void *user, const tl_nav_wedge *wedge); ///< whether it looks on through a wedge; NULL: always
     void *user;
     const tl_nav_ring_walls *walls; ///< on both sides of the start, which is a vertex
 } tl_nav_sight;

@@ -4,6 +4,10 @@
 //
 // An edge needs two corner vertices that see one another, and at both ends walls on the side to which a path would
 // turn: few lines of sight qualify.
+//
+// After an edit most look only in the directions in which they may see a change (change_sectors.c). Wedges that show
+// none of these are not gone through, and cones are taken in the polygons alone that lie beyond a change: as they are
+// seen now, or were seen before. The wedges that are left come in the same order as in a look all around.
 
 #include "nav_query/mending/corner_look.h"
 
@@ -24,10 +28,12 @@ static tl_result make_look_query(tl_nav_corner_look *look, uint32_t max_nodes)
     return tl_nav_query_allocate(max_nodes, none, look->changes->allocator, &look->query);
 }
 
-tl_result tl_nav_begin_looks(const tl_nav_graph_changes *changes, tl_nav_corner_look *look_out)
+tl_result tl_nav_begin_looks(tl_nav_change_sectors *sectors, tl_nav_corner_look *look_out)
 {
+    const tl_nav_graph_changes *changes = sectors->changes;
     memset(look_out, 0, sizeof *look_out);
     const uint32_t slots = changes->graph->slot_count;
+    look_out->sectors = sectors;
     look_out->changes = changes;
     look_out->cones.allocator = changes->allocator;
     look_out->last_looks = (uint32_t *)tl_allocate_array(changes->allocator, slots, sizeof *look_out->last_looks);
@@ -44,8 +50,33 @@ void tl_nav_end_looks(tl_nav_corner_look *look)
     tl_nav_query_release(look->query);
     tl_nav_free_pairs(allocator, &look->seen.edges);
     tl_nav_free_pairs(allocator, &look->seen.reaches);
+    tl_nav_free_pairs(allocator, &look->polygons);
+    tl_nav_free_numbers(allocator, &look->is_changed);
     tl_release_array(allocator, look->cones.cones, look->cones.capacity, sizeof *look->cones.cones);
     tl_release_array(allocator, look->last_looks, look->changes->graph->slot_count, sizeof *look->last_looks);
+}
+
+// Whether a corner vertex has an edge to another, and keeps it.
+static bool has_edge(const tl_nav_corner_look *look, uint32_t from, uint32_t to)
+{
+    const tl_nav_corner_vertex *vertex = &look->changes->graph->vertices[from];
+    uint32_t begin = 0, end = vertex->edge_count;
+    while (begin < end) {
+        const uint32_t middle = begin + (end - begin) / 2;
+        if (vertex->edges[middle].to < to) {
+            begin = middle + 1;
+        } else {
+            end = middle;
+        }
+    }
+    return begin < vertex->edge_count && vertex->edges[begin].to == to && tl_nav_edge_stays(look->sectors, from, to);
+}
+
+static void add_edge_seen(tl_nav_corner_look *look, uint32_t from, uint32_t to)
+{
+    if (look->result == TL_OK && !has_edge(look, from, to)) {
+        look->result = tl_nav_add_pair(look->changes->allocator, &look->seen.edges, from, to);
+    }
 }
 
 static void note_sight(void *user, uint32_t turn)
@@ -57,17 +88,32 @@ static void note_sight(void *user, uint32_t turn)
     const tl_nav_corner_vertex *from = &graph->vertices[look->vertex];
     const tl_nav_corner_vertex *to = &graph->vertices[seen];
     const double x = (double)to->x - (double)from->x, z = (double)to->z - (double)from->z;
-    if (look->result == TL_OK && seen != look->vertex && (x != 0.0 || z != 0.0) &&
-        tl_nav_turns_at(from, -x, -z, graph->rounding) != 0 && tl_nav_turns_at(to, x, z, graph->rounding) != 0) {
+    if (seen != look->vertex && (x != 0.0 || z != 0.0) && tl_nav_turns_at(from, -x, -z, graph->rounding) != 0 &&
+        tl_nav_turns_at(to, x, z, graph->rounding) != 0) {
         // Each end may have missed the other by rounding.
-        const tl_allocator *allocator = look->changes->allocator;
-        look->result = tl_nav_add_pair(allocator, &look->seen.edges, look->vertex, seen);
-        look->result =
-            look->result == TL_OK ? tl_nav_add_pair(allocator, &look->seen.edges, seen, look->vertex) : look->result;
+        add_edge_seen(look, look->vertex, seen);
+        add_edge_seen(look, seen, look->vertex);
     }
 }
 
-static tl_result see_from(tl_nav_corner_look *look)
+// Whether a wedge shows any direction of the view.
+static bool looks_through(void *user, const tl_nav_wedge *wedge)
+{
+    const tl_nav_corner_look *look = (const tl_nav_corner_look *)user;
+    const tl_nav_direction right = wedge->right, left = wedge->left;
+    if ((right.x == 0.0 && right.z == 0.0) || (left.x == 0.0 && left.z == 0.0)) {
+        return true;
+    }
+    const tl_nav_sector sector = tl_nav_sector_between(right.x, right.z, left.x, left.z, 0.0);
+    for (uint32_t i = 0; i < look->view.count; i++) {
+        if (tl_nav_sectors_overlap(&look->view.sectors[i], &sector)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static tl_result see_from(tl_nav_corner_look *look, bool all_around)
 {
     const tl_nav_corner_vertex *from = &look->changes->graph->vertices[look->vertex];
     tl_nav_shortest_search start;
@@ -76,7 +122,7 @@ static tl_result see_from(tl_nav_corner_look *look)
     start.start_slot = from->place.slot;
     start.start_polygon = from->place.polygon;
     start.start = tl_vec3_make(from->x, from->y, from->z);
-    const tl_nav_sight sight = { note_sight, look, &from->walls };
+    const tl_nav_sight sight = { note_sight, all_around ? NULL : looks_through, look, &from->walls };
     start.query = look->query;
     while (!tl_nav_see(&start, &sight)) {
         if (look->query->max_nodes > TL_NAV_MAX_QUERY_NODES / 2) {
@@ -88,26 +134,146 @@ static tl_result see_from(tl_nav_corner_look *look)
     return look->result;
 }
 
-static tl_result note_reach(tl_nav_corner_look *look, uint32_t slot)
+// Adds the cones of a wedge.
+static tl_result take_wedge(tl_nav_corner_look *look, const tl_nav_wedge *wedge)
 {
-    if (look->last_looks[slot] == look->look_count) {
+    const uint64_t before = look->cones.count;
+    TL_TRY(tl_nav_add_cones(&look->cones, look->changes->graph, look->vertex, wedge));
+    if (look->cones.count == before || look->last_looks[wedge->slot] == look->look_count) {
         return TL_OK;
     }
-    look->last_looks[slot] = look->look_count;
-    return tl_nav_add_pair(look->changes->allocator, &look->seen.reaches, look->vertex, slot);
+    look->last_looks[wedge->slot] = look->look_count;
+    return tl_nav_add_pair(look->changes->allocator, &look->seen.reaches, look->vertex, wedge->slot);
 }
 
-tl_result tl_nav_look_around(tl_nav_corner_look *look, uint32_t vertex)
+static tl_result look_around(tl_nav_corner_look *look)
 {
-    look->vertex = vertex;
-    look->look_count++;
-    TL_TRY(see_from(look));
+    TL_TRY(see_from(look, true));
     for (uint32_t i = 0; i < look->query->wedge_count; i++) {
-        const uint64_t before = look->cones.count;
-        TL_TRY(tl_nav_add_cones(&look->cones, look->changes->graph, vertex, &look->query->wedges[i]));
-        if (look->cones.count > before) {
-            TL_TRY(note_reach(look, look->query->wedges[i].slot));
+        TL_TRY(take_wedge(look, &look->query->wedges[i]));
+    }
+    return TL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Towards changes.
+
+// Adds a sector to the view. Where there are too many, it becomes all directions.
+static void widen_view(tl_nav_view *view, tl_nav_sector sector)
+{
+    for (uint32_t i = view->count; i > 0; i--) {
+        if (tl_nav_sectors_overlap(&view->sectors[i - 1], &sector)) {
+            sector = tl_nav_unite_sectors(&view->sectors[i - 1], &sector);
+            view->sectors[i - 1] = view->sectors[--view->count];
+            i = view->count + 1;
+        }
+    }
+    if (view->count == TL_NAV_MAX_VIEW) {
+        const tl_nav_sector all = { 0.0, TL_NAV_FULL_TURN };
+        view->count = 0;
+        sector = all;
+    }
+    view->sectors[view->count++] = sector;
+}
+
+static bool is_in_view(const tl_nav_view *view, const tl_nav_sector *sector)
+{
+    for (uint32_t i = 0; i < view->count; i++) {
+        if (tl_nav_holds_sector(&view->sectors[i], sector)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The sectors of changes, and of the cones that are found anew.
+static tl_result begin_view(tl_nav_corner_look *look, uint32_t order)
+{
+    const tl_nav_change_sectors *s = look->sectors;
+    look->view.count = 0;
+    look->polygons.count = 0;
+    for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
+        widen_view(&look->view, s->sectors[i].sector);
+    }
+    for (uint64_t i = tl_nav_find_pair(&s->beyond, order); i < s->beyond.count && s->beyond.items[i].key >> 32 == order;
+         i++) {
+        const tl_sort_item *item = &s->beyond.items[i];
+        const uint32_t slot = (uint32_t)item->key;
+        widen_view(&look->view, tl_nav_sector_of_cone(&look->changes->graph->tiles[slot].cones, item->value));
+        TL_TRY(tl_nav_add_pair(look->changes->allocator, &look->polygons, slot, item->extra));
+    }
+    return tl_nav_unite_pairs(look->changes->allocator, &look->polygons, NULL);
+}
+
+// A polygon that is seen beyond a change now, and was not before: the cones there go, and what they showed is looked
+// at.
+static tl_result drop_cones_in(tl_nav_corner_look *look, uint32_t slot, uint32_t polygon, bool *widens)
+{
+    const tl_nav_corner_cones *cones = &look->changes->graph->tiles[slot].cones;
+    if ((look->changes->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0) {
+        return TL_OK;
+    }
+    for (uint32_t i = cones->first[polygon]; i < cones->first[polygon + 1]; i++) {
+        if (tl_nav_cone_vertex(cones, i) == look->vertex) {
+            const tl_nav_sector sector = tl_nav_sector_of_cone(cones, i);
+            TL_TRY(tl_nav_add_pair(look->changes->allocator, &look->sectors->dropped, slot, i));
+            if (!is_in_view(&look->view, &sector)) {
+                widen_view(&look->view, sector);
+                *widens = true;
+            }
         }
     }
     return TL_OK;
+}
+
+// Finds the polygons that are seen beyond changes now.
+static tl_result find_changed_sight(tl_nav_corner_look *look, bool *widens)
+{
+    const tl_nav_query *query = look->query;
+    const tl_allocator *allocator = look->changes->allocator;
+    const uint64_t known = look->polygons.count;
+    look->is_changed.count = 0;
+    for (uint32_t i = 0; i < query->wedge_count; i++) {
+        const tl_nav_wedge *wedge = &query->wedges[i];
+        const bool by_parent = wedge->parent < i && look->is_changed.numbers[wedge->parent] != 0;
+        const bool is_changed = by_parent || tl_nav_is_polygon_new(look->changes, wedge->slot, wedge->polygon);
+        TL_TRY(tl_nav_add_number(allocator, &look->is_changed, is_changed ? 1 : 0));
+        const tl_nav_pair_list sorted = { look->polygons.items, known, known };
+        if (is_changed && !tl_nav_has_pair(&sorted, wedge->slot, wedge->polygon)) {
+            TL_TRY(tl_nav_add_pair(allocator, &look->polygons, wedge->slot, wedge->polygon));
+        }
+    }
+    const uint64_t added = look->polygons.count - known;
+    tl_nav_pair_list fresh = { look->polygons.items + known, added, added };
+    TL_TRY(tl_nav_unite_pairs(allocator, &fresh, NULL));
+    for (uint64_t i = 0; i < fresh.count; i++) {
+        TL_TRY(drop_cones_in(look, (uint32_t)(fresh.items[i].key >> 32), (uint32_t)fresh.items[i].key, widens));
+    }
+    return tl_nav_unite_pairs(allocator, &look->polygons, NULL);
+}
+
+static tl_result look_towards_changes(tl_nav_corner_look *look, uint32_t order)
+{
+    TL_TRY(begin_view(look, order));
+    for (bool widens = true; widens;) {
+        widens = false;
+        TL_TRY(see_from(look, false));
+        TL_TRY(find_changed_sight(look, &widens));
+    }
+    for (uint32_t i = 0; i < look->query->wedge_count; i++) {
+        const tl_nav_wedge *wedge = &look->query->wedges[i];
+        if (tl_nav_has_pair(&look->polygons, wedge->slot, wedge->polygon)) {
+            TL_TRY(take_wedge(look, wedge));
+        }
+    }
+    return TL_OK;
+}
+
+tl_result tl_nav_look_from(tl_nav_corner_look *look, uint32_t vertex)
+{
+    const tl_nav_visibility_graph *graph = look->changes->graph;
+    look->vertex = vertex;
+    look->look_count++;
+    return graph->marks[vertex] == TL_NAV_MARK_LOOKS ? look_towards_changes(look, graph->orders[vertex])
+                                                     : look_around(look);
 }

@@ -3,9 +3,9 @@
 // The edges and reaches of corner vertices, in one block a tile.
 //
 // An edge stands at both of its ends, and each end may have missed the other by rounding: so what one has seen, both
-// have. Between two corner vertices that have both looked around anew only what was seen counts; where one of them sees
-// what it saw the edge between them stays. So a graph that was mended has the edges of one that is baked afresh, but
-// for those that only rounding tells apart.
+// have. Between two corner vertices that may both see a change towards one another only what was seen anew counts;
+// where one of them sees what it saw the edge between them stays. So a graph that was mended has the edges of one that
+// is baked afresh, but for those that only rounding tells apart.
 
 #include "nav_query/mending/corner_sights.h"
 
@@ -14,67 +14,10 @@
 
 #include <string.h>
 
-tl_result tl_nav_add_pair(const tl_allocator *allocator, tl_nav_pair_list *list, uint32_t first, uint32_t second)
-{
-    if (list->count == list->capacity) {
-        tl_sort_item *grown = (tl_sort_item *)tl_grow_array(allocator, list->items, &list->capacity, sizeof *grown);
-        if (grown == NULL) {
-            return TL_ERR_MEMORY;
-        }
-        list->items = grown;
-    }
-    const tl_sort_item item = { (uint64_t)first << 32 | second, 0, 0 };
-    list->items[list->count++] = item;
-    return TL_OK;
-}
-
-void tl_nav_free_pairs(const tl_allocator *allocator, tl_nav_pair_list *list)
-{
-    tl_release_array(allocator, list->items, list->capacity, sizeof *list->items);
-    memset(list, 0, sizeof *list);
-}
-
-// Ascending, each once.
-static tl_result sort_pairs(const tl_allocator *allocator, tl_nav_pair_list *list, tl_stage *stage)
-{
-    if (list->count > UINT32_MAX) {
-        return TL_ERR_LIMIT;
-    }
-    tl_sort_item *scratch = (tl_sort_item *)tl_allocate_array(allocator, list->count, sizeof *scratch);
-    if (scratch == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    const tl_result result = tl_radix_sort_in_stage(list->items, scratch, (uint32_t)list->count, stage);
-    tl_release_array(allocator, scratch, list->count, sizeof *scratch);
-    TL_TRY(result);
-    uint64_t kept = 0;
-    for (uint64_t i = 0; i < list->count; i++) {
-        if (kept == 0 || list->items[kept - 1].key != list->items[i].key) {
-            list->items[kept++] = list->items[i];
-        }
-    }
-    list->count = kept;
-    return TL_OK;
-}
-
-// The first pair whose first number is no less.
-static uint64_t find_pair(const tl_nav_pair_list *list, uint32_t first)
-{
-    uint64_t begin = 0, end = list->count;
-    while (begin < end) {
-        const uint64_t middle = begin + (end - begin) / 2;
-        if (list->items[middle].key >> 32 < first) {
-            begin = middle + 1;
-        } else {
-            end = middle;
-        }
-    }
-    return begin;
-}
-
 // One tile's, before they are put into its block.
 typedef struct sight_lists {
     const tl_nav_graph_changes *changes;
+    const tl_nav_change_sectors *sectors;
     const tl_nav_seen *seen;
     tl_nav_visibility_edge *edges; // of one corner vertex after another
     uint64_t edge_count, edge_capacity;
@@ -104,11 +47,13 @@ static tl_nav_visibility_edge edge_between(const tl_nav_visibility_graph *graph,
     return edge;
 }
 
-static bool stays(const tl_nav_graph_changes *c, uint32_t from, const tl_nav_visibility_edge *edge)
+bool tl_nav_edge_stays(const tl_nav_change_sectors *sectors, uint32_t from, uint32_t to)
 {
-    const uint8_t *marks = c->graph->marks;
-    return marks[edge->to] == TL_NAV_MARK_NONE ||
-           (marks[from] == TL_NAV_MARK_NONE && marks[edge->to] == TL_NAV_MARK_LOOKS);
+    const uint8_t *marks = sectors->changes->graph->marks;
+    if (marks[to] == TL_NAV_MARK_FRESH || marks[to] == TL_NAV_MARK_GONE) {
+        return false;
+    }
+    return marks[from] == TL_NAV_MARK_NONE || marks[to] == TL_NAV_MARK_NONE || tl_nav_is_edge_kept(sectors, from, to);
 }
 
 // The edges of a corner vertex that stay, and those that were seen, by rising number.
@@ -117,10 +62,10 @@ static tl_result list_edges(sight_lists *l, uint32_t v)
     const tl_nav_visibility_graph *graph = l->changes->graph;
     const tl_nav_corner_vertex *vertex = &graph->vertices[v];
     const tl_nav_pair_list *seen = &l->seen->edges;
-    uint64_t i = find_pair(seen, v);
+    uint64_t i = tl_nav_find_pair(seen, v);
     for (uint32_t k = 0; k < vertex->edge_count; k++) {
         const tl_nav_visibility_edge *edge = &vertex->edges[k];
-        if (!stays(l->changes, v, edge)) {
+        if (!tl_nav_edge_stays(l->sectors, v, edge->to)) {
             continue;
         }
         for (; i < seen->count && seen->items[i].key < ((uint64_t)v << 32 | edge->to); i++) {
@@ -135,18 +80,28 @@ static tl_result list_edges(sight_lists *l, uint32_t v)
     return TL_OK;
 }
 
+// The slots that a corner vertex reached and has not lost, if it has not looked all around, and those where it has seen
+// something, by rising number.
 static tl_result list_reach(sight_lists *l, uint32_t v)
 {
     const tl_allocator *allocator = l->changes->allocator;
     const tl_nav_corner_vertex *vertex = &l->changes->graph->vertices[v];
     const tl_nav_pair_list *seen = &l->seen->reaches;
-    if (l->changes->graph->marks[v] == TL_NAV_MARK_NONE) {
-        for (uint32_t k = 0; k < vertex->reach_count; k++) {
-            TL_TRY(tl_nav_add_number(allocator, &l->reaches, tl_nav_reach_of(vertex)[k]));
+    const uint8_t mark = l->changes->graph->marks[v];
+    const uint32_t kept = mark == TL_NAV_MARK_NONE || mark == TL_NAV_MARK_LOOKS ? vertex->reach_count : 0;
+    const uint32_t *reach = tl_nav_reach_of(vertex);
+    uint64_t i = tl_nav_find_pair(seen, v);
+    for (uint32_t k = 0; k < kept; k++) {
+        if (mark == TL_NAV_MARK_LOOKS && tl_nav_has_pair(&l->sectors->lost, v, reach[k])) {
+            continue;
         }
-        return TL_OK;
+        for (; i < seen->count && seen->items[i].key < ((uint64_t)v << 32 | reach[k]); i++) {
+            TL_TRY(tl_nav_add_number(allocator, &l->reaches, (uint32_t)seen->items[i].key));
+        }
+        i += i < seen->count && seen->items[i].key == ((uint64_t)v << 32 | reach[k]) ? 1 : 0;
+        TL_TRY(tl_nav_add_number(allocator, &l->reaches, reach[k]));
     }
-    for (uint64_t i = find_pair(seen, v); i < seen->count && seen->items[i].key >> 32 == v; i++) {
+    for (; i < seen->count && seen->items[i].key >> 32 == v; i++) {
         TL_TRY(tl_nav_add_number(allocator, &l->reaches, (uint32_t)seen->items[i].key));
     }
     return TL_OK;
@@ -222,17 +177,19 @@ static tl_result remake_tiles(tl_nav_graph_changes *c, sight_lists *l, tl_stage 
     return TL_OK;
 }
 
-tl_result tl_nav_remake_sights(tl_nav_graph_changes *c, tl_nav_seen *seen, tl_stage *stage)
+tl_result tl_nav_remake_sights(const tl_nav_change_sectors *sectors, tl_nav_seen *seen, tl_stage *stage)
 {
-    TL_TRY(sort_pairs(c->allocator, &seen->edges, stage));
-    TL_TRY(sort_pairs(c->allocator, &seen->reaches, stage));
+    const tl_allocator *allocator = sectors->changes->allocator;
+    TL_TRY(tl_nav_unite_pairs(allocator, &seen->edges, stage));
+    TL_TRY(tl_nav_unite_pairs(allocator, &seen->reaches, stage));
     sight_lists lists;
     memset(&lists, 0, sizeof lists);
-    lists.changes = c;
+    lists.changes = sectors->changes;
+    lists.sectors = sectors;
     lists.seen = seen;
-    const tl_result result = remake_tiles(c, &lists, stage);
-    tl_release_array(c->allocator, lists.edges, lists.edge_capacity, sizeof *lists.edges);
-    tl_nav_free_numbers(c->allocator, &lists.reaches);
-    tl_nav_free_numbers(c->allocator, &lists.counts);
+    const tl_result result = remake_tiles(sectors->changes, &lists, stage);
+    tl_release_array(allocator, lists.edges, lists.edge_capacity, sizeof *lists.edges);
+    tl_nav_free_numbers(allocator, &lists.reaches);
+    tl_nav_free_numbers(allocator, &lists.counts);
     return result;
 }

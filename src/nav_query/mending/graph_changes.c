@@ -16,27 +16,10 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/min_max.h"
 
+#include <math.h>
 #include <string.h>
-
-tl_result tl_nav_add_number(const tl_allocator *allocator, tl_nav_number_list *list, uint32_t number)
-{
-    if (list->count == list->capacity) {
-        uint32_t *grown = (uint32_t *)tl_grow_array(allocator, list->numbers, &list->capacity, sizeof *grown);
-        if (grown == NULL) {
-            return TL_ERR_MEMORY;
-        }
-        list->numbers = grown;
-    }
-    list->numbers[list->count++] = number;
-    return TL_OK;
-}
-
-void tl_nav_free_numbers(const tl_allocator *allocator, tl_nav_number_list *list)
-{
-    tl_release_array(allocator, list->numbers, list->capacity, sizeof *list->numbers);
-    memset(list, 0, sizeof *list);
-}
 
 tl_result tl_nav_note_slot(tl_nav_graph_changes *c, uint32_t slot, uint32_t bits)
 {
@@ -139,16 +122,27 @@ static tl_result let_look(tl_nav_graph_changes *c, uint32_t vertex)
         return TL_OK;
     }
     c->graph->marks[vertex] = TL_NAV_MARK_LOOKS;
+    c->graph->orders[vertex] = (uint32_t)c->lookers.count;
     return tl_nav_add_number(c->allocator, &c->lookers, vertex);
 }
 
 // Those that saw a corner vertex which is gone.
 static tl_result drop_gone(tl_nav_graph_changes *c)
 {
+    c->gone_spots = (tl_nav_gone_spot *)tl_allocate_array(c->allocator, c->gone.count, sizeof *c->gone_spots);
+    if (c->gone_spots == NULL) {
+        return TL_ERR_MEMORY;
+    }
     for (uint64_t i = 0; i < c->gone.count; i++) {
         const tl_nav_corner_vertex *vertex = &c->graph->vertices[c->gone.numbers[i]];
+        const tl_nav_gone_spot spot = { vertex->x, vertex->z };
+        c->gone_spots[i] = spot;
         for (uint32_t k = 0; k < vertex->edge_count; k++) {
-            TL_TRY(let_look(c, vertex->edges[k].to));
+            const uint32_t to = vertex->edges[k].to;
+            TL_TRY(let_look(c, to));
+            TL_TRY(c->graph->marks[to] == TL_NAV_MARK_LOOKS
+                       ? tl_nav_add_pair(c->allocator, &c->gone_sights, to, (uint32_t)i)
+                       : TL_OK);
         }
         for (uint32_t k = 0; k < vertex->reach_count; k++) {
             TL_TRY(tl_nav_note_slot(c, tl_nav_reach_of(vertex)[k], TL_NAV_SLOT_CONES));
@@ -191,20 +185,9 @@ static tl_result find_onlookers(tl_nav_graph_changes *c, uint32_t slot)
         if (stays && !may_be_new(c, slot, p)) {
             continue;
         }
+        TL_TRY(stays ? tl_nav_add_pair(c->allocator, &c->polygons, slot, p) : TL_OK);
         for (uint32_t i = cones->first[p]; i < cones->first[p + 1]; i++) {
             TL_TRY(let_look(c, tl_nav_cone_vertex(cones, i)));
-        }
-    }
-    return TL_OK;
-}
-
-static tl_result note_reaches(tl_nav_graph_changes *c)
-{
-    for (uint64_t i = 0; i < c->lookers.count; i++) {
-        const tl_nav_corner_vertex *vertex = &c->graph->vertices[c->lookers.numbers[i]];
-        TL_TRY(tl_nav_note_slot(c, vertex->place.slot, TL_NAV_SLOT_SIGHTS));
-        for (uint32_t k = 0; k < vertex->reach_count; k++) {
-            TL_TRY(tl_nav_note_slot(c, tl_nav_reach_of(vertex)[k], TL_NAV_SLOT_CONES));
         }
     }
     return TL_OK;
@@ -285,7 +268,10 @@ static tl_result compare_graph(tl_nav_graph_changes *c)
             TL_TRY(find_onlookers(c, c->slots.numbers[i]));
         }
     }
-    TL_TRY(note_reaches(c));
+    TL_TRY(tl_nav_sort_pairs(c->allocator, &c->polygons, NULL));
+    for (uint64_t i = 0; i < c->lookers.count; i++) {
+        TL_TRY(tl_nav_note_slot(c, c->graph->vertices[c->lookers.numbers[i]].place.slot, TL_NAV_SLOT_SIGHTS));
+    }
     for (uint64_t i = 0; i < c->gone.count; i++) {
         tl_nav_give_corner_vertex(c->graph, c->gone.numbers[i]);
     }
@@ -312,6 +298,22 @@ tl_result tl_nav_find_changes(const tl_navmesh *navmesh, tl_nav_visibility_graph
     return compare_graph(changes_out);
 }
 
+// The plan's box of a tile's polygons.
+static void find_box(const tl_nav_rings *rings, tl_nav_graph_tile *tile)
+{
+    tile->low_x = tile->low_z = INFINITY;
+    tile->high_x = tile->high_z = -INFINITY;
+    for (uint32_t p = 0; p < rings->polygon_count; p++) {
+        const tl_nav_ring ring = tl_nav_ring_of(rings, p);
+        for (uint32_t i = 0; i < ring.count; i++) {
+            tile->low_x = tl_min_f32(tile->low_x, ring.points[i].x);
+            tile->low_z = tl_min_f32(tile->low_z, ring.points[i].z);
+            tile->high_x = tl_max_f32(tile->high_x, ring.points[i].x);
+            tile->high_z = tl_max_f32(tile->high_z, ring.points[i].z);
+        }
+    }
+}
+
 void tl_nav_settle_changes(const tl_nav_graph_changes *c)
 {
     for (uint64_t i = 0; i < c->gone.count; i++) {
@@ -321,7 +323,11 @@ void tl_nav_settle_changes(const tl_nav_graph_changes *c)
         c->graph->marks[c->lookers.numbers[i]] = TL_NAV_MARK_NONE;
     }
     for (uint64_t i = 0; i < c->slots.count; i++) {
-        c->graph->tiles[c->slots.numbers[i]].salt = salt_of(c->navmesh, c->slots.numbers[i]);
+        const uint32_t slot = c->slots.numbers[i];
+        c->graph->tiles[slot].salt = salt_of(c->navmesh, slot);
+        if ((c->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0 && c->graph->tiles[slot].salt != 0) {
+            find_box(&c->navmesh->slots[slot].rings, &c->graph->tiles[slot]);
+        }
     }
 }
 
@@ -329,6 +335,9 @@ void tl_nav_free_changes(tl_nav_graph_changes *c)
 {
     tl_nav_free_numbers(c->allocator, &c->slots);
     tl_nav_free_numbers(c->allocator, &c->lookers);
+    tl_release_array(c->allocator, c->gone_spots, c->gone.count, sizeof *c->gone_spots);
     tl_nav_free_numbers(c->allocator, &c->gone);
+    tl_nav_free_pairs(c->allocator, &c->gone_sights);
+    tl_nav_free_pairs(c->allocator, &c->polygons);
     tl_release_array(c->allocator, c->slot_bits, c->graph->slot_count, sizeof *c->slot_bits);
 }

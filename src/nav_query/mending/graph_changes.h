@@ -5,12 +5,14 @@
 #ifndef TALUS_SRC_NAV_QUERY_GRAPH_CHANGES_H
 #define TALUS_SRC_NAV_QUERY_GRAPH_CHANGES_H
 
+#include "nav_query/mending/number_lists.h"
 #include "nav_query/prepared/visibility_graph.h"
 
 /// What a corner vertex is to a mend (tl_nav_visibility_graph.marks).
 enum {
     TL_NAV_MARK_NONE,
-    TL_NAV_MARK_LOOKS, ///< it may see something else now
+    TL_NAV_MARK_LOOKS, ///< it may see something else now, in the directions of the change
+    TL_NAV_MARK_WHOLE, ///< the same all around
     TL_NAV_MARK_FRESH, ///< it is new; its number may have been another's
     TL_NAV_MARK_GONE
 };
@@ -21,14 +23,9 @@ enum {
 #define TL_NAV_SLOT_CONES  4u ///< cones of its polygons go or come
 #define TL_NAV_SLOT_SIGHTS 8u ///< edges or reaches of corner vertices whose fans begin in it do
 
-typedef struct tl_nav_number_list {
-    uint32_t *numbers;
-    uint64_t count, capacity;
-} tl_nav_number_list;
-
-/// TL_ERR_MEMORY.
-tl_result tl_nav_add_number(const tl_allocator *allocator, tl_nav_number_list *list, uint32_t number);
-void tl_nav_free_numbers(const tl_allocator *allocator, tl_nav_number_list *list);
+typedef struct tl_nav_gone_spot {
+    float x, z;
+} tl_nav_gone_spot;
 
 typedef struct tl_nav_graph_changes {
     const tl_navmesh *navmesh;
@@ -40,6 +37,9 @@ typedef struct tl_nav_graph_changes {
     tl_nav_number_list lookers;
     uint64_t first_fresh;
     tl_nav_number_list gone;
+    tl_nav_gone_spot *gone_spots; ///< by place in `gone`: where they were
+    tl_nav_pair_list gone_sights; ///< corner vertex that looks, and one in `gone`, by its place there, that it saw
+    tl_nav_pair_list polygons;    ///< slot that was edited, and polygon that may have changed; sorted
 } tl_nav_graph_changes;
 
 /// Compares the graph with the navmesh. Corner vertices whose names are no more leave it, new ones enter it without
@@ -50,6 +50,13 @@ tl_result tl_nav_find_changes(const tl_navmesh *navmesh, tl_nav_visibility_graph
 /// Takes the marks away, and notes the tiles that are there.
 void tl_nav_settle_changes(const tl_nav_graph_changes *changes);
 void tl_nav_free_changes(tl_nav_graph_changes *changes);
+
+/// Whether a polygon came, or may have changed.
+static inline bool tl_nav_is_polygon_new(const tl_nav_graph_changes *changes, uint32_t slot, uint32_t polygon)
+{
+    return (changes->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0 ||
+           ((changes->slot_bits[slot] & TL_NAV_SLOT_EDITED) != 0 && tl_nav_has_pair(&changes->polygons, slot, polygon));
+}
 
 /// Sets bits of a slot. TL_ERR_MEMORY.
 tl_result tl_nav_note_slot(tl_nav_graph_changes *changes, uint32_t slot, uint32_t bits);

@@ -17,6 +17,7 @@
 
 typedef struct graph_mend {
     tl_nav_graph_changes changes;
+    tl_nav_change_sectors sectors;
     tl_nav_corner_look look;
     tl_stage stage;        // corner vertices that have looked around
     uint32_t *first_cones; // [slot_count + 1], by slot: where its new cones begin
@@ -36,10 +37,12 @@ bool tl_nav_can_mend_graph(const tl_navmesh *navmesh, const tl_nav_visibility_gr
     return graph != NULL && graph->rounding >= rounding_of(navmesh) && graph->last_fan <= navmesh->last_fan;
 }
 
-// Which of a tile's cones go: those of corner vertices that have looked, or are gone.
+// Which of a tile's cones go: those beyond changes, and all of corner vertices that have looked all around, or are
+// gone.
 static tl_result find_dropped(graph_mend *m, uint32_t slot, bool *any_out)
 {
-    const tl_nav_corner_cones *cones = &m->changes.graph->tiles[slot].cones;
+    const tl_nav_visibility_graph *graph = m->changes.graph;
+    const tl_nav_corner_cones *cones = &graph->tiles[slot].cones;
     if (m->dropped_capacity < cones->count) {
         bool *grown = (bool *)tl_allocate_array(m->changes.allocator, 2 * (uint64_t)cones->count, sizeof *grown);
         if (grown == NULL) {
@@ -51,8 +54,13 @@ static tl_result find_dropped(graph_mend *m, uint32_t slot, bool *any_out)
     }
     *any_out = false;
     for (uint32_t i = 0; i < cones->count; i++) {
-        m->is_dropped[i] = m->changes.graph->marks[tl_nav_cone_vertex(cones, i)] != TL_NAV_MARK_NONE;
+        m->is_dropped[i] = graph->marks[tl_nav_cone_vertex(cones, i)] > TL_NAV_MARK_LOOKS;
         *any_out = *any_out || m->is_dropped[i];
+    }
+    const tl_nav_pair_list *dropped = &m->sectors.dropped;
+    for (uint64_t i = tl_nav_find_pair(dropped, slot); i < dropped->count && dropped->items[i].key >> 32 == slot; i++) {
+        m->is_dropped[(uint32_t)dropped->items[i].key] = true;
+        *any_out = true;
     }
     return TL_OK;
 }
@@ -92,6 +100,10 @@ static tl_result remake_cones(graph_mend *m)
     for (uint64_t i = 0; i < m->look.seen.reaches.count; i++) {
         TL_TRY(tl_nav_note_slot(c, (uint32_t)m->look.seen.reaches.items[i].key, TL_NAV_SLOT_CONES));
     }
+    TL_TRY(tl_nav_sort_pairs(c->allocator, &m->sectors.dropped, &m->stage));
+    for (uint64_t i = 0; i < m->sectors.dropped.count; i++) {
+        TL_TRY(tl_nav_note_slot(c, (uint32_t)(m->sectors.dropped.items[i].key >> 32), TL_NAV_SLOT_CONES));
+    }
     for (uint64_t i = 0; i < c->slots.count; i++) {
         if ((c->slot_bits[c->slots.numbers[i]] & TL_NAV_SLOT_CONES) != 0) {
             TL_TRY(remake_tile_cones(m, c->slots.numbers[i]));
@@ -104,14 +116,15 @@ static tl_result remake_cones(graph_mend *m)
 static tl_result mend(graph_mend *m, const tl_navmesh *navmesh, tl_nav_visibility_graph *graph)
 {
     TL_TRY(tl_nav_find_changes(navmesh, graph, &m->changes));
-    TL_TRY(tl_nav_begin_looks(&m->changes, &m->look));
+    TL_TRY(tl_nav_find_change_sectors(&m->changes, &m->sectors));
+    TL_TRY(tl_nav_begin_looks(&m->sectors, &m->look));
     const tl_nav_number_list *lookers = &m->changes.lookers;
     m->stage.total = lookers->count;
     for (uint64_t i = 0; i < lookers->count; i++) {
-        TL_TRY(tl_nav_look_around(&m->look, lookers->numbers[i]));
+        TL_TRY(tl_nav_look_from(&m->look, lookers->numbers[i]));
         TL_TRY(tl_stage_add(&m->stage, 1));
     }
-    TL_TRY(tl_nav_remake_sights(&m->changes, &m->look.seen, &m->stage));
+    TL_TRY(tl_nav_remake_sights(&m->sectors, &m->look.seen, &m->stage));
     TL_TRY(remake_cones(m));
     TL_TRY(tl_stage_end(&m->stage));
     graph->looked = (uint32_t)lookers->count;
@@ -131,9 +144,10 @@ tl_result tl_nav_mend_graph(const tl_navmesh *navmesh, const tl_host *host, tl_n
     TL_TRY(tl_nav_own_graph_arrays(navmesh, graph));
     m.changes.allocator = allocator;
     m.changes.graph = graph;
-    m.look.changes = &m.changes;
+    m.look.changes = m.sectors.changes = &m.changes;
     const tl_result result = mend(&m, navmesh, graph);
     tl_nav_end_looks(&m.look);
+    tl_nav_free_change_sectors(&m.sectors);
     tl_release_array(allocator, m.first_cones, (uint64_t)graph->slot_count + 1, sizeof *m.first_cones);
     tl_release_array(allocator, m.is_dropped, m.dropped_capacity, sizeof *m.is_dropped);
     tl_nav_free_changes(&m.changes);

@@ -5,8 +5,11 @@
 // A bound needs no distances: any numbers serve that differ along no edge by more than it is long. Old ones break that
 // only at edges that are new; from there they are lowered as in Dijkstra's algorithm, until none does. They are rounded
 // down, so what is lowered breaks it nowhere, and errors do not add up: from a vertex that was lowered to one that was
-// not, a path leaves the first kind once. Nothing raises them again where a way has closed: bounds stay right, and are
-// worth a little less after each edit; so now and then all are measured.
+// not, a path leaves the first kind once. All are kept a little shorter than they are (TL_NAV_LANDMARK_SCALE): edges
+// then have some slack, and where a new corner vertex stands in place of another a rounding lowers none but its own.
+//
+// Nothing raises distances again where a way has closed: bounds stay right, and are worth less. When as many have been
+// lowered as measuring all of them would write, they are measured.
 
 #include "nav_query/mending/landmark_mend.h"
 
@@ -19,8 +22,8 @@
 #include <math.h>
 #include <string.h>
 
-// Mends after which all distances are measured: those of ways that have closed since then are too short.
-enum { MAX_MENDS = 64 };
+// Of lowering new ones by one another: few are farther from all others. What is left is lowered with all.
+enum { LOWERING_ROUNDS = 8 };
 
 // The vertices from which a landmark's distances are lowered.
 typedef struct landmark_mend {
@@ -49,17 +52,33 @@ static void forget_fresh(const tl_nav_graph_changes *changes)
     }
 }
 
-// Lowers a vertex's distances where one of its edges leads to a shorter one.
-static void lower_by_edges(tl_nav_visibility_graph *graph, uint32_t i)
+// Lowers a vertex's distances where one of its edges leads to a shorter one. `scale`: of the edges' lengths. Whether it
+// lowered any.
+static bool lower_by_edges(tl_nav_visibility_graph *graph, uint32_t i, double scale)
 {
     const tl_nav_corner_vertex *vertex = &graph->vertices[i];
+    bool any = false;
     for (uint32_t e = 0; e < vertex->edge_count; e++) {
-        const double length = tl_nav_visibility_edge_length(vertex, &vertex->edges[e]);
+        const double length = scale * tl_nav_visibility_edge_length(vertex, &vertex->edges[e]);
         const float *to = graph->landmarks[vertex->edges[e].to];
         for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
             if ((double)graph->landmarks[i][k] > (double)to[k] + length) {
                 graph->landmarks[i][k] = round_down((double)to[k] + length);
+                any = true;
             }
+        }
+    }
+    return any;
+}
+
+// New corner vertices have theirs by those around them, and by one another.
+static void lower_fresh(const tl_nav_graph_changes *changes)
+{
+    bool any = true;
+    for (uint32_t round = 0; round < LOWERING_ROUNDS && any; round++) {
+        any = false;
+        for (uint64_t i = changes->first_fresh; i < changes->lookers.count; i++) {
+            any = lower_by_edges(changes->graph, changes->lookers.numbers[i], TL_NAV_LANDMARK_SCALE) || any;
         }
     }
 }
@@ -103,6 +122,7 @@ static tl_result spread_lowered(landmark_mend *m, uint32_t landmark)
         if (next.length > (double)graph->landmarks[next.vertex][landmark]) {
             continue;
         }
+        graph->lowered++;
         const tl_nav_corner_vertex *vertex = &graph->vertices[next.vertex];
         for (uint32_t e = 0; e < vertex->edge_count; e++) {
             const tl_nav_visibility_edge *edge = &vertex->edges[e];
@@ -134,8 +154,9 @@ static tl_result lower_all(const tl_nav_graph_changes *changes, landmark_mend *m
 {
     tl_nav_visibility_graph *graph = m->graph;
     forget_fresh(changes);
+    lower_fresh(changes);
     for (uint64_t i = 0; i < m->lookers->count; i++) {
-        lower_by_edges(graph, m->lookers->numbers[i]);
+        lower_by_edges(graph, m->lookers->numbers[i], 1.0);
     }
     for (uint64_t i = 0; i < m->lookers->count; i++) {
         m->asked[i] = landmarks_to_lower(graph, m->lookers->numbers[i]);
@@ -149,7 +170,6 @@ static tl_result lower_all(const tl_nav_graph_changes *changes, landmark_mend *m
         TL_TRY(spread_lowered(m, k));
         TL_TRY(tl_stage_add(stage, 1));
     }
-    graph->mends++;
     graph->landmark_error = fmaxf(graph->landmark_error, TL_FLOAT_GAMMA(4) * settle_fresh(changes));
     return tl_stage_end(stage);
 }
@@ -171,6 +191,7 @@ tl_result tl_nav_mend_landmarks(const tl_nav_graph_changes *changes, const tl_ho
     tl_stage stage;
     TL_TRY(tl_stage_begin(&stage, host, "landmarks", TL_NAV_LANDMARKS));
     const bool is_fresh = changes->lookers.count - changes->first_fresh == graph->vertex_count;
-    return is_fresh || graph->mends >= MAX_MENDS ? tl_nav_measure_landmarks(changes->allocator, graph, &stage)
-                                                 : mend_in_memory(changes, &stage);
+    return is_fresh || graph->lowered >= (uint64_t)TL_NAV_LANDMARKS * graph->vertex_count
+               ? tl_nav_measure_landmarks(changes->allocator, graph, &stage)
+               : mend_in_memory(changes, &stage);
 }

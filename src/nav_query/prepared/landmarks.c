@@ -81,7 +81,7 @@ static tl_result measure_landmarks(landmark_spread *s, tl_nav_visibility_graph *
             if (s->component[i] == UINT32_MAX) {
                 continue; // a free number
             }
-            graph->landmarks[i][k] = (float)s->lengths.length[i];
+            graph->landmarks[i][k] = (float)(TL_NAV_LANDMARK_SCALE * s->lengths.length[i]);
             longest = tl_max_f64(longest, s->lengths.length[i]);
             // The first set was chosen for its distance from some corner vertex, which is no place of a set.
             s->nearest[i] = k == 0 ? s->lengths.length[i] : tl_min_f64(s->nearest[i], s->lengths.length[i]);
@@ -97,7 +97,7 @@ tl_result tl_nav_measure_landmarks(const tl_allocator *allocator, tl_nav_visibil
     landmark_spread s;
     memset(&s, 0, sizeof s);
     s.graph = graph;
-    graph->mends = 0;
+    graph->lowered = 0;
     TL_TRY(tl_nav_dijkstra_init(allocator, graph, stage, &s.lengths));
     uint32_t *stack = (uint32_t *)tl_allocate_array(allocator, graph->vertex_room, sizeof *stack);
     s.component = (uint32_t *)tl_allocate_array(allocator, graph->vertex_room, sizeof *s.component);

@@ -9,6 +9,10 @@
 #include "nav_query/prepared/path_ends.h"
 #include "nav_query/prepared/visibility_graph.h"
 
+/// Distances are kept so much shorter than they are. Along an edge of ten metres that is a millimetre, some
+/// roundings of distances of kilometres.
+#define TL_NAV_LANDMARK_SCALE (1.0 - 1e-4)
+
 /// Chooses landmarks and fills in the distances from them. TL_ERR_MEMORY, TL_ERR_CANCELLED.
 tl_result tl_nav_measure_landmarks(const tl_allocator *allocator, tl_nav_visibility_graph *graph, tl_stage *stage);
 

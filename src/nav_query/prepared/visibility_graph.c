@@ -44,13 +44,15 @@ void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibili
     tl_release_array(allocator, graph->vertices, graph->vertex_capacity, sizeof *graph->vertices);
     tl_release_array(allocator, graph->landmarks, graph->vertex_capacity, sizeof *graph->landmarks);
     tl_release_array(allocator, graph->marks, graph->vertex_capacity, sizeof *graph->marks);
+    tl_release_array(allocator, graph->orders, graph->vertex_capacity, sizeof *graph->orders);
     tl_release_array(allocator, graph->tiles, graph->slot_count, sizeof *graph->tiles);
     tl_release_array(allocator, graph, 1, sizeof *graph);
 }
 
 uint64_t tl_nav_visibility_graph_size(const tl_nav_visibility_graph *graph)
 {
-    const uint64_t vertex_size = sizeof *graph->vertices + sizeof *graph->landmarks + sizeof *graph->marks;
+    const uint64_t vertex_size =
+        sizeof *graph->vertices + sizeof *graph->landmarks + sizeof *graph->marks + sizeof *graph->orders;
     return sizeof *graph + graph->vertex_capacity * vertex_size + graph->slot_count * (uint64_t)sizeof *graph->tiles +
            graph->names.capacity * (uint64_t)sizeof *graph->names.entries + graph->tile_bytes;
 }
@@ -62,10 +64,12 @@ static tl_result move_corner_vertices(const tl_allocator *allocator, tl_nav_visi
     float(*landmarks)[TL_NAV_LANDMARKS] =
         (float(*)[TL_NAV_LANDMARKS])tl_allocate_array(allocator, capacity, sizeof *landmarks);
     uint8_t *marks = (uint8_t *)tl_allocate_array(allocator, capacity, sizeof *marks);
-    if (vertices == NULL || landmarks == NULL || marks == NULL) {
+    uint32_t *orders = (uint32_t *)tl_allocate_array(allocator, capacity, sizeof *orders);
+    if (vertices == NULL || landmarks == NULL || marks == NULL || orders == NULL) {
         tl_release_array(allocator, vertices, capacity, sizeof *vertices);
         tl_release_array(allocator, landmarks, capacity, sizeof *landmarks);
         tl_release_array(allocator, marks, capacity, sizeof *marks);
+        tl_release_array(allocator, orders, capacity, sizeof *orders);
         return TL_ERR_MEMORY;
     }
     memset(marks, 0, capacity * sizeof *marks);
@@ -73,13 +77,16 @@ static tl_result move_corner_vertices(const tl_allocator *allocator, tl_nav_visi
         memcpy(vertices, graph->vertices, graph->vertex_room * sizeof *vertices);
         memcpy(landmarks, graph->landmarks, graph->vertex_room * sizeof *landmarks);
         memcpy(marks, graph->marks, graph->vertex_room * sizeof *marks);
+        memcpy(orders, graph->orders, graph->vertex_room * sizeof *orders);
     }
     tl_release_array(allocator, graph->vertices, graph->vertex_capacity, sizeof *vertices);
     tl_release_array(allocator, graph->landmarks, graph->vertex_capacity, sizeof *landmarks);
     tl_release_array(allocator, graph->marks, graph->vertex_capacity, sizeof *marks);
+    tl_release_array(allocator, graph->orders, graph->vertex_capacity, sizeof *orders);
     graph->vertices = vertices;
     graph->landmarks = landmarks;
     graph->marks = marks;
+    graph->orders = orders;
     graph->vertex_capacity = capacity;
     return TL_OK;
 }

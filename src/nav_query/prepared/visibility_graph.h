@@ -59,6 +59,8 @@ static inline const uint32_t *tl_nav_reach_of(const tl_nav_corner_vertex *vertex
 /// What the graph keeps by slot. An edit writes that of the tiles that it is seen from, and of no others.
 typedef struct tl_nav_graph_tile {
     uint32_t salt;         ///< that of the slot's tile (tl_nav_slot); 0: it has none
+    float low_x, low_z;    ///< of the box around its polygons, in the plan
+    float high_x, high_z;  ///< of it
     uint32_t first_vertex; ///< of those whose fans begin in it (tl_nav_corner_vertex.next)
     uint32_t *sights;      ///< their edges and reaches
     uint64_t sight_words;  ///< 4 bytes each
@@ -81,12 +83,13 @@ struct tl_nav_visibility_graph {
     tl_nav_kept_legs kept; ///< where there is a table
     double rounding;       ///< metres within which a point is on a line
     float landmark_error;  ///< metres by which a difference of two landmark distances may be wrong
-    uint32_t mends;        ///< of its landmark distances since they were measured
+    uint64_t lowered;      ///< landmark distances since they were measured
     uint32_t last_fan;     ///< the navmesh's, when it was mended last
     uint32_t looked;       ///< corner vertices that have looked around when it was mended last
     // Queries read none of these; older versions of the navmesh leave them to the newest.
     tl_nav_corner_names names;
-    uint8_t *marks; ///< [vertex_capacity] while it is mended: graph_changes.h; else 0
+    uint8_t *marks;   ///< [vertex_capacity] while it is mended: graph_changes.h; else 0
+    uint32_t *orders; ///< [vertex_capacity], of those that look while it is mended: the place among them
 };
 
 /// The sides to which a path that comes along (x, z) to a corner vertex may turn there: those on which its walls are.

@@ -1,0 +1,522 @@
+// SPDX-License-Identifier: MIT
+//
+// Looking only in the direction of a change: the directions, and what was seen there.
+//
+// What a corner vertex v sees of a region that may have changed is in v's cones of the region's polygons. In all other
+// directions v sees what it saw. A polygon p that v sees in such a direction too may lie before the region or beyond
+// it. Both are convex and do not overlap, so a line separates them, and any ray from v that meets both meets them in
+// the same order: one ray tells for all. What lies before is seen as it was. Where p lies beyond, or it cannot be told,
+// all of v's cones in p are found anew, and for that v looks in their directions too: then the cones of p are those
+// that a look all around would find, to the bit.
+//
+// A corner vertex that touches a region, or sees changes in more than a third of all directions, looks all around.
+
+#include "nav_query/mending/change_sectors.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+
+#include <string.h>
+
+// Of all directions, in which one does not look all around.
+#define MOST_DIRECTIONS (TL_NAV_FULL_TURN / 3.0)
+
+static uint64_t looker_count(const tl_nav_change_sectors *s)
+{
+    return s->changes->first_fresh;
+}
+
+tl_nav_sector tl_nav_sector_of_cone(const tl_nav_corner_cones *cones, uint32_t cone)
+{
+    const double right_x = -(double)cones->right_x[cone], right_z = -(double)cones->right_z[cone];
+    const double left_x = (double)cones->left_x[cone], left_z = (double)cones->left_z[cone];
+    const tl_nav_sector all = { 0.0, TL_NAV_FULL_TURN };
+    if ((right_x == 0.0 && right_z == 0.0) || (left_x == 0.0 && left_z == 0.0)) {
+        return all;
+    }
+    const double margin = 4.0 * (double)tl_nav_cone_slack(cones->vertex[cone]) / TL_NAV_CONE_STEPS;
+    return tl_nav_sector_between(right_x, right_z, left_x, left_z, margin);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// The sectors.
+
+// Unsorted: as items of `found` places in `sectors`, by looker.
+typedef struct sector_finder {
+    tl_nav_change_sectors *s;
+    tl_nav_pair_list found;
+} sector_finder;
+
+static tl_result add_sector(sector_finder *f, uint32_t vertex, tl_nav_change_sector sector)
+{
+    tl_nav_change_sectors *s = f->s;
+    if (s->count == s->capacity) {
+        tl_nav_change_sector *grown =
+            (tl_nav_change_sector *)tl_grow_array(s->changes->allocator, s->sectors, &s->capacity, sizeof *grown);
+        if (grown == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        s->sectors = grown;
+    }
+    s->sectors[s->count] = sector;
+    return tl_nav_add_pair(s->changes->allocator, &f->found, s->changes->graph->orders[vertex], (uint32_t)s->count++);
+}
+
+typedef struct plan_box {
+    float low_x, low_z, high_x, high_z;
+} plan_box;
+
+static plan_box box_of_tile(const tl_nav_graph_tile *tile)
+{
+    const plan_box box = { tile->low_x, tile->low_z, tile->high_x, tile->high_z };
+    return box;
+}
+
+static plan_box box_of_polygon(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_ring ring = tl_nav_ring_at(navmesh, slot, polygon);
+    plan_box box = { INFINITY, INFINITY, -INFINITY, -INFINITY };
+    for (uint32_t i = 0; i < ring.count; i++) {
+        const tl_vec3 at = ring.points[i];
+        box.low_x = at.x < box.low_x ? at.x : box.low_x;
+        box.low_z = at.z < box.low_z ? at.z : box.low_z;
+        box.high_x = at.x > box.high_x ? at.x : box.high_x;
+        box.high_z = at.z > box.high_z ? at.z : box.high_z;
+    }
+    return box;
+}
+
+static bool is_in_box(const plan_box *box, const tl_nav_corner_vertex *vertex)
+{
+    return vertex->x >= box->low_x && vertex->x <= box->high_x && vertex->z >= box->low_z && vertex->z <= box->high_z;
+}
+
+static tl_result add_polygon_sectors(sector_finder *f, uint32_t slot, uint32_t polygon, bool is_other)
+{
+    const tl_nav_visibility_graph *graph = f->s->changes->graph;
+    const tl_nav_graph_tile *tile = &graph->tiles[slot];
+    const plan_box box = is_other ? box_of_tile(tile) : box_of_polygon(f->s->changes->navmesh, slot, polygon);
+    for (uint32_t i = tile->cones.first[polygon]; i < tile->cones.first[polygon + 1]; i++) {
+        const uint32_t v = tl_nav_cone_vertex(&tile->cones, i);
+        if (graph->marks[v] == TL_NAV_MARK_LOOKS && is_in_box(&box, &graph->vertices[v])) {
+            graph->marks[v] = TL_NAV_MARK_WHOLE;
+        }
+        if (graph->marks[v] == TL_NAV_MARK_LOOKS) {
+            const tl_nav_change_sector sector = { tl_nav_sector_of_cone(&tile->cones, i), slot,
+                                                  is_other ? TL_NO_POLYGON : polygon };
+            TL_TRY(add_sector(f, v, sector));
+        }
+    }
+    return TL_OK;
+}
+
+// The directions of corner vertices that are gone. Where they were the polygons may be as before.
+static tl_result add_gone_sectors(sector_finder *f)
+{
+    const tl_nav_graph_changes *c = f->s->changes;
+    for (uint64_t i = 0; i < c->gone_sights.count; i++) {
+        const uint32_t v = (uint32_t)(c->gone_sights.items[i].key >> 32), gone = (uint32_t)c->gone_sights.items[i].key;
+        const double x = (double)c->gone_spots[gone].x - (double)c->graph->vertices[v].x;
+        const double z = (double)c->gone_spots[gone].z - (double)c->graph->vertices[v].z;
+        if (c->graph->marks[v] == TL_NAV_MARK_LOOKS && fabs(x) + fabs(z) > c->graph->rounding) {
+            const double margin = 8.0 * c->graph->rounding / (fabs(x) + fabs(z));
+            const tl_nav_change_sector sector = { tl_nav_sector_between(x, z, x, z, margin), TL_NAV_NO_SLOT, gone };
+            TL_TRY(add_sector(f, v, sector));
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result find_sectors(sector_finder *f)
+{
+    const tl_nav_graph_changes *c = f->s->changes;
+    for (uint64_t i = 0; i < c->slots.count; i++) {
+        const uint32_t slot = c->slots.numbers[i];
+        const bool is_other = (c->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0;
+        for (uint32_t p = 0; is_other && p < c->graph->tiles[slot].cones.polygon_count; p++) {
+            TL_TRY(add_polygon_sectors(f, slot, p, true));
+        }
+    }
+    for (uint64_t i = 0; i < c->polygons.count; i++) {
+        const uint64_t key = c->polygons.items[i].key;
+        TL_TRY(add_polygon_sectors(f, (uint32_t)(key >> 32), (uint32_t)key, false));
+    }
+    return add_gone_sectors(f);
+}
+
+// Adds a sector to those from `begin` to `end` of one corner vertex: with those of the same region that it overlaps it
+// becomes one. Returns their new end.
+static uint64_t join_sector(tl_nav_change_sector *sectors, uint64_t begin, uint64_t end, tl_nav_change_sector sector)
+{
+    for (uint64_t i = end; i > begin; i--) {
+        const tl_nav_change_sector *other = &sectors[i - 1];
+        if (other->slot == sector.slot && other->polygon == sector.polygon &&
+            tl_nav_sectors_overlap(&other->sector, &sector.sector)) {
+            sector.sector = tl_nav_unite_sectors(&other->sector, &sector.sector);
+            sectors[i - 1] = sectors[--end];
+            i = end + 1;
+        }
+    }
+    sectors[end] = sector;
+    return end + 1;
+}
+
+// By looker, joined.
+static tl_result sort_sectors(sector_finder *f)
+{
+    tl_nav_change_sectors *s = f->s;
+    const tl_allocator *allocator = s->changes->allocator;
+    TL_TRY(tl_nav_sort_pairs(allocator, &f->found, NULL));
+    tl_nav_change_sector *sorted = (tl_nav_change_sector *)tl_allocate_array(allocator, s->capacity, sizeof *sorted);
+    if (sorted == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint64_t count = 0, i = 0;
+    for (uint64_t k = 0; k < looker_count(s); k++) {
+        const uint32_t v = s->changes->lookers.numbers[k];
+        const uint64_t begin = count;
+        s->first[k] = count;
+        for (; i < f->found.count && f->found.items[i].key >> 32 == k; i++) {
+            count = join_sector(sorted, begin, count, s->sectors[(uint32_t)f->found.items[i].key]);
+        }
+        double width = 0.0;
+        for (uint64_t n = begin; n < count; n++) {
+            width += sorted[n].sector.width;
+        }
+        if (width > MOST_DIRECTIONS || count == begin) {
+            s->changes->graph->marks[v] = TL_NAV_MARK_WHOLE;
+        }
+    }
+    s->first[looker_count(s)] = count;
+    tl_release_array(allocator, s->sectors, s->capacity, sizeof *sorted);
+    s->sectors = sorted;
+    s->count = count;
+    return TL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Where the cones are that may go.
+
+// The directions in which a box lies.
+static tl_nav_sector sector_of_box(const plan_box *box, const tl_nav_corner_vertex *vertex)
+{
+    tl_nav_sector sector = { 0.0, TL_NAV_FULL_TURN };
+    if (is_in_box(box, vertex)) {
+        return sector;
+    }
+    for (int i = 0; i < 4; i++) {
+        const double x = (double)(i % 2 == 0 ? box->low_x : box->high_x) - (double)vertex->x;
+        const double z = (double)(i < 2 ? box->low_z : box->high_z) - (double)vertex->z;
+        const double angle = tl_nav_diamond_angle(x, z);
+        if (i == 0) {
+            sector.from = angle < TL_NAV_FULL_TURN ? angle : 0.0;
+            sector.width = 0.0;
+            continue;
+        }
+        // All lie within half a turn: a corner extends the sector on the side where it is nearer.
+        const double on = tl_nav_wrap_turn(angle - sector.from);
+        if (on <= sector.width) {
+            continue;
+        }
+        if (on - sector.width <= TL_NAV_FULL_TURN - on) {
+            sector.width = on;
+        } else {
+            sector.width += TL_NAV_FULL_TURN - on;
+            sector.from = tl_nav_wrap_turn(sector.from - (TL_NAV_FULL_TURN - on));
+        }
+    }
+    return sector;
+}
+
+static bool sees_change_at(const tl_nav_change_sectors *s, uint64_t order, const tl_nav_sector *sector)
+{
+    for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
+        if (tl_nav_sectors_overlap(&s->sectors[i].sector, sector)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Cones beyond a change.
+
+// Where a ray enters a convex polygon and leaves it, in lengths of its direction.
+typedef struct ray_chord {
+    double enters, leaves; // enters > leaves: it misses
+} ray_chord;
+
+typedef struct sight_ray {
+    double from_x, from_z, x, z;
+} sight_ray;
+
+static void cut_chord(const sight_ray *ray, double a_x, double a_z, double b_x, double b_z, ray_chord *chord)
+{
+    a_x -= ray->from_x;
+    a_z -= ray->from_z;
+    b_x -= ray->from_x;
+    b_z -= ray->from_z;
+    const double a = ray->x * a_z - ray->z * a_x, b = ray->x * b_z - ray->z * b_x;
+    if ((a > 0.0) == (b > 0.0)) {
+        return;
+    }
+    const double t = a / (a - b);
+    const double along = ray->x * (a_x + t * (b_x - a_x)) + ray->z * (a_z + t * (b_z - a_z));
+    const double length = along / (ray->x * ray->x + ray->z * ray->z);
+    chord->enters = length < chord->enters ? length : chord->enters;
+    chord->leaves = length > chord->leaves ? length : chord->leaves;
+}
+
+static ray_chord chord_of_polygon(const tl_navmesh *navmesh, const sight_ray *ray, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_ring ring = tl_nav_ring_at(navmesh, slot, polygon);
+    ray_chord chord = { (double)INFINITY, -(double)INFINITY };
+    for (uint32_t i = 0; i < ring.count; i++) {
+        const tl_vec3 *a = &ring.points[i], *b = &ring.points[i + 1 < ring.count ? i + 1 : 0];
+        cut_chord(ray, (double)a->x, (double)a->z, (double)b->x, (double)b->z, &chord);
+    }
+    return chord;
+}
+
+static ray_chord chord_of_box(const plan_box *box, const sight_ray *ray)
+{
+    ray_chord chord = { (double)INFINITY, -(double)INFINITY };
+    const double low_x = (double)box->low_x, high_x = (double)box->high_x;
+    const double low_z = (double)box->low_z, high_z = (double)box->high_z;
+    cut_chord(ray, low_x, low_z, high_x, low_z, &chord);
+    cut_chord(ray, high_x, low_z, high_x, high_z, &chord);
+    cut_chord(ray, high_x, high_z, low_x, high_z, &chord);
+    cut_chord(ray, low_x, high_z, low_x, low_z, &chord);
+    return chord;
+}
+
+static ray_chord chord_of_region(const tl_nav_graph_changes *c, const sight_ray *ray,
+                                 const tl_nav_change_sector *sector)
+{
+    ray_chord chord = { (double)INFINITY, -(double)INFINITY };
+    if (sector->slot == TL_NAV_NO_SLOT) {
+        const double x = (double)c->gone_spots[sector->polygon].x - ray->from_x;
+        const double z = (double)c->gone_spots[sector->polygon].z - ray->from_z;
+        chord.enters = chord.leaves = (x * ray->x + z * ray->z) / (ray->x * ray->x + ray->z * ray->z);
+        return chord;
+    }
+    if (sector->polygon != TL_NO_POLYGON) {
+        return chord_of_polygon(c->navmesh, ray, sector->slot, sector->polygon);
+    }
+    const plan_box box = box_of_tile(&c->graph->tiles[sector->slot]);
+    return chord_of_box(&box, ray);
+}
+
+// Whether a polygon surely lies before a region, as a corner vertex sees them in a common direction.
+static bool lies_before(const tl_nav_graph_changes *c, uint32_t v, double angle, uint32_t slot, uint32_t polygon,
+                        const tl_nav_change_sector *sector)
+{
+    const tl_nav_corner_vertex *vertex = &c->graph->vertices[v];
+    sight_ray ray = { (double)vertex->x, (double)vertex->z, 0.0, 0.0 };
+    tl_nav_diamond_direction(angle, &ray.x, &ray.z);
+    const ray_chord own = chord_of_polygon(c->navmesh, &ray, slot, polygon);
+    const ray_chord region = chord_of_region(c, &ray, sector);
+    return own.enters <= own.leaves && region.enters <= region.leaves &&
+           own.leaves <= region.enters + 8.0 * c->graph->rounding;
+}
+
+// Where all polygons of a slot lie to a change that a corner vertex sees: as its box does, if that tells.
+typedef enum slot_place { SLOT_APART, SLOT_BEYOND, SLOT_UNCLEAR } slot_place;
+
+static bool is_beyond(const tl_nav_change_sectors *s, uint32_t v, uint32_t slot, uint32_t polygon, uint32_t cone,
+                      slot_place place)
+{
+    const tl_nav_graph_changes *c = s->changes;
+    const tl_nav_sector sector = tl_nav_sector_of_cone(&c->graph->tiles[slot].cones, cone);
+    const uint32_t order = c->graph->orders[v];
+    for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
+        const tl_nav_change_sector *change = &s->sectors[i];
+        if (tl_nav_sectors_overlap(&change->sector, &sector) &&
+            (place == SLOT_BEYOND ||
+             !lies_before(c, v, tl_nav_middle_of_both(&change->sector, &sector), slot, polygon, change))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static slot_place place_of_slot(const tl_nav_change_sectors *s, uint32_t order, uint32_t slot)
+{
+    const tl_nav_graph_changes *c = s->changes;
+    const tl_nav_corner_vertex *vertex = &c->graph->vertices[c->lookers.numbers[order]];
+    const plan_box box = box_of_tile(&c->graph->tiles[slot]);
+    const tl_nav_sector sector = sector_of_box(&box, vertex);
+    bool any_before = false, any_beyond = false;
+    for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
+        const tl_nav_change_sector *change = &s->sectors[i];
+        if (!tl_nav_sectors_overlap(&change->sector, &sector)) {
+            continue;
+        }
+        sight_ray ray = { (double)vertex->x, (double)vertex->z, 0.0, 0.0 };
+        const double angle = tl_nav_middle_of_both(&change->sector, &sector);
+        tl_nav_diamond_direction(angle, &ray.x, &ray.z);
+        const ray_chord own = chord_of_box(&box, &ray), region = chord_of_region(c, &ray, change);
+        if (own.enters > own.leaves || region.enters > region.leaves || change->slot == slot) {
+            return SLOT_UNCLEAR;
+        }
+        const bool before = own.leaves <= region.enters + 8.0 * c->graph->rounding;
+        if (!before && own.enters < region.leaves - 8.0 * c->graph->rounding) {
+            return SLOT_UNCLEAR;
+        }
+        any_before = any_before || before;
+        any_beyond = any_beyond || !before;
+    }
+    return !any_beyond ? SLOT_APART : any_before ? SLOT_UNCLEAR : SLOT_BEYOND;
+}
+
+static tl_result note_slots(const tl_nav_change_sectors *s)
+{
+    tl_nav_graph_changes *c = s->changes;
+    for (uint64_t k = 0; k < looker_count(s); k++) {
+        const uint32_t v = c->lookers.numbers[k];
+        const tl_nav_corner_vertex *vertex = &c->graph->vertices[v];
+        const uint32_t *reach = tl_nav_reach_of(vertex);
+        for (uint32_t i = 0; i < vertex->reach_count; i++) {
+            if (c->graph->marks[v] == TL_NAV_MARK_WHOLE || place_of_slot(s, (uint32_t)k, reach[i]) != SLOT_APART) {
+                TL_TRY(tl_nav_note_slot(c, reach[i], TL_NAV_SLOT_CONES));
+            }
+        }
+    }
+    return TL_OK;
+}
+
+// A looker's cones in the slot that is gone through.
+typedef struct slot_pass {
+    uint32_t slot;
+    slot_place place;
+    bool keeps; // some of them
+} slot_pass;
+
+// Goes through the cones of a slot whose tile stays. `passes`, by looker.
+static tl_result find_beyond(tl_nav_change_sectors *s, uint32_t slot, slot_pass *passes)
+{
+    const tl_nav_graph_changes *c = s->changes;
+    const tl_nav_corner_cones *cones = &c->graph->tiles[slot].cones;
+    const uint64_t first_beyond = s->beyond.count;
+    for (uint32_t p = 0; p < cones->polygon_count; p++) {
+        for (uint32_t i = cones->first[p], end; i < cones->first[p + 1]; i = end) {
+            const uint32_t v = tl_nav_cone_vertex(cones, i), order = c->graph->orders[v];
+            end = i + 1;
+            if (c->graph->marks[v] != TL_NAV_MARK_LOOKS) {
+                continue;
+            }
+            slot_pass *pass = &passes[order];
+            if (pass->slot != slot) {
+                const slot_pass here = { slot, place_of_slot(s, order, slot), false };
+                *pass = here;
+            }
+            bool any = pass->place != SLOT_APART && is_beyond(s, v, slot, p, i, pass->place);
+            for (; end < cones->first[p + 1] && tl_nav_cone_vertex(cones, end) == v; end++) {
+                any = any || (pass->place != SLOT_APART && is_beyond(s, v, slot, p, end, pass->place));
+            }
+            pass->keeps = pass->keeps || !any;
+            for (uint32_t k = i; any && k < end; k++) {
+                const tl_sort_item item = { (uint64_t)order << 32 | slot, k, p };
+                TL_TRY(tl_nav_add_item(c->allocator, &s->beyond, item));
+                TL_TRY(tl_nav_add_pair(c->allocator, &s->dropped, slot, k));
+            }
+        }
+    }
+    for (uint64_t i = first_beyond; i < s->beyond.count; i++) {
+        const uint32_t order = (uint32_t)(s->beyond.items[i].key >> 32);
+        if (!passes[order].keeps) {
+            TL_TRY(tl_nav_add_pair(c->allocator, &s->lost, c->lookers.numbers[order], slot));
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result find_all_beyond(tl_nav_change_sectors *s)
+{
+    const tl_nav_graph_changes *c = s->changes;
+    slot_pass *passes = (slot_pass *)tl_allocate_array(c->allocator, looker_count(s), sizeof *passes);
+    if (passes == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint64_t i = 0; i < looker_count(s); i++) {
+        const slot_pass none = { TL_NAV_NO_SLOT, SLOT_APART, false };
+        passes[i] = none;
+    }
+    tl_result result = TL_OK;
+    for (uint64_t i = 0; i < c->slots.count && result == TL_OK; i++) {
+        const uint32_t slot = c->slots.numbers[i];
+        if ((c->slot_bits[slot] & (TL_NAV_SLOT_CONES | TL_NAV_SLOT_OTHER)) == TL_NAV_SLOT_CONES) {
+            result = find_beyond(s, slot, passes);
+        }
+    }
+    tl_release_array(c->allocator, passes, looker_count(s), sizeof *passes);
+    return result;
+}
+
+// In tiles that went all cones are lost.
+static tl_result note_lost_tiles(tl_nav_change_sectors *s)
+{
+    const tl_nav_graph_changes *c = s->changes;
+    for (uint64_t i = 0; i < s->count; i++) {
+        if (s->sectors[i].slot == TL_NAV_NO_SLOT || s->sectors[i].polygon != TL_NO_POLYGON) {
+            continue;
+        }
+        uint64_t begin = 0, end = looker_count(s);
+        while (end - begin > 1) {
+            const uint64_t middle = begin + (end - begin) / 2;
+            *(s->first[middle] <= i ? &begin : &end) = middle;
+        }
+        TL_TRY(tl_nav_add_pair(c->allocator, &s->lost, c->lookers.numbers[begin], s->sectors[i].slot));
+    }
+    return TL_OK;
+}
+
+tl_result tl_nav_find_change_sectors(tl_nav_graph_changes *changes, tl_nav_change_sectors *sectors_out)
+{
+    memset(sectors_out, 0, sizeof *sectors_out);
+    sectors_out->changes = changes;
+    sectors_out->first =
+        (uint64_t *)tl_allocate_array(changes->allocator, changes->first_fresh + 1, sizeof *sectors_out->first);
+    if (sectors_out->first == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    sector_finder finder = { sectors_out, { NULL, 0, 0 } };
+    tl_result result = find_sectors(&finder);
+    result = result == TL_OK ? sort_sectors(&finder) : result;
+    tl_nav_free_pairs(changes->allocator, &finder.found);
+    TL_TRY(result);
+    TL_TRY(note_slots(sectors_out));
+    TL_TRY(find_all_beyond(sectors_out));
+    TL_TRY(note_lost_tiles(sectors_out));
+    TL_TRY(tl_nav_sort_pairs(changes->allocator, &sectors_out->beyond, NULL));
+    return tl_nav_unite_pairs(changes->allocator, &sectors_out->lost, NULL);
+}
+
+void tl_nav_free_change_sectors(tl_nav_change_sectors *s)
+{
+    const tl_allocator *allocator = s->changes->allocator;
+    tl_release_array(allocator, s->first, looker_count(s) + 1, sizeof *s->first);
+    tl_release_array(allocator, s->sectors, s->capacity, sizeof *s->sectors);
+    tl_nav_free_pairs(allocator, &s->beyond);
+    tl_nav_free_pairs(allocator, &s->dropped);
+    tl_nav_free_pairs(allocator, &s->lost);
+}
+
+// Whether a corner vertex that looks may see a change in the direction of another.
+static bool sees_change_towards(const tl_nav_change_sectors *s, uint32_t from, uint32_t to)
+{
+    const tl_nav_visibility_graph *graph = s->changes->graph;
+    if (graph->marks[from] != TL_NAV_MARK_LOOKS) {
+        return true;
+    }
+    const double x = (double)graph->vertices[to].x - (double)graph->vertices[from].x;
+    const double z = (double)graph->vertices[to].z - (double)graph->vertices[from].z;
+    const double margin = 8.0 * graph->rounding / (fabs(x) + fabs(z));
+    const tl_nav_sector sector = tl_nav_sector_between(x, z, x, z, margin);
+    return sees_change_at(s, graph->orders[from], &sector);
+}
+
+bool tl_nav_is_edge_kept(const tl_nav_change_sectors *s, uint32_t from, uint32_t to)
+{
+    return !sees_change_towards(s, from, to) || !sees_change_towards(s, to, from);
+}
