@@ -64,7 +64,7 @@ static tl_vec3d corner_in_world(const collection *c, tl_vec3d corner)
 }
 
 // In the world the box is that of the floats.
-static void set_corners(const collection *c, const tl_soup_triangle *triangle, tl_mover_item *item)
+static void set_item_corners(const collection *c, const tl_soup_triangle *triangle, tl_mover_item *item)
 {
     const tl_vec3 *corners = triangle->corners;
     if (c->at == NULL) {
@@ -90,7 +90,7 @@ static bool collect_triangle(const tl_soup_triangle *triangle, void *user)
     if (item == NULL) {
         return false;
     }
-    set_corners(c, triangle, item);
+    set_item_corners(c, triangle, item);
     item->instance = c->instance;
     item->triangle = triangle->triangle;
     item->material = triangle->material;

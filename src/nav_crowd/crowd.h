@@ -236,9 +236,9 @@ typedef struct crowd_tree {
 
 /// The blocks of agents that one worker takes first, in a cache line of its own.
 typedef struct crowd_block_run {
-    atomic_uint next;
-    uint32_t end;
-    char behind[CROWD_CACHE_LINE - 2 * sizeof(uint32_t)];
+    atomic_uint_least64_t next;
+    uint64_t end;
+    char behind[CROWD_CACHE_LINE - 2 * sizeof(uint64_t)];
 } crowd_block_run;
 
 struct tl_nav_crowd {

@@ -58,8 +58,8 @@ static void list_block_agents(const crowd_step *step, uint32_t block, block_agen
 static void deal_blocks(tl_nav_crowd *crowd, uint32_t count)
 {
     for (uint32_t w = 0; w < crowd->worker_count; w++) {
-        atomic_init(&crowd->runs[w].next, (uint32_t)((uint64_t)count * w / crowd->worker_count));
-        crowd->runs[w].end = (uint32_t)((uint64_t)count * (w + 1) / crowd->worker_count);
+        atomic_init(&crowd->runs[w].next, (uint64_t)count * w / crowd->worker_count);
+        crowd->runs[w].end = (uint64_t)count * (w + 1) / crowd->worker_count;
     }
 }
 
@@ -68,9 +68,9 @@ static uint32_t take_block(tl_nav_crowd *crowd, uint32_t worker)
 {
     for (uint32_t n = 0; n < crowd->worker_count; n++) {
         crowd_block_run *run = &crowd->runs[(worker + n) % crowd->worker_count];
-        const uint32_t block = atomic_fetch_add_explicit(&run->next, 1, memory_order_relaxed);
+        const uint64_t block = atomic_fetch_add_explicit(&run->next, 1, memory_order_relaxed);
         if (block < run->end) {
-            return block;
+            return (uint32_t)block;
         }
     }
     TL_ASSERT(false);

@@ -8,7 +8,8 @@
 #include "soup/ray/ray_job.h"
 #include "soup_models.h"
 
-// Packets with a stack and doubts that overflow soon, that count the rays they give up, and none of whose rays are left.
+// Packets with a stack and doubts that overflow soon, that count the rays they give up, and none of whose rays are
+// left.
 #define TL_SIMD_LEVEL        0
 #define TL_PACKET_STACK_SIZE 32
 #define TL_PACKET_DOUBTS     8
