@@ -28,6 +28,10 @@
 /// of floats, where what must stay within it goes through some ten. It costs time at most, never an answer.
 #define TL_CULLING_MARGIN 1e-5
 
+/// Share of a length by which a bound that only guides a search is kept short of it, so that roundings of sums along
+/// many kilometres do not break it: along ten metres that is a millimetre. It costs time at most, never an answer.
+#define TL_BOUND_SLACK 1e-4
+
 /// Error of each component of a cross product of two differences of floats in double, as a share of the sum of its two
 /// absolute products: two differences, a product, a sum.
 #define TL_CROSS_ERROR TL_DOUBLE_GAMMA(4)

@@ -18,6 +18,9 @@
 
 #include <string.h>
 
+// Roundings of the graph by which what lies at one place, or side by side, may be taken for apart or for overlapping.
+#define PLACE_MARGIN 8.0
+
 // Of all directions, in which one does not look all around.
 #define MOST_DIRECTIONS (TL_NAV_FULL_TURN / 3.0)
 
@@ -38,6 +41,12 @@ tl_nav_sector tl_nav_sector_of_cone(const tl_nav_corner_cones *cones, uint32_t c
     return tl_nav_sector_between(right_x, right_z, left_x, left_z, margin);
 }
 
+// The directions in which a place may lie that is seen in this one.
+static tl_nav_sector sector_towards(const tl_nav_visibility_graph *graph, double x, double z)
+{
+    return tl_nav_sector_between(x, z, x, z, PLACE_MARGIN * graph->rounding / (fabs(x) + fabs(z)));
+}
+
 // ---------------------------------------------------------------------------------------------------------
 // The sectors.
 
@@ -51,8 +60,7 @@ static tl_result add_sector(sector_finder *f, uint32_t vertex, tl_nav_change_sec
 {
     tl_nav_change_sectors *s = f->s;
     if (s->count == s->capacity) {
-        tl_nav_change_sector *grown =
-            (tl_nav_change_sector *)tl_grow_array(s->changes->allocator, s->sectors, &s->capacity, sizeof *grown);
+        tl_nav_change_sector *grown = tl_grow_array(s->changes->allocator, s->sectors, &s->capacity, sizeof *grown);
         if (grown == NULL) {
             return TL_ERR_MEMORY;
         }
@@ -62,31 +70,7 @@ static tl_result add_sector(sector_finder *f, uint32_t vertex, tl_nav_change_sec
     return tl_nav_add_pair(s->changes->allocator, &f->found, s->changes->graph->orders[vertex], (uint32_t)s->count++);
 }
 
-typedef struct plan_box {
-    float low_x, low_z, high_x, high_z;
-} plan_box;
-
-static plan_box box_of_tile(const tl_nav_graph_tile *tile)
-{
-    const plan_box box = { tile->low_x, tile->low_z, tile->high_x, tile->high_z };
-    return box;
-}
-
-static plan_box box_of_polygon(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
-{
-    const tl_nav_ring ring = tl_nav_ring_at(navmesh, slot, polygon);
-    plan_box box = { INFINITY, INFINITY, -INFINITY, -INFINITY };
-    for (uint32_t i = 0; i < ring.count; i++) {
-        const tl_vec3 at = ring.points[i];
-        box.low_x = at.x < box.low_x ? at.x : box.low_x;
-        box.low_z = at.z < box.low_z ? at.z : box.low_z;
-        box.high_x = at.x > box.high_x ? at.x : box.high_x;
-        box.high_z = at.z > box.high_z ? at.z : box.high_z;
-    }
-    return box;
-}
-
-static bool is_in_box(const plan_box *box, const tl_nav_corner_vertex *vertex)
+static bool is_in_box(const tl_nav_plan_box *box, const tl_nav_corner_vertex *vertex)
 {
     return vertex->x >= box->low_x && vertex->x <= box->high_x && vertex->z >= box->low_z && vertex->z <= box->high_z;
 }
@@ -95,7 +79,8 @@ static tl_result add_polygon_sectors(sector_finder *f, uint32_t slot, uint32_t p
 {
     const tl_nav_visibility_graph *graph = f->s->changes->graph;
     const tl_nav_graph_tile *tile = &graph->tiles[slot];
-    const plan_box box = is_other ? box_of_tile(tile) : box_of_polygon(f->s->changes->navmesh, slot, polygon);
+    const tl_nav_plan_box box =
+        is_other ? tile->box : tl_nav_box_of_polygons(&f->s->changes->navmesh->slots[slot].rings, polygon, 1);
     for (uint32_t i = tile->cones.first[polygon]; i < tile->cones.first[polygon + 1]; i++) {
         const uint32_t v = tl_nav_cone_vertex(&tile->cones, i);
         if (graph->marks[v] == TL_NAV_MARK_LOOKS && is_in_box(&box, &graph->vertices[v])) {
@@ -119,8 +104,7 @@ static tl_result add_gone_sectors(sector_finder *f)
         const double x = (double)c->gone_spots[gone].x - (double)c->graph->vertices[v].x;
         const double z = (double)c->gone_spots[gone].z - (double)c->graph->vertices[v].z;
         if (c->graph->marks[v] == TL_NAV_MARK_LOOKS && fabs(x) + fabs(z) > c->graph->rounding) {
-            const double margin = 8.0 * c->graph->rounding / (fabs(x) + fabs(z));
-            const tl_nav_change_sector sector = { tl_nav_sector_between(x, z, x, z, margin), TL_NAV_NO_SLOT, gone };
+            const tl_nav_change_sector sector = { sector_towards(c->graph, x, z), TL_NAV_NO_SLOT, gone };
             TL_TRY(add_sector(f, v, sector));
         }
     }
@@ -167,7 +151,7 @@ static tl_result sort_sectors(sector_finder *f)
     tl_nav_change_sectors *s = f->s;
     const tl_allocator *allocator = s->changes->allocator;
     TL_TRY(tl_nav_sort_pairs(allocator, &f->found, NULL));
-    tl_nav_change_sector *sorted = (tl_nav_change_sector *)tl_allocate_array(allocator, s->capacity, sizeof *sorted);
+    tl_nav_change_sector *sorted = tl_allocate_array(allocator, s->capacity, sizeof *sorted);
     if (sorted == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -198,7 +182,7 @@ static tl_result sort_sectors(sector_finder *f)
 // Where the cones are that may go.
 
 // The directions in which a box lies.
-static tl_nav_sector sector_of_box(const plan_box *box, const tl_nav_corner_vertex *vertex)
+static tl_nav_sector sector_of_box(const tl_nav_plan_box *box, const tl_nav_corner_vertex *vertex)
 {
     tl_nav_sector sector = { 0.0, TL_NAV_FULL_TURN };
     if (is_in_box(box, vertex)) {
@@ -250,6 +234,13 @@ typedef struct sight_ray {
     double from_x, from_z, x, z;
 } sight_ray;
 
+static sight_ray ray_at(const tl_nav_corner_vertex *vertex, double angle)
+{
+    sight_ray ray = { (double)vertex->x, (double)vertex->z, 0.0, 0.0 };
+    tl_nav_diamond_direction(angle, &ray.x, &ray.z);
+    return ray;
+}
+
 static void cut_chord(const sight_ray *ray, double a_x, double a_z, double b_x, double b_z, ray_chord *chord)
 {
     a_x -= ray->from_x;
@@ -278,7 +269,7 @@ static ray_chord chord_of_polygon(const tl_navmesh *navmesh, const sight_ray *ra
     return chord;
 }
 
-static ray_chord chord_of_box(const plan_box *box, const sight_ray *ray)
+static ray_chord chord_of_box(const tl_nav_plan_box *box, const sight_ray *ray)
 {
     ray_chord chord = { (double)INFINITY, -(double)INFINITY };
     const double low_x = (double)box->low_x, high_x = (double)box->high_x;
@@ -303,21 +294,18 @@ static ray_chord chord_of_region(const tl_nav_graph_changes *c, const sight_ray 
     if (sector->polygon != TL_NO_POLYGON) {
         return chord_of_polygon(c->navmesh, ray, sector->slot, sector->polygon);
     }
-    const plan_box box = box_of_tile(&c->graph->tiles[sector->slot]);
-    return chord_of_box(&box, ray);
+    return chord_of_box(&c->graph->tiles[sector->slot].box, ray);
 }
 
 // Whether a polygon surely lies before a region, as a corner vertex sees them in a common direction.
 static bool lies_before(const tl_nav_graph_changes *c, uint32_t v, double angle, uint32_t slot, uint32_t polygon,
                         const tl_nav_change_sector *sector)
 {
-    const tl_nav_corner_vertex *vertex = &c->graph->vertices[v];
-    sight_ray ray = { (double)vertex->x, (double)vertex->z, 0.0, 0.0 };
-    tl_nav_diamond_direction(angle, &ray.x, &ray.z);
+    const sight_ray ray = ray_at(&c->graph->vertices[v], angle);
     const ray_chord own = chord_of_polygon(c->navmesh, &ray, slot, polygon);
     const ray_chord region = chord_of_region(c, &ray, sector);
     return own.enters <= own.leaves && region.enters <= region.leaves &&
-           own.leaves <= region.enters + 8.0 * c->graph->rounding;
+           own.leaves <= region.enters + PLACE_MARGIN * c->graph->rounding;
 }
 
 // Where all polygons of a slot lie to a change that a corner vertex sees: as its box does, if that tells.
@@ -344,23 +332,21 @@ static slot_place place_of_slot(const tl_nav_change_sectors *s, uint32_t order, 
 {
     const tl_nav_graph_changes *c = s->changes;
     const tl_nav_corner_vertex *vertex = &c->graph->vertices[c->lookers.numbers[order]];
-    const plan_box box = box_of_tile(&c->graph->tiles[slot]);
-    const tl_nav_sector sector = sector_of_box(&box, vertex);
+    const tl_nav_plan_box *box = &c->graph->tiles[slot].box;
+    const tl_nav_sector sector = sector_of_box(box, vertex);
     bool any_before = false, any_beyond = false;
     for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
         const tl_nav_change_sector *change = &s->sectors[i];
         if (!tl_nav_sectors_overlap(&change->sector, &sector)) {
             continue;
         }
-        sight_ray ray = { (double)vertex->x, (double)vertex->z, 0.0, 0.0 };
-        const double angle = tl_nav_middle_of_both(&change->sector, &sector);
-        tl_nav_diamond_direction(angle, &ray.x, &ray.z);
-        const ray_chord own = chord_of_box(&box, &ray), region = chord_of_region(c, &ray, change);
+        const sight_ray ray = ray_at(vertex, tl_nav_middle_of_both(&change->sector, &sector));
+        const ray_chord own = chord_of_box(box, &ray), region = chord_of_region(c, &ray, change);
         if (own.enters > own.leaves || region.enters > region.leaves || change->slot == slot) {
             return SLOT_UNCLEAR;
         }
-        const bool before = own.leaves <= region.enters + 8.0 * c->graph->rounding;
-        if (!before && own.enters < region.leaves - 8.0 * c->graph->rounding) {
+        const bool before = own.leaves <= region.enters + PLACE_MARGIN * c->graph->rounding;
+        if (!before && own.enters < region.leaves - PLACE_MARGIN * c->graph->rounding) {
             return SLOT_UNCLEAR;
         }
         any_before = any_before || before;
@@ -434,7 +420,7 @@ static tl_result find_beyond(tl_nav_change_sectors *s, uint32_t slot, slot_pass 
 static tl_result find_all_beyond(tl_nav_change_sectors *s)
 {
     const tl_nav_graph_changes *c = s->changes;
-    slot_pass *passes = (slot_pass *)tl_allocate_array(c->allocator, looker_count(s), sizeof *passes);
+    slot_pass *passes = tl_allocate_array(c->allocator, looker_count(s), sizeof *passes);
     if (passes == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -457,16 +443,13 @@ static tl_result find_all_beyond(tl_nav_change_sectors *s)
 static tl_result note_lost_tiles(tl_nav_change_sectors *s)
 {
     const tl_nav_graph_changes *c = s->changes;
-    for (uint64_t i = 0; i < s->count; i++) {
-        if (s->sectors[i].slot == TL_NAV_NO_SLOT || s->sectors[i].polygon != TL_NO_POLYGON) {
-            continue;
+    for (uint64_t k = 0; k < looker_count(s); k++) {
+        for (uint64_t i = s->first[k]; i < s->first[k + 1]; i++) {
+            const tl_nav_change_sector *sector = &s->sectors[i];
+            if (sector->slot != TL_NAV_NO_SLOT && sector->polygon == TL_NO_POLYGON) {
+                TL_TRY(tl_nav_add_pair(c->allocator, &s->lost, c->lookers.numbers[k], sector->slot));
+            }
         }
-        uint64_t begin = 0, end = looker_count(s);
-        while (end - begin > 1) {
-            const uint64_t middle = begin + (end - begin) / 2;
-            *(s->first[middle] <= i ? &begin : &end) = middle;
-        }
-        TL_TRY(tl_nav_add_pair(c->allocator, &s->lost, c->lookers.numbers[begin], s->sectors[i].slot));
     }
     return TL_OK;
 }
@@ -475,8 +458,7 @@ tl_result tl_nav_find_change_sectors(tl_nav_graph_changes *changes, tl_nav_chang
 {
     memset(sectors_out, 0, sizeof *sectors_out);
     sectors_out->changes = changes;
-    sectors_out->first =
-        (uint64_t *)tl_allocate_array(changes->allocator, changes->first_fresh + 1, sizeof *sectors_out->first);
+    sectors_out->first = tl_allocate_array(changes->allocator, changes->first_fresh + 1, sizeof *sectors_out->first);
     if (sectors_out->first == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -511,8 +493,7 @@ static bool sees_change_towards(const tl_nav_change_sectors *s, uint32_t from, u
     }
     const double x = (double)graph->vertices[to].x - (double)graph->vertices[from].x;
     const double z = (double)graph->vertices[to].z - (double)graph->vertices[from].z;
-    const double margin = 8.0 * graph->rounding / (fabs(x) + fabs(z));
-    const tl_nav_sector sector = tl_nav_sector_between(x, z, x, z, margin);
+    const tl_nav_sector sector = sector_towards(graph, x, z);
     return sees_change_at(s, graph->orders[from], &sector);
 }
 

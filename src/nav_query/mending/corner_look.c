@@ -36,7 +36,7 @@ tl_result tl_nav_begin_looks(tl_nav_change_sectors *sectors, tl_nav_corner_look 
     look_out->sectors = sectors;
     look_out->changes = changes;
     look_out->cones.allocator = changes->allocator;
-    look_out->last_looks = (uint32_t *)tl_allocate_array(changes->allocator, slots, sizeof *look_out->last_looks);
+    look_out->last_looks = tl_allocate_array(changes->allocator, slots, sizeof *look_out->last_looks);
     if (look_out->last_looks == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -60,16 +60,8 @@ void tl_nav_end_looks(tl_nav_corner_look *look)
 static bool has_edge(const tl_nav_corner_look *look, uint32_t from, uint32_t to)
 {
     const tl_nav_corner_vertex *vertex = &look->changes->graph->vertices[from];
-    uint32_t begin = 0, end = vertex->edge_count;
-    while (begin < end) {
-        const uint32_t middle = begin + (end - begin) / 2;
-        if (vertex->edges[middle].to < to) {
-            begin = middle + 1;
-        } else {
-            end = middle;
-        }
-    }
-    return begin < vertex->edge_count && vertex->edges[begin].to == to && tl_nav_edge_stays(look->sectors, from, to);
+    const uint32_t k = tl_nav_find_visibility_edge(vertex, to);
+    return k < vertex->edge_count && vertex->edges[k].to == to && tl_nav_edge_stays(look->sectors, from, to);
 }
 
 static void add_edge_seen(tl_nav_corner_look *look, uint32_t from, uint32_t to)

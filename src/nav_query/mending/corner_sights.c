@@ -29,7 +29,7 @@ static tl_result list_edge(sight_lists *l, tl_nav_visibility_edge edge)
 {
     if (l->edge_count == l->edge_capacity) {
         tl_nav_visibility_edge *grown =
-            (tl_nav_visibility_edge *)tl_grow_array(l->changes->allocator, l->edges, &l->edge_capacity, sizeof *grown);
+            tl_grow_array(l->changes->allocator, l->edges, &l->edge_capacity, sizeof *grown);
         if (grown == NULL) {
             return TL_ERR_MEMORY;
         }
@@ -117,7 +117,7 @@ static tl_result fill_sights(const sight_lists *l, uint32_t slot)
     if (l->edge_count > UINT32_MAX - graph->edge_count) {
         return TL_ERR_LIMIT;
     }
-    uint32_t *block = (uint32_t *)tl_allocate_array(l->changes->allocator, words, sizeof *block);
+    uint32_t *block = tl_allocate_array(l->changes->allocator, words, sizeof *block);
     if (block == NULL) {
         return TL_ERR_MEMORY;
     }

@@ -129,7 +129,7 @@ static tl_result let_look(tl_nav_graph_changes *c, uint32_t vertex)
 // Those that saw a corner vertex which is gone.
 static tl_result drop_gone(tl_nav_graph_changes *c)
 {
-    c->gone_spots = (tl_nav_gone_spot *)tl_allocate_array(c->allocator, c->gone.count, sizeof *c->gone_spots);
+    c->gone_spots = tl_allocate_array(c->allocator, c->gone.count, sizeof *c->gone_spots);
     if (c->gone_spots == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -196,7 +196,10 @@ static tl_result find_onlookers(tl_nav_graph_changes *c, uint32_t slot)
 // ---------------------------------------------------------------------------------------------------------
 // New corner vertices.
 
-// Where the names are that the graph does not know yet; each is known then, with no number.
+// Of a name that has been found.
+#define NO_NUMBER_YET (TL_NAV_NO_VERTEX - 1)
+
+// Where the names are that the graph does not know yet; each is known then.
 static tl_result find_new_names(tl_nav_graph_changes *c, uint32_t slot, tl_nav_number_list *places)
 {
     const tl_nav_rings *rings = &c->navmesh->slots[slot].rings;
@@ -207,7 +210,7 @@ static tl_result find_new_names(tl_nav_graph_changes *c, uint32_t slot, tl_nav_n
             if (turn == 0 || tl_nav_find_name(&c->graph->names, turn) != TL_NAV_NO_VERTEX) {
                 continue;
             }
-            TL_TRY(tl_nav_set_name(c->allocator, &c->graph->names, turn, TL_NAV_NO_VERTEX - 1));
+            TL_TRY(tl_nav_set_name(c->allocator, &c->graph->names, turn, NO_NUMBER_YET));
             TL_TRY(tl_nav_add_number(c->allocator, places, slot));
             TL_TRY(tl_nav_add_number(c->allocator, places, p));
             TL_TRY(tl_nav_add_number(c->allocator, places, i));
@@ -289,8 +292,7 @@ tl_result tl_nav_find_changes(const tl_navmesh *navmesh, tl_nav_visibility_graph
     changes_out->navmesh = navmesh;
     changes_out->allocator = &navmesh->allocator;
     changes_out->graph = graph;
-    changes_out->slot_bits =
-        (uint8_t *)tl_allocate_array(&navmesh->allocator, graph->slot_count, sizeof *changes_out->slot_bits);
+    changes_out->slot_bits = tl_allocate_array(&navmesh->allocator, graph->slot_count, sizeof *changes_out->slot_bits);
     if (changes_out->slot_bits == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -298,20 +300,19 @@ tl_result tl_nav_find_changes(const tl_navmesh *navmesh, tl_nav_visibility_graph
     return compare_graph(changes_out);
 }
 
-// The plan's box of a tile's polygons.
-static void find_box(const tl_nav_rings *rings, tl_nav_graph_tile *tile)
+tl_nav_plan_box tl_nav_box_of_polygons(const tl_nav_rings *rings, uint32_t first, uint32_t count)
 {
-    tile->low_x = tile->low_z = INFINITY;
-    tile->high_x = tile->high_z = -INFINITY;
-    for (uint32_t p = 0; p < rings->polygon_count; p++) {
+    tl_nav_plan_box box = { INFINITY, INFINITY, -INFINITY, -INFINITY };
+    for (uint32_t p = first; p < first + count; p++) {
         const tl_nav_ring ring = tl_nav_ring_of(rings, p);
         for (uint32_t i = 0; i < ring.count; i++) {
-            tile->low_x = tl_min_f32(tile->low_x, ring.points[i].x);
-            tile->low_z = tl_min_f32(tile->low_z, ring.points[i].z);
-            tile->high_x = tl_max_f32(tile->high_x, ring.points[i].x);
-            tile->high_z = tl_max_f32(tile->high_z, ring.points[i].z);
+            box.low_x = tl_min_f32(box.low_x, ring.points[i].x);
+            box.low_z = tl_min_f32(box.low_z, ring.points[i].z);
+            box.high_x = tl_max_f32(box.high_x, ring.points[i].x);
+            box.high_z = tl_max_f32(box.high_z, ring.points[i].z);
         }
     }
+    return box;
 }
 
 void tl_nav_settle_changes(const tl_nav_graph_changes *c)
@@ -326,7 +327,8 @@ void tl_nav_settle_changes(const tl_nav_graph_changes *c)
         const uint32_t slot = c->slots.numbers[i];
         c->graph->tiles[slot].salt = salt_of(c->navmesh, slot);
         if ((c->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0 && c->graph->tiles[slot].salt != 0) {
-            find_box(&c->navmesh->slots[slot].rings, &c->graph->tiles[slot]);
+            const tl_nav_rings *rings = &c->navmesh->slots[slot].rings;
+            c->graph->tiles[slot].box = tl_nav_box_of_polygons(rings, 0, rings->polygon_count);
         }
     }
 }

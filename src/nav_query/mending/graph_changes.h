@@ -51,6 +51,9 @@ tl_result tl_nav_find_changes(const tl_navmesh *navmesh, tl_nav_visibility_graph
 void tl_nav_settle_changes(const tl_nav_graph_changes *changes);
 void tl_nav_free_changes(tl_nav_graph_changes *changes);
 
+/// The box of so many polygons of a tile from `first` on.
+tl_nav_plan_box tl_nav_box_of_polygons(const tl_nav_rings *rings, uint32_t first, uint32_t count);
+
 /// Whether a polygon came, or may have changed.
 static inline bool tl_nav_is_polygon_new(const tl_nav_graph_changes *changes, uint32_t slot, uint32_t polygon)
 {

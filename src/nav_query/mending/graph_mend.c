@@ -44,7 +44,7 @@ static tl_result find_dropped(graph_mend *m, uint32_t slot, bool *any_out)
     const tl_nav_visibility_graph *graph = m->changes.graph;
     const tl_nav_corner_cones *cones = &graph->tiles[slot].cones;
     if (m->dropped_capacity < cones->count) {
-        bool *grown = (bool *)tl_allocate_array(m->changes.allocator, 2 * (uint64_t)cones->count, sizeof *grown);
+        bool *grown = tl_allocate_array(m->changes.allocator, 2 * (uint64_t)cones->count, sizeof *grown);
         if (grown == NULL) {
             return TL_ERR_MEMORY;
         }
@@ -91,8 +91,7 @@ static tl_result remake_cones(graph_mend *m)
 {
     tl_nav_graph_changes *c = &m->changes;
     tl_nav_cone_list *cones = &m->look.cones;
-    m->first_cones =
-        (uint32_t *)tl_allocate_array(c->allocator, (uint64_t)c->graph->slot_count + 1, sizeof *m->first_cones);
+    m->first_cones = tl_allocate_array(c->allocator, (uint64_t)c->graph->slot_count + 1, sizeof *m->first_cones);
     if (m->first_cones == NULL) {
         return TL_ERR_MEMORY;
     }

@@ -101,8 +101,7 @@ static uint32_t landmarks_to_lower(const tl_nav_visibility_graph *graph, uint32_
 static tl_result open_lowered(landmark_mend *m, uint32_t vertex, uint32_t landmark)
 {
     if (m->heap_count == m->heap_capacity) {
-        tl_nav_open_vertex *grown =
-            (tl_nav_open_vertex *)tl_grow_array(m->allocator, m->heap, &m->heap_capacity, sizeof *grown);
+        tl_nav_open_vertex *grown = tl_grow_array(m->allocator, m->heap, &m->heap_capacity, sizeof *grown);
         if (grown == NULL) {
             return TL_ERR_MEMORY;
         }
@@ -178,7 +177,7 @@ static tl_result mend_in_memory(const tl_nav_graph_changes *changes, tl_stage *s
 {
     const tl_nav_number_list *lookers = &changes->lookers;
     landmark_mend m = { changes->allocator, changes->graph, lookers, NULL, NULL, 0, 0 };
-    m.asked = (uint32_t *)tl_allocate_array(changes->allocator, lookers->count, sizeof *m.asked);
+    m.asked = tl_allocate_array(changes->allocator, lookers->count, sizeof *m.asked);
     const tl_result result = m.asked != NULL ? lower_all(changes, &m, stage) : TL_ERR_MEMORY;
     tl_release_array(changes->allocator, m.asked, lookers->count, sizeof *m.asked);
     tl_release_array(changes->allocator, m.heap, m.heap_capacity, sizeof *m.heap);

@@ -12,7 +12,7 @@
 tl_result tl_nav_add_number(const tl_allocator *allocator, tl_nav_number_list *list, uint32_t number)
 {
     if (list->count == list->capacity) {
-        uint32_t *grown = (uint32_t *)tl_grow_array(allocator, list->numbers, &list->capacity, sizeof *grown);
+        uint32_t *grown = tl_grow_array(allocator, list->numbers, &list->capacity, sizeof *grown);
         if (grown == NULL) {
             return TL_ERR_MEMORY;
         }
@@ -31,7 +31,7 @@ void tl_nav_free_numbers(const tl_allocator *allocator, tl_nav_number_list *list
 tl_result tl_nav_add_item(const tl_allocator *allocator, tl_nav_pair_list *list, tl_sort_item item)
 {
     if (list->count == list->capacity) {
-        tl_sort_item *grown = (tl_sort_item *)tl_grow_array(allocator, list->items, &list->capacity, sizeof *grown);
+        tl_sort_item *grown = tl_grow_array(allocator, list->items, &list->capacity, sizeof *grown);
         if (grown == NULL) {
             return TL_ERR_MEMORY;
         }
@@ -62,7 +62,7 @@ tl_result tl_nav_sort_pairs(const tl_allocator *allocator, tl_nav_pair_list *lis
         tl_insertion_sort(list->items, (uint32_t)list->count);
         return TL_OK;
     }
-    tl_sort_item *scratch = (tl_sort_item *)tl_allocate_array(allocator, list->count, sizeof *scratch);
+    tl_sort_item *scratch = tl_allocate_array(allocator, list->count, sizeof *scratch);
     if (scratch == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -84,23 +84,9 @@ tl_result tl_nav_unite_pairs(const tl_allocator *allocator, tl_nav_pair_list *li
     return TL_OK;
 }
 
-uint64_t tl_nav_find_pair(const tl_nav_pair_list *list, uint32_t first)
+// The first item whose key is no less.
+static uint64_t find_key(const tl_nav_pair_list *list, uint64_t key)
 {
-    uint64_t begin = 0, end = list->count;
-    while (begin < end) {
-        const uint64_t middle = begin + (end - begin) / 2;
-        if (list->items[middle].key >> 32 < first) {
-            begin = middle + 1;
-        } else {
-            end = middle;
-        }
-    }
-    return begin;
-}
-
-bool tl_nav_has_pair(const tl_nav_pair_list *list, uint32_t first, uint32_t second)
-{
-    const uint64_t key = (uint64_t)first << 32 | second;
     uint64_t begin = 0, end = list->count;
     while (begin < end) {
         const uint64_t middle = begin + (end - begin) / 2;
@@ -110,5 +96,16 @@ bool tl_nav_has_pair(const tl_nav_pair_list *list, uint32_t first, uint32_t seco
             end = middle;
         }
     }
-    return begin < list->count && list->items[begin].key == key;
+    return begin;
+}
+
+uint64_t tl_nav_find_pair(const tl_nav_pair_list *list, uint32_t first)
+{
+    return find_key(list, (uint64_t)first << 32);
+}
+
+bool tl_nav_has_pair(const tl_nav_pair_list *list, uint32_t first, uint32_t second)
+{
+    const uint64_t key = (uint64_t)first << 32 | second, at = find_key(list, key);
+    return at < list->count && list->items[at].key == key;
 }

@@ -62,11 +62,6 @@ static inline bool tl_nav_sectors_overlap(const tl_nav_sector *a, const tl_nav_s
     return on <= a->width || TL_NAV_FULL_TURN - on <= b->width;
 }
 
-static inline bool tl_nav_is_in_sector(const tl_nav_sector *a, double angle)
-{
-    return tl_nav_wrap_turn(angle - a->from) <= a->width;
-}
-
 static inline bool tl_nav_holds_sector(const tl_nav_sector *a, const tl_nav_sector *b)
 {
     return a->width >= TL_NAV_FULL_TURN || tl_nav_wrap_turn(b->from - a->from) + b->width <= a->width;

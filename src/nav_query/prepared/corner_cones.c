@@ -180,8 +180,7 @@ static bool allocate_cones(const tl_allocator *allocator, uint32_t polygon_count
     memset(cones_out, 0, sizeof *cones_out);
     cones_out->polygon_count = polygon_count;
     cones_out->count = count;
-    cones_out->first =
-        (uint32_t *)tl_allocate_array(allocator, cone_words(polygon_count, count), sizeof *cones_out->first);
+    cones_out->first = tl_allocate_array(allocator, cone_words(polygon_count, count), sizeof *cones_out->first);
     if (cones_out->first == NULL) {
         return false;
     }
@@ -205,8 +204,7 @@ void tl_nav_free_cones(const tl_allocator *allocator, tl_nav_corner_cones *cones
 
 tl_result tl_nav_group_cones(tl_nav_cone_list *list, uint32_t slot_count, uint32_t *first)
 {
-    tl_nav_corner_cone *grouped =
-        (tl_nav_corner_cone *)tl_allocate_array(list->allocator, list->capacity, sizeof *grouped);
+    tl_nav_corner_cone *grouped = tl_allocate_array(list->allocator, list->capacity, sizeof *grouped);
     if (grouped == NULL || list->count > UINT32_MAX) {
         tl_release_array(list->allocator, grouped, list->capacity, sizeof *grouped);
         return grouped == NULL ? TL_ERR_MEMORY : TL_ERR_LIMIT;
@@ -320,8 +318,8 @@ tl_result tl_nav_remake_cones(const tl_allocator *allocator, tl_nav_visibility_g
                               uint64_t count)
 {
     const uint64_t places = (uint64_t)polygon_count + 1;
-    uint32_t *first = (uint32_t *)tl_allocate_array(allocator, places, sizeof *first);
-    tl_nav_corner_cone *sorted = (tl_nav_corner_cone *)tl_allocate_array(allocator, count, sizeof *sorted);
+    uint32_t *first = tl_allocate_array(allocator, places, sizeof *first);
+    tl_nav_corner_cone *sorted = tl_allocate_array(allocator, count, sizeof *sorted);
     tl_result result = first != NULL && sorted != NULL ? TL_OK : TL_ERR_MEMORY;
     if (result == TL_OK) {
         sort_cones(fresh, count, polygon_count, first, sorted);

@@ -37,7 +37,7 @@ uint32_t tl_nav_find_name(const tl_nav_corner_names *names, uint32_t turn)
 static tl_result grow_names(const tl_allocator *allocator, tl_nav_corner_names *names)
 {
     tl_nav_corner_names grown = { NULL, names->capacity > 0 ? 2 * names->capacity : LEAST_NAMES, names->count };
-    grown.entries = (uint64_t *)tl_allocate_array(allocator, grown.capacity, sizeof *grown.entries);
+    grown.entries = tl_allocate_array(allocator, grown.capacity, sizeof *grown.entries);
     if (grown.entries == NULL) {
         return TL_ERR_MEMORY;
     }

@@ -165,10 +165,7 @@ static const tl_nav_kept_leg *kept_between(const tl_nav_visibility_graph *graph,
 {
     const uint32_t end = (uint32_t)(to - graph->vertices);
     const tl_nav_kept_leg *legs = graph->kept.legs + graph->kept.leg_first[from - graph->vertices];
-    uint32_t k = 0;
-    while (k < from->edge_count && from->edges[k].to < end) {
-        k++;
-    }
+    const uint32_t k = tl_nav_find_visibility_edge(from, end);
     const bool is_kept = k < from->edge_count && from->edges[k].to == end && legs[k].enters != TL_NAV_NO_PLACE;
     return is_kept ? &legs[k] : NULL;
 }

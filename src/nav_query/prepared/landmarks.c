@@ -99,10 +99,10 @@ tl_result tl_nav_measure_landmarks(const tl_allocator *allocator, tl_nav_visibil
     s.graph = graph;
     graph->lowered = 0;
     TL_TRY(tl_nav_dijkstra_init(allocator, graph, stage, &s.lengths));
-    uint32_t *stack = (uint32_t *)tl_allocate_array(allocator, graph->vertex_room, sizeof *stack);
-    s.component = (uint32_t *)tl_allocate_array(allocator, graph->vertex_room, sizeof *s.component);
-    s.source = (uint32_t *)tl_allocate_array(allocator, graph->vertex_room, sizeof *s.source);
-    s.nearest = (double *)tl_allocate_array(allocator, graph->vertex_room, sizeof *s.nearest);
+    uint32_t *stack = tl_allocate_array(allocator, graph->vertex_room, sizeof *stack);
+    s.component = tl_allocate_array(allocator, graph->vertex_room, sizeof *s.component);
+    s.source = tl_allocate_array(allocator, graph->vertex_room, sizeof *s.source);
+    s.nearest = tl_allocate_array(allocator, graph->vertex_room, sizeof *s.nearest);
     const bool fits = stack != NULL && s.component != NULL && s.source != NULL && s.nearest != NULL;
     const tl_result result = fits ? measure_landmarks(&s, graph, stack) : TL_ERR_MEMORY;
     tl_nav_dijkstra_free(allocator, &s.lengths);

@@ -6,12 +6,12 @@
 #define TALUS_SRC_NAV_QUERY_LANDMARKS_H
 
 #include "base/stage.h"
+#include "math/tolerance.h"
 #include "nav_query/prepared/path_ends.h"
 #include "nav_query/prepared/visibility_graph.h"
 
-/// Distances are kept so much shorter than they are. Along an edge of ten metres that is a millimetre, some
-/// roundings of distances of kilometres.
-#define TL_NAV_LANDMARK_SCALE (1.0 - 1e-4)
+/// Distances are kept so much shorter than they are.
+#define TL_NAV_LANDMARK_SCALE (1.0 - TL_BOUND_SLACK)
 
 /// Chooses landmarks and fills in the distances from them. TL_ERR_MEMORY, TL_ERR_CANCELLED.
 tl_result tl_nav_measure_landmarks(const tl_allocator *allocator, tl_nav_visibility_graph *graph, tl_stage *stage);

@@ -20,7 +20,7 @@
 
 tl_nav_visibility_graph *tl_nav_create_visibility_graph(const tl_allocator *allocator)
 {
-    tl_nav_visibility_graph *graph = (tl_nav_visibility_graph *)tl_allocate_array(allocator, 1, sizeof *graph);
+    tl_nav_visibility_graph *graph = tl_allocate_array(allocator, 1, sizeof *graph);
     if (graph != NULL) {
         memset(graph, 0, sizeof *graph);
         graph->free_vertex = TL_NAV_NO_VERTEX;
@@ -60,11 +60,10 @@ uint64_t tl_nav_visibility_graph_size(const tl_nav_visibility_graph *graph)
 // Copies the arrays by corner vertex into others with more room, or as much.
 static tl_result move_corner_vertices(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint32_t capacity)
 {
-    tl_nav_corner_vertex *vertices = (tl_nav_corner_vertex *)tl_allocate_array(allocator, capacity, sizeof *vertices);
-    float(*landmarks)[TL_NAV_LANDMARKS] =
-        (float(*)[TL_NAV_LANDMARKS])tl_allocate_array(allocator, capacity, sizeof *landmarks);
-    uint8_t *marks = (uint8_t *)tl_allocate_array(allocator, capacity, sizeof *marks);
-    uint32_t *orders = (uint32_t *)tl_allocate_array(allocator, capacity, sizeof *orders);
+    tl_nav_corner_vertex *vertices = tl_allocate_array(allocator, capacity, sizeof *vertices);
+    float(*landmarks)[TL_NAV_LANDMARKS] = tl_allocate_array(allocator, capacity, sizeof *landmarks);
+    uint8_t *marks = tl_allocate_array(allocator, capacity, sizeof *marks);
+    uint32_t *orders = tl_allocate_array(allocator, capacity, sizeof *orders);
     if (vertices == NULL || landmarks == NULL || marks == NULL || orders == NULL) {
         tl_release_array(allocator, vertices, capacity, sizeof *vertices);
         tl_release_array(allocator, landmarks, capacity, sizeof *landmarks);
@@ -135,7 +134,7 @@ tl_result tl_nav_own_graph_arrays(const tl_navmesh *navmesh, tl_nav_visibility_g
     }
     if (navmesh->slot_count > graph->slot_count || tl_nav_is_shared(navmesh->history, graph->tiles)) {
         const uint32_t count = navmesh->slot_count > graph->slot_count ? navmesh->slot_count : graph->slot_count;
-        tl_nav_graph_tile *tiles = (tl_nav_graph_tile *)tl_allocate_array(allocator, count, sizeof *tiles);
+        tl_nav_graph_tile *tiles = tl_allocate_array(allocator, count, sizeof *tiles);
         if (tiles == NULL) {
             return TL_ERR_MEMORY;
         }

@@ -48,6 +48,21 @@ typedef struct tl_nav_corner_vertex {
         *edges; ///< [edge_count] by rising `to`, and behind them its reach, in its tile's block
 } tl_nav_corner_vertex;
 
+/// The first edge of a corner vertex that leads to `to` or to one of a higher number.
+static inline uint32_t tl_nav_find_visibility_edge(const tl_nav_corner_vertex *vertex, uint32_t to)
+{
+    uint32_t begin = 0, end = vertex->edge_count;
+    while (begin < end) {
+        const uint32_t middle = begin + (end - begin) / 2;
+        if (vertex->edges[middle].to < to) {
+            begin = middle + 1;
+        } else {
+            end = middle;
+        }
+    }
+    return begin;
+}
+
 /// The slots whose polygons have cones of a corner vertex: reach_count of them, by rising number.
 static inline const uint32_t *tl_nav_reach_of(const tl_nav_corner_vertex *vertex)
 {
@@ -56,11 +71,15 @@ static inline const uint32_t *tl_nav_reach_of(const tl_nav_corner_vertex *vertex
                : NULL;
 }
 
+/// A box in the plan.
+typedef struct tl_nav_plan_box {
+    float low_x, low_z, high_x, high_z;
+} tl_nav_plan_box;
+
 /// What the graph keeps by slot. An edit writes that of the tiles that it is seen from, and of no others.
 typedef struct tl_nav_graph_tile {
     uint32_t salt;         ///< that of the slot's tile (tl_nav_slot); 0: it has none
-    float low_x, low_z;    ///< of the box around its polygons, in the plan
-    float high_x, high_z;  ///< of it
+    tl_nav_plan_box box;   ///< around its polygons
     uint32_t first_vertex; ///< of those whose fans begin in it (tl_nav_corner_vertex.next)
     uint32_t *sights;      ///< their edges and reaches
     uint64_t sight_words;  ///< 4 bytes each
