@@ -11,84 +11,78 @@
 #include "polygon/check/polygon_check.h"
 
 #include "base/assert.h"
+#include "polygon/outline/packed_point.h"
 #include "polygon/outline/sweep.h"
 
-// Edges of all polygons, each once.
+// Edges of all polygons, each once. There are at most as many as corners.
 typedef struct cover_edges {
     tl_lattice_point *points;     // in the sweep's order
+    uint32_t *numbers;            // of corners: their points
     tl_lattice_segment *segments; // from the point swept first to the other, by that point
     int32_t *rises;               // polygons above a segment less those below
     int32_t *above;               // polygons that cover the face above it
-    uint32_t point_count, segment_count;
+    tl_sort_item *items;          // [2 corner_count] to sort
+    uint32_t corner_count, point_count, segment_count;
 } cover_edges;
 
-static uint64_t point_key(tl_lattice_point p)
+static bool allocate_cover_edges(cover_edges *e, tl_arena *arena, uint32_t corner_count)
 {
-    const uint64_t x = (uint32_t)(p.x + TL_MAX_CONTOUR_COORDINATE), z = (uint32_t)(p.z + TL_MAX_CONTOUR_COORDINATE);
-    return x << 32 | z;
-}
-
-// Numbers corners by place, in the sweep's order: numbers[i] is that of the group's corner i.
-static bool number_corners(cover_edges *e, tl_arena *arena, const tl_polygon_mesh *mesh, const tl_sort_item *polygons,
-                           uint32_t count, uint32_t corner_count, uint32_t *numbers)
-{
-    tl_sort_item *items = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)corner_count);
+    e->corner_count = corner_count;
     e->points = TL_PUSH(arena, tl_lattice_point, corner_count);
-    if (items == NULL || e->points == NULL) {
-        return false;
-    }
-    uint32_t corner = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        for (uint32_t k = mesh->first[polygons[i].value]; k < mesh->first[polygons[i].value + 1]; k++) {
-            const tl_sort_item item = { point_key(tl_mesh_corner(mesh, k)), corner++, mesh->indices[k] };
-            items[item.value] = item;
-        }
-    }
-    tl_radix_sort(items, items + corner_count, corner_count);
-    e->point_count = 0;
-    for (uint32_t i = 0; i < corner_count; i++) {
-        if (i == 0 || items[i].key != items[i - 1].key) {
-            e->points[e->point_count++] = tl_mesh_point(mesh, items[i].extra);
-        }
-        numbers[items[i].value] = e->point_count - 1;
-    }
-    return true;
-}
-
-// A polygon lies left of its edges, and left of a segment that runs on with the sweep is above.
-static bool gather_cover_edges(cover_edges *e, tl_arena *arena, const tl_polygon_mesh *mesh,
-                               const tl_sort_item *polygons, uint32_t count, uint32_t corner_count,
-                               const uint32_t *numbers)
-{
-    tl_sort_item *items = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)corner_count);
+    e->numbers = TL_PUSH(arena, uint32_t, corner_count);
     e->segments = TL_PUSH(arena, tl_lattice_segment, corner_count);
     e->rises = TL_PUSH(arena, int32_t, corner_count);
     e->above = TL_PUSH(arena, int32_t, corner_count);
-    if (items == NULL || e->segments == NULL || e->rises == NULL || e->above == NULL) {
-        return false;
+    e->items = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)corner_count);
+    return e->points != NULL && e->numbers != NULL && e->segments != NULL && e->rises != NULL && e->above != NULL &&
+           e->items != NULL;
+}
+
+// Numbers the group's corners by place, in the sweep's order.
+static void number_corners(cover_edges *e, const tl_polygon_mesh *mesh, const tl_sort_item *polygons, uint32_t count)
+{
+    uint32_t corner = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t k = mesh->first[polygons[i].value]; k < mesh->first[polygons[i].value + 1]; k++) {
+            const tl_sort_item item = { tl_pack_point(tl_mesh_corner(mesh, k)), corner, mesh->indices[k] };
+            e->items[corner++] = item;
+        }
     }
+    tl_radix_sort(e->items, e->items + e->corner_count, e->corner_count);
+    e->point_count = 0;
+    for (uint32_t i = 0; i < e->corner_count; i++) {
+        if (i == 0 || e->items[i].key != e->items[i - 1].key) {
+            e->points[e->point_count++] = tl_mesh_point(mesh, e->items[i].extra);
+        }
+        e->numbers[e->items[i].value] = e->point_count - 1;
+    }
+}
+
+// A polygon lies left of its edges, and left of a segment that runs on with the sweep is above.
+static void gather_cover_edges(cover_edges *e, const tl_polygon_mesh *mesh, const tl_sort_item *polygons,
+                               uint32_t count)
+{
     uint32_t first = 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t corners = mesh->first[polygons[i].value + 1] - mesh->first[polygons[i].value];
         for (uint32_t k = 0; k < corners; k++) {
-            const uint32_t a = numbers[first + k], b = numbers[first + (k + 1 < corners ? k + 1 : 0)];
+            const uint32_t a = e->numbers[first + k], b = e->numbers[first + (k + 1 < corners ? k + 1 : 0)];
             const bool on = a < b;
             const tl_sort_item item = { (uint64_t)(on ? a : b) << 32 | (on ? b : a), on ? 1u : 0u, 0 };
-            items[first + k] = item;
+            e->items[first + k] = item;
         }
         first += corners;
     }
-    tl_radix_sort(items, items + corner_count, corner_count);
+    tl_radix_sort(e->items, e->items + e->corner_count, e->corner_count);
     e->segment_count = 0;
-    for (uint32_t i = 0; i < corner_count; i++) {
-        if (i == 0 || items[i].key != items[i - 1].key) {
-            const tl_lattice_segment segment = { (uint32_t)(items[i].key >> 32), (uint32_t)items[i].key };
+    for (uint32_t i = 0; i < e->corner_count; i++) {
+        if (i == 0 || e->items[i].key != e->items[i - 1].key) {
+            const tl_lattice_segment segment = { (uint32_t)(e->items[i].key >> 32), (uint32_t)e->items[i].key };
             e->rises[e->segment_count] = 0;
             e->segments[e->segment_count++] = segment;
         }
-        e->rises[e->segment_count - 1] += items[i].value != 0 ? 1 : -1;
+        e->rises[e->segment_count - 1] += e->items[i].value != 0 ? 1 : -1;
     }
-    return true;
 }
 
 // Whether segment a leaves the point where both begin below b. No two run along each other.
@@ -141,14 +135,13 @@ tl_result tl_polygon_sweep_cover(tl_polygon_checker *checker, const tl_sort_item
     cover_edges e;
     tl_sweep_record record;
     *is_proven_out = false;
-    uint32_t *numbers = TL_PUSH(arena, uint32_t, corner_count);
-    if (numbers == NULL || !number_corners(&e, arena, mesh, polygons, count, corner_count, numbers) ||
-        !gather_cover_edges(&e, arena, mesh, polygons, count, corner_count, numbers) ||
-        !tl_sweep_record_init(&record, arena, e.point_count)) {
+    if (!allocate_cover_edges(&e, arena, corner_count) || !tl_sweep_record_init(&record, arena, corner_count)) {
         return TL_ERR_MEMORY;
     }
+    number_corners(&e, mesh, polygons, count);
+    gather_cover_edges(&e, mesh, polygons, count);
     bool apart;
     TL_TRY(tl_sweep_segments(arena, e.points, e.point_count, e.segments, e.segment_count, &record, &apart));
-    *is_proven_out = apart && count_covers(&e, &record, numbers);
+    *is_proven_out = apart && count_covers(&e, &record, e.numbers);
     return TL_OK;
 }
