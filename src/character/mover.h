@@ -69,9 +69,15 @@ static inline tl_mover_core tl_mover_core_at(const tl_character_mover *m, tl_vec
 /// Collects what the capsule may come near while its feet stay between two corners; false: more than max_triangles.
 bool tl_mover_collect(tl_character_mover *m, tl_vec3d low, tl_vec3d high);
 
-/// How far the items' boxes are from a box at least, in boxes.away_sq: what lies within `reach` of it has no more than
-/// the number returned. Where the items are many.
+/// Where the items are many: how far their boxes are from a box at least, in boxes.away_sq. What lies within `reach` of
+/// it has no more than the number returned.
 float tl_mover_measure_boxes(tl_character_mover *m, tl_vec3d low, tl_vec3d high, double reach);
+
+/// Whether an item's box was measured, and is farther than that.
+static inline bool tl_mover_is_box_away(const tl_character_mover *m, uint32_t item, float most_sq)
+{
+    return m->has_boxes && m->boxes.away_sq[item] > most_sq;
+}
 
 /// Finds the contacts at a place, unless they are known, and returns the smallest gap, also of those that do not count;
 /// INFINITY: none.

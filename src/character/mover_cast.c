@@ -53,20 +53,14 @@ static bool sweep_misses_box(const tl_mover_item *item, const cast_sweep *sweep)
     return x > keep || y > keep || z > keep || x * x + y * y + z * z > sweep->miss * sweep->miss;
 }
 
-// The same of the motion until `t`, where something else is met. What keeps as far off as a miss until then, ends
-// nothing before it.
-static bool is_met_later(const tl_mover_item *item, const tl_mover_core *core, tl_vec3d motion, double t, double miss)
+// The same of the motion until something else is met. What keeps as far off as a miss until then, ends nothing before
+// it.
+static bool is_met_later(const tl_mover_item *item, const cast_sweep *until)
 {
-    const double by_x = motion.x * t, by_y = motion.y * t, by_z = motion.z * t;
-    const tl_vec3d at = core->low;
-    const double top = at.y + core->length;
-    const double x =
-        tl_mover_between(item->low.x, item->high.x, by_x < 0.0 ? at.x + by_x : at.x, by_x > 0.0 ? at.x + by_x : at.x);
-    const double y =
-        tl_mover_between(item->low.y, item->high.y, by_y < 0.0 ? at.y + by_y : at.y, by_y > 0.0 ? top + by_y : top);
-    const double z =
-        tl_mover_between(item->low.z, item->high.z, by_z < 0.0 ? at.z + by_z : at.z, by_z > 0.0 ? at.z + by_z : at.z);
-    return x * x + y * y + z * z > miss * miss;
+    const double x = tl_mover_between(item->low.x, item->high.x, until->low.x, until->high.x);
+    const double y = tl_mover_between(item->low.y, item->high.y, until->low.y, until->high.y);
+    const double z = tl_mover_between(item->low.z, item->high.z, until->low.z, until->high.z);
+    return x * x + y * y + z * z > until->miss * until->miss;
 }
 
 // The time at which the core may first be within reach of the triangle's plane; INFINITY: it never is.
@@ -139,17 +133,19 @@ tl_mover_sweep tl_mover_cast(tl_character_mover *m, tl_vec3d feet, tl_vec3d moti
     m->report->sweeps++;
     // What it was in contact with last is likely to be met first, and then most others are told off at once.
     const uint32_t first = m->contact_count > 0 ? m->contacts[m->contact_count - 1].item : 0;
-    const bool many = m->has_boxes;
-    const float most_sq = many ? tl_mover_measure_boxes(m, sweep.low, sweep.high, sweep.miss) : 0.0f;
-    const float *away_sq = m->boxes.away_sq;
+    const float most_sq = tl_mover_measure_boxes(m, sweep.low, sweep.high, sweep.miss);
+    cast_sweep until = sweep; // something is met
     for (uint32_t i = 0; i < m->item_count; i++) {
         const uint32_t index = i == 0 ? first : i <= first ? i - 1 : i;
-        if (many && (away_sq[index] > most_sq ||
-                     (best.hit && is_met_later(&m->items[index], &core, motion, best.t, sweep.miss)))) {
+        const tl_mover_item *item = &m->items[index];
+        if (tl_mover_is_box_away(m, index, most_sq) || (m->has_boxes && best.hit && is_met_later(item, &until))) {
             continue;
         }
-        if (m->items[index].instance != m->ignored_instance && !sweep_misses_box(&m->items[index], &sweep)) {
+        if (item->instance != m->ignored_instance && !sweep_misses_box(item, &sweep)) {
             cast_at_item(m, &core, motion, &sweep, index, &best);
+            if (m->has_boxes && best.hit && best.item == index) {
+                until = sweep_core(m, &core, tl_vec3d_scale(motion, best.t));
+            }
         }
     }
     return best;

@@ -201,6 +201,9 @@ static inline float apart_twice(float low, float high, float from, float to)
 // Most of what is near is not as near as `reach`: a loop of plain arithmetic, that compilers do for four items at once.
 float tl_mover_measure_boxes(tl_character_mover *m, tl_vec3d low, tl_vec3d high, double reach)
 {
+    if (!m->has_boxes) {
+        return 0.0f;
+    }
     const tl_mover_boxes boxes = m->boxes;
     const tl_vec3 from = tl_vec3d_to_float(low), to = tl_vec3d_to_float(high);
     const uint32_t end = (m->item_count + TL_MOVER_BOX_LANES - 1) / TL_MOVER_BOX_LANES * TL_MOVER_BOX_LANES;

@@ -125,10 +125,9 @@ double tl_mover_find_contacts(tl_character_mover *m, tl_vec3d feet)
     m->contact_count = 0;
     tl_vec3d top = core.low;
     top.y += core.length;
-    const float most_sq = m->has_boxes ? tl_mover_measure_boxes(m, core.low, top, reach) : 0.0f;
-    const float *away_sq = m->has_boxes ? m->boxes.away_sq : NULL;
+    const float most_sq = tl_mover_measure_boxes(m, core.low, top, reach);
     for (uint32_t i = 0; i < m->item_count; i++) {
-        if (away_sq != NULL && away_sq[i] > most_sq) {
+        if (tl_mover_is_box_away(m, i, most_sq)) {
             continue;
         }
         tl_mover_item *item = &m->items[i];
