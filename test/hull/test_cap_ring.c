@@ -7,6 +7,7 @@
 
 #include "hull/support/cap_ring.h"
 #include "hull/support/direction_table.h"
+#include "hull_climb.h"
 #include "hull_shapes.h"
 #include "math/predicates.h"
 
@@ -66,26 +67,6 @@ static tl_vec3 direction_off(test_random *random, double off)
     return turned(1.0, off * cos(angle), off * sin(angle));
 }
 
-// Steps of a climb on the half-edges from where the table lets it start.
-static uint32_t count_steps(const tl_hull *hull, tl_vec3 d)
-{
-    const tl_vec3 *vertices = tl_hull_vertices(hull);
-    uint32_t vertex = tl_hull_table_start(hull, d), steps = 0;
-    for (;;) {
-        uint32_t first = tl_hull_vertex_edge(hull, vertex), edge = first, best = vertex;
-        do {
-            const uint32_t twin = tl_hull_edge_twin(hull, edge), other = tl_hull_edge_origin(hull, twin);
-            best = tl_compare_along(d, vertices[other], vertices[best]) > 0 ? other : best;
-            edge = tl_hull_edge_next(hull, twin);
-        } while (edge != first);
-        if (best == vertex) {
-            return steps;
-        }
-        vertex = best;
-        steps++;
-    }
-}
-
 // Without rings: 2 to 6 steps on the mean at prisms, 12 at the dome; and up to 18 at the worst.
 static void test_climbs_begin_near_their_end(void **state)
 {
@@ -101,7 +82,7 @@ static void test_climbs_begin_near_their_end(void **state)
             for (double off = 1e-9; off < 0.2; off *= 10.0) {
                 uint32_t sum = 0;
                 for (int i = 0; i < QUERIES; i++) {
-                    const uint32_t steps = count_steps(hull, direction_off(&random, off));
+                    const uint32_t steps = hull_climb_steps(hull, direction_off(&random, off));
                     sum += steps;
                     most = steps > most ? steps : most;
                 }

@@ -10,6 +10,7 @@
 #include "talus_test.h"
 
 #include "hull/support/direction_table.h"
+#include "hull_climb.h"
 #include "hull_shapes.h"
 #include "math/predicates.h"
 
@@ -329,26 +330,6 @@ static void test_starts_are_good(void **state)
     }
 }
 
-// Steps of a climb on the half-edges from where the table lets it start.
-static uint32_t steps_from_start(const tl_hull *hull, tl_vec3 d)
-{
-    const tl_vec3 *vertices = tl_hull_vertices(hull);
-    uint32_t vertex = tl_hull_table_start(hull, d), steps = 0;
-    for (;;) {
-        uint32_t first = tl_hull_vertex_edge(hull, vertex), edge = first, best = vertex;
-        do {
-            const uint32_t twin = tl_hull_edge_twin(hull, edge), other = tl_hull_edge_origin(hull, twin);
-            best = tl_compare_along(d, vertices[other], vertices[best]) > 0 ? other : best;
-            edge = tl_hull_edge_next(hull, twin);
-        } while (edge != first);
-        if (best == vertex) {
-            return steps;
-        }
-        vertex = best;
-        steps++;
-    }
-}
-
 static tl_vec3 along_axis(int axis, float along, float u, float v)
 {
     return axis == 0 ? tl_vec3_make(along, u, v) : axis == 1 ? tl_vec3_make(v, along, u) : tl_vec3_make(u, v, along);
@@ -381,7 +362,7 @@ static void test_starts_at_caps(void **state)
                 double steps = 0.0;
                 for (int i = 0; i < QUERIES; i++) {
                     double turn = (double)test_random_range(&random, 0.0f, 6.2831853f);
-                    steps += steps_from_start(hull, along_axis(axis, end != 0 ? 1.0f : -1.0f, away * (float)cos(turn),
+                    steps += hull_climb_steps(hull, along_axis(axis, end != 0 ? 1.0f : -1.0f, away * (float)cos(turn),
                                                                away * (float)sin(turn)));
                 }
                 most = fmax(most, steps / QUERIES);
@@ -415,7 +396,7 @@ static void test_starts_at_nearly_flat_caps(void **state)
             for (int i = 0; i < QUERIES; i++) {
                 const double turn = (double)test_random_range(&random, 0.0f, 6.2831853f);
                 steps +=
-                    steps_from_start(hull, along_axis(axis, 1.0f, away * (float)cos(turn), away * (float)sin(turn)));
+                    hull_climb_steps(hull, along_axis(axis, 1.0f, away * (float)cos(turn), away * (float)sin(turn)));
             }
             most = fmax(most, steps / QUERIES);
         }

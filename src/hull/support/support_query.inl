@@ -19,12 +19,13 @@
 #include "hull/support/support_march.inl"
 #include "hull/support/support_scan.inl"
 #include "math/predicates.h"
+#include "math/tolerance.h"
 
 typedef enum climb_end { END_FARTHEST, END_LEVEL, END_HIGHER } climb_end;
 
-// Of the gain by double arithmetic from one vertex to another: two differences' and products' roundings and two sums'
-// make less than eight; no product of three floats' differences underflows in double.
-#define TL_SETTLE_ERROR 1.7763568394002505e-15 // 8 * 2^-52
+// Of the gain by double arithmetic from one vertex to another, as a share of its three absolute products: a difference,
+// a product and two sums, four times. No product of a float and a difference of two underflows in double.
+#define TL_SETTLE_ERROR TL_DOUBLE_GAMMA(16)
 
 // As tl_compare_along(direction, a, b), of which it is the quick half: a hull's edges are short beside its distance
 // from the origin.
