@@ -130,15 +130,16 @@ static tl_result fill_sights(const sight_lists *l, uint32_t slot)
         vertex->edges = (const tl_nav_visibility_edge *)(const void *)at;
         vertex->edge_count = counts[0];
         vertex->reach_count = counts[1];
-        if (counts[0] > 0) {
+        if (counts[0] > 0) { // else there may be no list
             memcpy(at, edges, counts[0] * sizeof *edges);
+            at += edge_words * counts[0];
+            edges += counts[0];
         }
         if (counts[1] > 0) {
-            memcpy(at + edge_words * counts[0], reach, counts[1] * sizeof *reach);
+            memcpy(at, reach, counts[1] * sizeof *reach);
+            at += counts[1];
+            reach += counts[1];
         }
-        at += edge_words * counts[0] + counts[1];
-        edges += counts[0];
-        reach += counts[1];
     }
     graph->tile_bytes += 4 * words;
     graph->tile_bytes -= 4 * tile->sight_words;
