@@ -45,13 +45,15 @@ static tl_result keep_fans(leg_keeper *k)
     const tl_allocator *allocator = &k->navmesh->allocator;
     for (uint32_t v = 0; v < k->graph->vertex_room; v++) {
         tl_nav_ring_place fan[TL_NAV_MAX_FAN];
-        const bool is_free = k->graph->vertices[v].turn == 0;
-        const uint32_t count = is_free ? 0 : tl_nav_fan_of(k->navmesh, &k->graph->vertices[v], fan);
+        kept->fan_first[v] = (uint32_t)kept->fan_count;
+        if (k->graph->vertices[v].turn == 0) {
+            continue; // a free number
+        }
+        const uint32_t count = tl_nav_fan_of(k->navmesh, &k->graph->vertices[v], fan);
         tl_nav_ref *to = room_for(allocator, &kept->fans, kept->fan_count, &k->fan_capacity, count);
-        if (to == NULL && count > 0) {
+        if (to == NULL) {
             return TL_ERR_MEMORY;
         }
-        kept->fan_first[v] = (uint32_t)kept->fan_count;
         for (uint32_t i = 0; i < count; i++) {
             to[i] = tl_nav_make_ref(k->navmesh, fan[i].slot, fan[i].polygon);
         }
