@@ -142,6 +142,20 @@ static bool make_outline(level *l, const char *family, uint32_t n)
             const float turn = -40.0f * (float)i / (float)n, radius = 40000 + 900000.0f * (float)i / (float)n;
             add_corner(l, radius * cosf(turn), radius * sinf(turn));
         }
+    } else if (strcmp(family, "frayed") == 0) {
+        // A comb, with long teeth that end anywhere in many small ones: nothing near in number is on the sweep's line.
+        enum { FRAYS = 20, CORNERS = FRAYS + 2 };
+        const float width = 2 * FRAYS + 10;
+        for (uint32_t i = 0; i < n / CORNERS; i++) {
+            const float z = width * (float)i, x = random_between(10, 1e6f);
+            add_corner(l, 2e6f, z);
+            for (uint32_t k = 0; k < FRAYS; k++) {
+                add_corner(l, k % 2 == 0 ? x : x - 3, z + 2.0f * (float)k);
+            }
+            add_corner(l, 2e6f, z + 2.0f * (float)FRAYS);
+        }
+        add_corner(l, 3e6f, width * (float)(n / CORNERS));
+        add_corner(l, 3e6f, -10);
     } else {
         return false;
     }

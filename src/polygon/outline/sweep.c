@@ -6,39 +6,28 @@
 // Source: Shamos, Hoey, "Geometric intersection problems", 1976; the degenerate cases as in Bentley, Ottmann, 1979,
 // without crossing events, since the first contact ends the sweep.
 //
-// The order is a list, so that neighbours are found at once, and one in sixteen segments is in a treap over it, too,
-// whose priorities are hashes of the segments' numbers. What a treap reads of a million segments lies in no cache: with
-// all of them in it that was two fifths of the sweep. All tests are signs of turns, exact.
+// The order is a list, so that neighbours are found at once. All tests are signs of turns, exact.
 //
 // Segments come in the order of an outline, and those near in number mostly lie near each other on the line. So a point
-// is first looked for in the list, a few steps from a segment with a number near its own, and only then in the treap:
-// a descent of 30 levels was a third of the whole time for a star of a million vertices, whose line holds half of them.
+// is first looked for in the list, a few steps from a segment with a number near its own. Where that fails it is looked
+// for in a tree over a part of the list, and from there along the list; a search that goes far leaves every sixteenth
+// segment that it passes in the tree (sweep_index.c). So all steps of all searches together are O(n log n), whatever
+// the outline, and most outlines need hardly any tree: with all segments in one, which lies in no cache, it was two
+// fifths of the sweep of a star of a million vertices, whose line holds half of them.
 
 #include "polygon/outline/sweep.h"
 
 #include "base/compiler.h"
-#include "base/hash.h"
 #include "base/radix_sort.h"
+#include "polygon/outline/sweep_index.h"
 
-enum { FINGER_REACH = 8, FINGER_STEPS = 8, POINTS_AHEAD = 8, ITEMS_AROUND = 4, INDEX_SHARE = 16 };
-
-// The parent of a segment that is not on the line.
-#define NOT_ON_LINE (TL_NO_SEGMENT - 1)
-
-// A segment on the sweep line. Its ends are named by where they lie, for no two points lie at one place: so nothing but
-// items is read on the way.
-typedef struct sweep_item {
-    uint32_t child[2];           // below, above; of those in the treap
-    uint32_t parent;             // TL_NO_SEGMENT for the root, and for those that are in the list alone
-    uint32_t neighbour[2];       // next below, next above
-    tl_lattice_point begin, end; // `begin` first on the sweep's way
-} sweep_item;
+enum { FINGER_REACH = 8, FINGER_STEPS = 8, POINTS_AHEAD = 8, ITEMS_AROUND = 4, INDEX_STEPS = 16 };
 
 typedef struct sweep_line {
-    sweep_item *items; // [segment]
+    tl_sweep_item *items; // [segment]
     uint32_t count;
-    uint32_t root;   // of the treap
     uint32_t lowest; // of the list
+    tl_sweep_index index;
     uint32_t *first; // [points + 1] segments at each point; NULL: segment i runs from point i to the next
     uint32_t *around;
     uint32_t *below; // of the point that is passed, in the record; or NULL
@@ -65,86 +54,13 @@ static void find_star(const sweep_line *s, uint32_t point, sweep_star *star)
     star->pair[1] = point > 0 ? point : s->count - 1;
 }
 
-static uint64_t priority(uint32_t segment)
-{
-    return tl_hash_mix(segment);
-}
-
-static void replace_child(sweep_line *s, uint32_t parent, uint32_t old, uint32_t item)
-{
-    if (parent == TL_NO_SEGMENT) {
-        s->root = item;
-    } else {
-        s->items[parent].child[s->items[parent].child[1] == old] = item;
-    }
-    if (item != TL_NO_SEGMENT) {
-        s->items[item].parent = parent;
-    }
-}
-
-// Rotates an item above its parent.
-static void rotate_up(sweep_line *s, uint32_t item)
-{
-    uint32_t parent = s->items[item].parent;
-    int side = s->items[parent].child[1] == item;
-    uint32_t inner = s->items[item].child[!side];
-    replace_child(s, s->items[parent].parent, parent, item);
-    s->items[parent].child[side] = inner;
-    if (inner != TL_NO_SEGMENT) {
-        s->items[inner].parent = parent;
-    }
-    s->items[item].child[!side] = parent;
-    s->items[parent].parent = item;
-}
-
-static bool is_indexed(uint32_t segment)
-{
-    return (priority(segment) & (INDEX_SHARE - 1)) == 0;
-}
-
-// Puts an item of the list into the treap, behind the next one below that is there: as the child of that, or of the
-// lowest of those beyond it.
-static void add_to_index(sweep_line *s, uint32_t item)
-{
-    sweep_item *i = &s->items[item];
-    uint32_t below = i->neighbour[0];
-    while (below != TL_NO_SEGMENT && !is_indexed(below)) {
-        below = s->items[below].neighbour[0];
-    }
-    i->child[0] = i->child[1] = TL_NO_SEGMENT;
-    i->parent = below;
-    int side = 1;
-    uint32_t beyond = below != TL_NO_SEGMENT ? s->items[below].child[1] : s->root;
-    for (; beyond != TL_NO_SEGMENT; beyond = s->items[beyond].child[0]) {
-        i->parent = beyond;
-        side = 0;
-    }
-    if (i->parent == TL_NO_SEGMENT) {
-        s->root = item;
-        return;
-    }
-    s->items[i->parent].child[side] = item;
-    while (i->parent != TL_NO_SEGMENT && priority(item) < priority(i->parent)) {
-        rotate_up(s, item);
-    }
-}
-
-static void take_out_of_index(sweep_line *s, uint32_t item)
-{
-    const sweep_item *i = &s->items[item];
-    while (i->child[0] != TL_NO_SEGMENT && i->child[1] != TL_NO_SEGMENT) {
-        rotate_up(s, priority(i->child[0]) < priority(i->child[1]) ? i->child[0] : i->child[1]);
-    }
-    replace_child(s, i->parent, item, i->child[0] != TL_NO_SEGMENT ? i->child[0] : i->child[1]);
-}
-
 // Puts an item between two that are neighbours now, either of which may be missing.
 static void insert_between(sweep_line *s, uint32_t item, uint32_t below, uint32_t above)
 {
-    sweep_item *i = &s->items[item];
+    tl_sweep_item *i = &s->items[item];
     i->neighbour[0] = below;
     i->neighbour[1] = above;
-    i->parent = TL_NO_SEGMENT;
+    i->parent = TL_NOT_INDEXED;
     if (below != TL_NO_SEGMENT) {
         s->items[below].neighbour[1] = item;
     } else {
@@ -153,16 +69,13 @@ static void insert_between(sweep_line *s, uint32_t item, uint32_t below, uint32_
     if (above != TL_NO_SEGMENT) {
         s->items[above].neighbour[0] = item;
     }
-    if (is_indexed(item)) {
-        add_to_index(s, item);
-    }
 }
 
 static void take_out(sweep_line *s, uint32_t item)
 {
-    sweep_item *i = &s->items[item];
-    if (is_indexed(item)) {
-        take_out_of_index(s, item);
+    tl_sweep_item *i = &s->items[item];
+    if (i->parent != TL_NOT_INDEXED) {
+        tl_sweep_index_remove(&s->index, item);
     }
     if (i->neighbour[0] != TL_NO_SEGMENT) {
         s->items[i->neighbour[0]].neighbour[1] = i->neighbour[1];
@@ -172,17 +85,17 @@ static void take_out(sweep_line *s, uint32_t item)
     if (i->neighbour[1] != TL_NO_SEGMENT) {
         s->items[i->neighbour[1]].neighbour[0] = i->neighbour[0];
     }
-    i->parent = NOT_ON_LINE;
+    i->parent = TL_NOT_ON_LINE;
 }
 
 // A segment on the line with a number near that of `item`, or TL_NO_SEGMENT.
 static uint32_t find_finger(const sweep_line *s, uint32_t item)
 {
     for (uint32_t reach = 1; reach <= FINGER_REACH; reach++) {
-        if (item >= reach && s->items[item - reach].parent != NOT_ON_LINE) {
+        if (item >= reach && s->items[item - reach].parent != TL_NOT_ON_LINE) {
             return item - reach;
         }
-        if (reach < s->count - item && s->items[item + reach].parent != NOT_ON_LINE) {
+        if (reach < s->count - item && s->items[item + reach].parent != TL_NOT_ON_LINE) {
             return item + reach;
         }
     }
@@ -215,7 +128,7 @@ static bool locate_near(const sweep_line *s, tl_lattice_point p, uint32_t item, 
 }
 
 // > 0: a segment on the line is below one from p to `target`; 0: it runs through p, or along that one.
-static int64_t side_of_segment(const sweep_item *i, tl_lattice_point p, tl_lattice_point target)
+static int64_t side_of_segment(const tl_sweep_item *i, tl_lattice_point p, tl_lattice_point target)
 {
     // On the left lies what is above.
     return tl_same_point(i->begin, p) ? tl_turn(p, i->end, target) : tl_turn(i->begin, i->end, p);
@@ -223,29 +136,31 @@ static int64_t side_of_segment(const sweep_item *i, tl_lattice_point p, tl_latti
 
 // The segments next below and above where one from p to `target` begins. False: one runs through p or along that
 // segment.
-static bool locate(const sweep_line *s, tl_lattice_point p, tl_lattice_point target, uint32_t around[2])
+static bool locate(sweep_line *s, tl_lattice_point p, tl_lattice_point target, uint32_t around[2])
 {
-    around[0] = TL_NO_SEGMENT;
-    for (uint32_t item = s->root; item != TL_NO_SEGMENT;) {
+    uint32_t indexed = TL_NO_SEGMENT; // the last one below in the tree
+    for (uint32_t item = s->index.root; item != TL_NO_SEGMENT;) {
         const int64_t side = side_of_segment(&s->items[item], p, target);
         if (side == 0) {
             return false;
         }
-        around[0] = side > 0 ? item : around[0];
+        indexed = side > 0 ? item : indexed;
         item = s->items[item].child[side > 0];
     }
-    uint32_t above = around[0] != TL_NO_SEGMENT ? s->items[around[0]].neighbour[1] : s->lowest;
-    for (; above != TL_NO_SEGMENT; above = s->items[above].neighbour[1]) {
-        const int64_t side = side_of_segment(&s->items[above], p, target);
-        if (side == 0) {
-            return false;
+    around[0] = indexed;
+    around[1] = indexed != TL_NO_SEGMENT ? s->items[indexed].neighbour[1] : s->lowest;
+    for (uint32_t steps = 1; around[1] != TL_NO_SEGMENT; steps++) {
+        const int64_t side = side_of_segment(&s->items[around[1]], p, target);
+        if (side <= 0) {
+            return side < 0;
         }
-        if (side < 0) {
-            break;
+        around[0] = around[1];
+        around[1] = s->items[around[1]].neighbour[1];
+        if (steps % INDEX_STEPS == 0) {
+            tl_sweep_index_add(&s->index, indexed, around[0]);
+            indexed = around[0];
         }
-        around[0] = above;
     }
-    around[1] = above;
     return true;
 }
 
@@ -255,8 +170,8 @@ static bool clash(const sweep_line *s, uint32_t below, uint32_t above)
     if (below == TL_NO_SEGMENT || above == TL_NO_SEGMENT) {
         return false;
     }
-    const sweep_item *i = &s->items[below];
-    const sweep_item *j = &s->items[above];
+    const tl_sweep_item *i = &s->items[below];
+    const tl_sweep_item *j = &s->items[above];
     tl_lattice_point a = i->begin, b = i->end, c = j->begin, d = j->end;
     if (tl_same_point(a, c) || tl_same_point(a, d) || tl_same_point(b, c) || tl_same_point(b, d)) {
         // Should they overlap, an end of one lies inside the other and is found there.
@@ -272,7 +187,7 @@ static uint32_t end_segments(sweep_line *s, const sweep_star *star, uint32_t aro
 {
     uint32_t ended = 0;
     for (uint32_t k = 0; k < star->count; k++) {
-        const sweep_item *i = &s->items[star->segments[k]];
+        const tl_sweep_item *i = &s->items[star->segments[k]];
         if (tl_same_point(i->end, star->point)) {
             around[0] = i->neighbour[0];
             around[1] = i->neighbour[1];
@@ -291,7 +206,7 @@ static bool runs_through(const sweep_line *s, uint32_t item, tl_lattice_point po
 // Where to put one of two segments that begin in a point, the other one being there. False: one runs along the other.
 static bool locate_beside(const sweep_line *s, uint32_t other, uint32_t item, uint32_t around[2])
 {
-    const sweep_item *o = &s->items[other];
+    const tl_sweep_item *o = &s->items[other];
     int64_t turn = tl_turn(o->begin, o->end, s->items[item].end);
     around[0] = turn > 0 ? other : o->neighbour[0];
     around[1] = turn > 0 ? o->neighbour[1] : other;
@@ -363,12 +278,12 @@ static bool pass_point(sweep_line *s, const tl_sort_item *point)
     return begin_segments(s, &star, around, ended > 0);
 }
 
-static void init_sweep_item(sweep_item *item, tl_lattice_point a, tl_lattice_point b)
+static void init_sweep_item(tl_sweep_item *item, tl_lattice_point a, tl_lattice_point b)
 {
     const bool forward = tl_is_swept_first(a, b);
     item->begin = forward ? a : b;
     item->end = forward ? b : a;
-    item->parent = NOT_ON_LINE;
+    item->parent = TL_NOT_ON_LINE;
 }
 
 // A counting sort of segments by point; first[] is shifted by one while it is filled.
@@ -398,8 +313,9 @@ static bool gather_stars(sweep_line *s, tl_arena *arena, uint32_t point_count, c
 static bool gather_sweep_segments(sweep_line *s, tl_arena *arena, const tl_lattice_point *points, uint32_t point_count,
                                   const tl_lattice_segment *segments, uint32_t count)
 {
-    s->items = TL_PUSH(arena, sweep_item, count);
-    s->root = s->lowest = TL_NO_SEGMENT;
+    s->items = TL_PUSH(arena, tl_sweep_item, count);
+    s->lowest = TL_NO_SEGMENT;
+    s->index = (tl_sweep_index){ s->items, TL_NO_SEGMENT, 0, 0 };
     s->count = count;
     s->first = s->around = NULL;
     if (s->items == NULL || (segments != NULL && !gather_stars(s, arena, point_count, segments))) {
