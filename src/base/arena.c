@@ -17,7 +17,7 @@
 #include <malloc.h>
 #endif
 
-enum { MIN_BLOCK_BYTES = 4 * 1024, LIVE_SHARE = 8, ARENA_ALIGNMENT = 64 };
+enum { MIN_BLOCK_BYTES = 4 * 1024, LIVE_SHARE = 8, ARENA_ALIGNMENT = 64, FIRST_ITEMS = 64 };
 
 struct tl_arena_block {
     tl_arena_block *older;
@@ -104,7 +104,7 @@ void tl_release_array(const tl_allocator *allocator, void *array, uint64_t count
 
 void *tl_grow_array(const tl_allocator *allocator, void *items, uint64_t *capacity, size_t size)
 {
-    uint64_t more = *capacity > 0 ? 2 * *capacity : 1024;
+    uint64_t more = *capacity > 0 ? 2 * *capacity : FIRST_ITEMS;
     void *grown = tl_allocate_array(allocator, more, size);
     if (grown != NULL) {
         if (*capacity > 0) {
