@@ -142,7 +142,7 @@ static bool is_degenerate(const tl_mesh_view *view, const uint32_t corners[3])
 }
 
 // Tasks drop degenerate triangles from blocks; what is left of these moves together afterwards.
-enum { BLOCK_TRIANGLES = 1 << 14, CLEAN_BATCH = 3 };
+enum { BLOCK_TRIANGLES = 1 << 11, CLEAN_BATCH = 3 };
 
 typedef struct cleaner {
     const tl_mesh_view *view;

@@ -24,8 +24,8 @@ static_assert(TL_BVH_HEURISTIC_DEPTH + 32 <= TL_SOUP_MAX_DEPTH,
 // The first part of the top ends where a range is a 64th of the whole.
 enum { TASK_SHARE = 64, MIN_TASK_REFS = 1024 };
 
-// A block takes a third of a millisecond; so many are run for each worker between two progress calls.
-enum { BLOCK_REFS = 4096, REF_BLOCK_BATCH = 64 };
+// A block takes less than a tenth of a millisecond; so many are run for each worker between two progress calls.
+enum { BLOCK_REFS = 1024, REF_BLOCK_BATCH = 64 };
 
 // A range of the level that is being split.
 typedef struct top_range {

@@ -22,11 +22,11 @@
 const uint8_t tl_soup_corner_slots[8][3] = { { 0, 1, 2 }, { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
                                              { 0, 2, 1 }, { 2, 1, 0 }, { 1, 0, 2 }, { 0, 1, 2 } };
 
-// The largest chunk, in triangles: its arrays take about 1.5 MB.
-enum { CHUNK_TRIANGLES = 1 << 14 };
+// The largest chunk, in triangles: its arrays take about 400 KB, and a mesh of a few thousand has work for two threads.
+enum { CHUNK_TRIANGLES = 1 << 12 };
 
 // A mesh is in no order when more than 1 / BORDER_SHARE of it is paired across borders.
-enum { BORDER_SHARE = 32 };
+enum { BORDER_SHARE = 16 };
 
 typedef struct pairing {
     const tl_mesh *mesh;
