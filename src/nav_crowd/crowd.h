@@ -215,6 +215,7 @@ typedef struct crowd_neighbor {
 #define CROWD_SEEN_YIELDS  4u
 #define CROWD_SEEN_STALLED 8u  ///< it walks, but is held up
 #define CROWD_SEEN_CLAIMS  16u ///< it has been held up for so long that it has the right of way
+#define CROWD_SEEN_CUT_OFF 32u ///< it walks as near to its goal as any path leads
 
 /// A uniform grid over the plan that repeats itself every `mask + 1` cells in both directions.
 typedef struct crowd_grid {

@@ -40,8 +40,9 @@ static uint32_t kind_of(const crowd_fields *a, uint32_t i)
     kind |= status == TL_NAV_AGENT_WALKING && a->stalled[i] > SEEN_STALLED_AFTER ? CROWD_SEEN_STALLED : 0;
     // Those who are shut off from their goals press on at a shut door for as long as it is shut: whoever wants to get
     // out from among them goes before them.
-    const bool leads_on = (a->flags[i] & CROWD_PARTIAL) == 0;
-    kind |= status == TL_NAV_AGENT_WALKING && leads_on && a->stalled[i] > CLAIM_AFTER ? CROWD_SEEN_CLAIMS : 0;
+    const bool is_cut_off = (a->flags[i] & CROWD_PARTIAL) != 0;
+    kind |= is_cut_off ? CROWD_SEEN_CUT_OFF : 0;
+    kind |= status == TL_NAV_AGENT_WALKING && !is_cut_off && a->stalled[i] > CLAIM_AFTER ? CROWD_SEEN_CLAIMS : 0;
     return kind;
 }
 

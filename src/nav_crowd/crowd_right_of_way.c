@@ -126,6 +126,13 @@ static bool walks_back_before(const crowd_view *view, uint32_t n, const float ah
            view->wanted_x[n] * ahead[0] + view->wanted_z[n] * ahead[1] < 0.0f;
 }
 
+// Those who are shut off go back and forth before a shut door for as long as it is shut: who claims the right of way
+// among them does not go with them, by which it would lose its claim.
+static bool takes_along(const crowd_seen_agent *own, const crowd_seen_agent *other)
+{
+    return (own->kind & CROWD_SEEN_CLAIMS) == 0 || (other->kind & CROWD_SEEN_CUT_OFF) == 0;
+}
+
 static crowd_traffic look_at_traffic(const crowd_step *step, uint32_t k, const crowd_outlook *look,
                                      const crowd_neighbor *neighbors, const crowd_view *view)
 {
@@ -148,7 +155,8 @@ static crowd_traffic look_at_traffic(const crowd_step *step, uint32_t k, const c
                          look->late ? view->wanted_z[n] : view->way_z[n] };
         const bool meets = (against >> n & 1u) != 0 && is_against(look->travel, its);
         if ((view->yields >> n & 1u) != 0) {
-            traffic.follows = traffic.follows || (!meets && walks_back_before(view, n, look->ahead));
+            traffic.follows = traffic.follows || (!meets && walks_back_before(view, n, look->ahead) &&
+                                                  takes_along(own, &crowd->seen.agents[neighbors[n].snapshot]));
         } else if (meets) {
             traffic.meets = true;
             if (!look->held) {
