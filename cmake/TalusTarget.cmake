@@ -8,6 +8,8 @@ function(talus_compile_options target)
         # Fused multiply-adds would make results depend on the compiler, and break the antisymmetry of edge functions.
         target_compile_options(${target} PRIVATE
             -ffp-contract=off
+            # Nothing reads errno, and a root that may set it has a branch beside it.
+            -fno-math-errno
             $<$<COMPILE_LANGUAGE:C>:-Wall -Wextra -Wshadow -Wconversion -Wmissing-prototypes -Wstrict-prototypes
             -Wdouble-promotion -Wvla -pedantic>)
         # A project that adds talus without choosing a build type would get it unoptimised, at a tenth of its speed.

@@ -115,6 +115,18 @@ static inline bool tl_f64x2_any(tl_f64x2 a, tl_f64x2 b, tl_f64x2 c, tl_f64x2 d)
     return (_mm_movemask_pd(a) | _mm_movemask_pd(b) | _mm_movemask_pd(c) | _mm_movemask_pd(d)) != 0;
 }
 
+/// { a[0], b[0] }.
+static inline tl_f64x2 tl_f64x2_lows(tl_f64x2 a, tl_f64x2 b)
+{
+    return _mm_unpacklo_pd(a, b);
+}
+
+/// { a[1], b[1] }.
+static inline tl_f64x2 tl_f64x2_highs(tl_f64x2 a, tl_f64x2 b)
+{
+    return _mm_unpackhi_pd(a, b);
+}
+
 /// { a[0] + a[1], b[0] + b[1] }.
 static inline tl_f64x2 tl_f64x2_pair_sums(tl_f64x2 a, tl_f64x2 b)
 {
@@ -278,6 +290,16 @@ static inline tl_f64x2 tl_f64x2_xy(tl_f64x2 a, tl_f64x2 b)
     return vcopyq_laneq_f64(b, 0, a, 0);
 }
 
+static inline tl_f64x2 tl_f64x2_lows(tl_f64x2 a, tl_f64x2 b)
+{
+    return vzip1q_f64(a, b);
+}
+
+static inline tl_f64x2 tl_f64x2_highs(tl_f64x2 a, tl_f64x2 b)
+{
+    return vzip2q_f64(a, b);
+}
+
 /// { a[0] + a[1], b[0] + b[1] }.
 static inline tl_f64x2 tl_f64x2_pair_sums(tl_f64x2 a, tl_f64x2 b)
 {
@@ -427,6 +449,16 @@ static inline tl_f64x2 tl_f64x2_yx(tl_f64x2 a, tl_f64x2 b)
 static inline tl_f64x2 tl_f64x2_xy(tl_f64x2 a, tl_f64x2 b)
 {
     return wasm_i64x2_shuffle(a, b, 0, 3);
+}
+
+static inline tl_f64x2 tl_f64x2_lows(tl_f64x2 a, tl_f64x2 b)
+{
+    return wasm_i64x2_shuffle(a, b, 0, 2);
+}
+
+static inline tl_f64x2 tl_f64x2_highs(tl_f64x2 a, tl_f64x2 b)
+{
+    return wasm_i64x2_shuffle(a, b, 1, 3);
 }
 
 static inline tl_f64x2 tl_f64x2_pair_sums(tl_f64x2 a, tl_f64x2 b)

@@ -166,6 +166,13 @@ static inline tl_f64x4 tl_f64x4_swap_halves(tl_f64x4 a)
     return _mm256_permute2f128_pd(a, a, 1);
 }
 
+/// The largest lane of each.
+static inline tl_f64x2 tl_f64x4_largest_of_two(tl_f64x4 a, tl_f64x4 b)
+{
+    const tl_f64x4 two = _mm256_max_pd(_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+    return _mm_max_pd(_mm256_castpd256_pd128(two), _mm256_extractf128_pd(two, 1));
+}
+
 static inline double tl_f64x4_get_x(tl_f64x4 a)
 {
     return _mm256_cvtsd_f64(a);

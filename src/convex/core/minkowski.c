@@ -226,16 +226,70 @@ static bool is_finite_pair(const tl_minkowski *pair, const tl_transform *pose_a,
     return isfinite(rotations + positions + radii) && corners_are_finite(pair->a) && corners_are_finite(pair->b);
 }
 
+// What support queries read first comes while the poses are computed.
+static TL_ALWAYS_INLINE void prefetch_shape(const tl_convex *shape)
+{
+    if (shape->kind == TL_CONVEX_HULL) {
+        tl_prefetch(tl_hull_vertices(shape->hull));
+    }
+}
+
+#if TL_HAS_F64X2
+
+static inline tl_f64x2 both(double p, double q)
+{
+    const double two[2] = { p, q };
+    return tl_f64x2_load(two);
+}
+
+static inline void store_row(double *row, double *next_row, tl_f64x2 x, tl_f64x2 y, tl_f64x2 z)
+{
+    tl_f64x2_store(row, tl_f64x2_lows(x, y));
+    tl_f64x2_store(next_row, tl_f64x2_highs(x, y));
+    row[2] = tl_f64x2_get_x(z);
+    next_row[2] = tl_f64x2_get_y(z);
+}
+
+// tl_frame_set of two rotations, one in each lane.
+static void set_rotations(tl_frame *frame_p, tl_quatd p, tl_frame *frame_q, tl_quatd q)
+{
+    const tl_f64x2 s = tl_f64x2_div(tl_f64x2_all(2.0), both(p.length_sq, q.length_sq)), one = tl_f64x2_all(1.0),
+                   qx = both(p.x, q.x), qy = both(p.y, q.y), qz = both(p.z, q.z), qw = both(p.w, q.w),
+                   x = tl_f64x2_mul(s, qx), y = tl_f64x2_mul(s, qy), z = tl_f64x2_mul(s, qz);
+    const tl_f64x2 xx = tl_f64x2_mul(x, qx), yy = tl_f64x2_mul(y, qy), zz = tl_f64x2_mul(z, qz),
+                   xy = tl_f64x2_mul(x, qy), xz = tl_f64x2_mul(x, qz), yz = tl_f64x2_mul(y, qz),
+                   xw = tl_f64x2_mul(x, qw), yw = tl_f64x2_mul(y, qw), zw = tl_f64x2_mul(z, qw);
+    store_row(&frame_p->rows[0].x, &frame_q->rows[0].x, tl_f64x2_sub(one, tl_f64x2_add(yy, zz)),
+              tl_f64x2_sub(xy, zw), tl_f64x2_add(xz, yw));
+    store_row(&frame_p->rows[1].x, &frame_q->rows[1].x, tl_f64x2_add(xy, zw),
+              tl_f64x2_sub(one, tl_f64x2_add(xx, zz)), tl_f64x2_sub(yz, xw));
+    store_row(&frame_p->rows[2].x, &frame_q->rows[2].x, tl_f64x2_sub(xz, yw), tl_f64x2_add(yz, xw),
+              tl_f64x2_sub(one, tl_f64x2_add(xx, yy)));
+}
+
+#else
+
+static void set_rotations(tl_frame *frame_p, tl_quatd p, tl_frame *frame_q, tl_quatd q)
+{
+    const tl_vec3d none = { 0.0, 0.0, 0.0 };
+    tl_frame_set(frame_p, p, none);
+    tl_frame_set(frame_q, q, none);
+}
+
+#endif
+
 bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, const tl_transform *pose_a, const tl_convex *b,
                        const tl_transform *pose_b)
 {
+    prefetch_shape(a);
+    prefetch_shape(b);
     const tl_quatd rotation_a = tl_quatd_from(pose_a->rotation), rotation_b = tl_quatd_from(pose_b->rotation);
     const tl_vec3d position_a = tl_vec3d_from(pose_a->position), position_b = tl_vec3d_from(pose_b->position);
     pair->a = a;
     pair->b = b;
-    tl_frame_set(&pair->a_to_world, rotation_a, position_a);
-    tl_frame_set(&pair->b_to_a, tl_quatd_between(rotation_a, rotation_b),
-                 tl_frame_rotate_back(&pair->a_to_world, tl_vec3d_sub(position_b, position_a)));
+    set_rotations(&pair->a_to_world, rotation_a, &pair->b_to_a, tl_quatd_between(rotation_a, rotation_b));
+    pair->a_to_world.origin = position_a;
+    pair->b_to_a.origin = tl_frame_rotate_back(&pair->a_to_world, tl_vec3d_sub(position_b, position_a));
     pair->origin_size = tl_vec3d_size(pair->b_to_a.origin);
     pair->scale = 0.0;
     pair->depth_steps = UINT32_MAX;

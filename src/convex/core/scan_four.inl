@@ -76,8 +76,13 @@ void TL_SCAN_REACH(const tl_vec3 *points, uint32_t count, const tl_vec3d *direct
         most = tl_f64x4_max(most, four_dots(first, p));
         most_second = tl_f64x4_max(most_second, four_dots(second, p));
     }
-    reach[direction_count - 1] = tl_f64x4_get_x(four_largest(most_second)) + 0.0;
-    reach[0] = tl_f64x4_get_x(four_largest(most)) + 0.0;
+    // Both at once: compilers read them as one vector, which would wait for two numbers that were stored one by one.
+    const tl_f64x2 both = tl_f64x2_add(tl_f64x4_largest_of_two(most, most_second), tl_f64x2_all(0.0));
+    if (direction_count == 2) {
+        tl_f64x2_store(reach, both);
+    } else {
+        *reach = tl_f64x2_get_x(both);
+    }
 }
 
 double TL_SCAN_IMAGE_SQ(const tl_vec3 *points, uint32_t count, const tl_frame *map)
