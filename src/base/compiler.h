@@ -10,7 +10,7 @@
 /// TL_ALWAYS_INLINE: a kernel's values must stay in registers over its parts. TL_NOINLINE: its stack is its own.
 /// TL_KEEP_BRANCH behind an assignment to `value`: the branch that leads there stays one. Compilers like to make a
 /// conditional move of it, which waits for the condition where a branch is predicted.
-/// TL_KEEP_VECTOR: `value`, of an SSE type, is in a register here, as it was loaded.
+/// TL_KEEP_VECTOR: `value`, of an SSE type or a double, is in a register here, as it was loaded.
 #if defined(__GNUC__) || defined(__clang__)
 #define TL_ALWAYS_INLINE      inline __attribute__((always_inline))
 #define TL_NOINLINE           __attribute__((noinline))

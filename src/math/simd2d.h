@@ -26,6 +26,11 @@ static inline tl_f64x2 tl_f64x2_all(double value)
     return _mm_set1_pd(value);
 }
 
+static inline tl_f64x2 tl_f64x2_of_two(double x, double y)
+{
+    return _mm_set_pd(y, x);
+}
+
 static inline tl_f64x2 tl_f64x2_load(const double *two)
 {
     return _mm_loadu_pd(two);
@@ -171,6 +176,11 @@ typedef float64x2_t tl_f64x2;
 static inline tl_f64x2 tl_f64x2_all(double value)
 {
     return vdupq_n_f64(value);
+}
+
+static inline tl_f64x2 tl_f64x2_of_two(double x, double y)
+{
+    return vsetq_lane_f64(y, vdupq_n_f64(x), 1);
 }
 
 static inline tl_f64x2 tl_f64x2_load(const double *two)
@@ -338,6 +348,11 @@ typedef v128_t tl_f64x2;
 static inline tl_f64x2 tl_f64x2_all(double value)
 {
     return wasm_f64x2_splat(value);
+}
+
+static inline tl_f64x2 tl_f64x2_of_two(double x, double y)
+{
+    return wasm_f64x2_make(x, y);
 }
 
 static inline tl_f64x2 tl_f64x2_load(const double *two)

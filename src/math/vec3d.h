@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_MATH_VEC3D_H
 #define TALUS_SRC_MATH_VEC3D_H
 
-#include "base/exact_floats.h"
+#include "base/compiler.h"
 
 #include <talus/vec.h>
 
@@ -16,6 +16,19 @@ typedef struct tl_vec3d {
 static inline tl_vec3d tl_vec3d_make(double x, double y, double z)
 {
     tl_vec3d r = { x, y, z };
+    return r;
+}
+
+// Loads three numbers one by one. Compilers make a vector of two of them, and a load of two that were stored apart, or
+// each with another neighbour, waits until both stores are done: a dozen cycles.
+static inline tl_vec3d tl_vec3d_load_apart(const tl_vec3d *a)
+{
+    tl_vec3d r = *a;
+#if defined(__SSE2__)
+    TL_KEEP_VECTOR(r.x);
+    TL_KEEP_VECTOR(r.y);
+    TL_KEEP_VECTOR(r.z);
+#endif
     return r;
 }
 

@@ -53,8 +53,40 @@ static void test_matches_brute_force(void **state)
     TEST_CHECK(cases > 80 && converged == cases && worst < 2e-6);
 }
 
+// The witnesses are those of a moved pair; what a query has placed before does not move along.
+static void test_placed_hulls_move(void **state)
+{
+    (void)state;
+    test_random random = { 62 };
+    for (int i = 0; i < 200; i++) {
+        tl_vec3 points[2][8];
+        tl_hull *hulls[2];
+        for (int side = 0; side < 2; side++) {
+            for (int k = 0; k < 8; k++) {
+                points[side][k] = test_random_direction(&random);
+            }
+            TEST_CHECK(tl_hull_bake(points[side], 8, NULL, &hulls[side], NULL) == TL_OK);
+        }
+        const tl_convex a = tl_convex_from_hull(hulls[0], 0.0f), b = tl_convex_from_hull(hulls[1], 0.0f);
+        const tl_transform pose = tl_transform_identity();
+        tl_minkowski pair;
+        tl_core_depth depth;
+        TEST_CHECK(tl_minkowski_init(&pair, &a, &pose, &b, &pose));
+        tl_minkowski_place_hulls(&pair);
+        TEST_CHECK(pair.is_placed);
+        memset(&depth, 0, sizeof depth);
+        depth.upper = 4.0;
+        tl_direction_search(&pair, &depth);
+        const tl_vec3d apart = tl_vec3d_sub(depth.on_a, depth.on_b);
+        TEST_CHECK(tl_vec3d_length(tl_vec3d_mul_add(apart, depth.normal, -depth.upper)) < 1e-5);
+        tl_blob_free(hulls[0]);
+        tl_blob_free(hulls[1]);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_matches_brute_force) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_matches_brute_force),
+                                        cmocka_unit_test(test_placed_hulls_move) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -142,10 +142,42 @@ static void a_decision_ends_early(void **state)
     TEST_CHECK(below > 500 && above > 500 && steps < all_steps);
 }
 
+static tl_transform random_pose(test_random *random)
+{
+    const tl_vec3 low = tl_vec3_make(-9, -9, -9), high = tl_vec3_make(9, 9, 9),
+                  axis = test_random_point(random, low, high);
+    tl_transform pose = { { axis.x, axis.y, axis.z, test_random_range(random, -9.0f, 9.0f) },
+                          test_random_point(random, low, high) };
+    if (test_random_below(random, 8) == 0) {
+        pose.rotation = (tl_quat){ 0, 0, 0, 0 };
+    }
+    return pose;
+}
+
+static void frames_are_those_of_one_pose_at_a_time(void **state)
+{
+    (void)state;
+    test_random random = { 29 };
+    const tl_convex point = tl_convex_sphere(tl_vec3_make(0, 0, 0), 0.0f);
+    for (int round = 0; round < 20000; round++) {
+        const tl_transform pose_a = random_pose(&random), pose_b = random_pose(&random);
+        const tl_quatd a = tl_quatd_from(pose_a.rotation), b = tl_quatd_from(pose_b.rotation);
+        tl_minkowski pair;
+        TEST_CHECK(tl_minkowski_init(&pair, &point, &pose_a, &point, &pose_b));
+        tl_frame to_world, b_to_a;
+        tl_frame_set(&to_world, a, tl_vec3d_from(pose_a.position));
+        tl_frame_set(&b_to_a, tl_quatd_between(a, b),
+                     tl_frame_rotate_back(&to_world, tl_vec3d_sub(tl_vec3d_from(pose_b.position), to_world.origin)));
+        TEST_CHECK(memcmp(&pair.a_to_world, &to_world, sizeof to_world) == 0);
+        TEST_CHECK(memcmp(&pair.b_to_a, &b_to_a, sizeof b_to_a) == 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(supports_are_the_farthest_differences),
                                         cmocka_unit_test(bounds_prove_themselves),
-                                        cmocka_unit_test(a_decision_ends_early) };
+                                        cmocka_unit_test(a_decision_ends_early),
+                                        cmocka_unit_test(frames_are_those_of_one_pose_at_a_time) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

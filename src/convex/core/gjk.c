@@ -41,6 +41,7 @@ static void start_walk(tl_minkowski *pair, const tl_simplex_cache *cache, tl_gjk
     gjk->overlap = false;
     gjk->iterations = 0;
     if (cache == NULL || !start_from_cache(pair, cache, &gjk->simplex)) {
+        tl_minkowski_place_hulls(pair);
         tl_minkowski_support(pair, tl_vec3d_neg(tl_minkowski_offset(pair)), &gjk->simplex.points[0]);
         gjk->simplex.count = 1;
         gjk->simplex.weights[0] = 1.0;
@@ -103,6 +104,7 @@ void tl_gjk_run(tl_minkowski *pair, tl_simplex_cache *cache, double decide_at, t
 {
     start_walk(pair, cache, gjk);
     while (gjk_step(pair, decide_at, gjk)) {
+        tl_minkowski_place_hulls(pair);
         if (++gjk->iterations == TL_MAX_GJK_ITERATIONS) {
             gjk->status = TL_CONVEX_ITERATIONS;
             break;

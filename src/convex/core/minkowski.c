@@ -202,14 +202,16 @@ void tl_minkowski_set_hints(tl_minkowski *pair, uint32_t vertex_a, uint32_t vert
     set_hints(pair, vertex_a, vertex_b);
 }
 
-// Of what a shape holds itself, by the exponents: they have all bits set in what is not finite.
-static bool corners_are_finite(const tl_convex *shape)
+// What shapes hold themselves, by the exponents: they have all bits set in what is not finite.
+static bool corners_are_finite(const tl_convex *a, const tl_convex *b)
 {
-    uint32_t bits[9], full = 0;
-    static_assert(sizeof bits == sizeof shape->corners, "three points");
-    memcpy(bits, shape->corners, sizeof bits);
-    for (int i = 0; i < 9; i++) {
-        full |= (bits[i] & 0x7fffffffu) + 0x00800000u;
+    static_assert(sizeof a->corners == 9 * sizeof(uint32_t), "three points");
+    uint32_t full = 0;
+    for (size_t i = 0; i < 9; i++) {
+        uint32_t of_a, of_b;
+        memcpy(&of_a, (const char *)a->corners + 4 * i, sizeof of_a);
+        memcpy(&of_b, (const char *)b->corners + 4 * i, sizeof of_b);
+        full |= ((of_a & 0x7fffffffu) + 0x00800000u) | ((of_b & 0x7fffffffu) + 0x00800000u);
     }
     return (full & 0x80000000u) == 0;
 }
@@ -223,7 +225,7 @@ static bool is_finite_pair(const tl_minkowski *pair, const tl_transform *pose_a,
     const double rotations = pair->b_to_a.rows[0].x + ((double)pose_a->rotation.w + (double)pose_b->rotation.w),
                  positions = pair->origin_size + (origin.x + origin.y + origin.z),
                  radii = (double)pair->a->radius + (double)pair->b->radius;
-    return isfinite(rotations + positions + radii) && corners_are_finite(pair->a) && corners_are_finite(pair->b);
+    return isfinite(rotations + positions + radii) && corners_are_finite(pair->a, pair->b);
 }
 
 // What support queries read first comes while the poses are computed.
@@ -234,46 +236,60 @@ static TL_ALWAYS_INLINE void prefetch_shape(const tl_convex *shape)
     }
 }
 
-#if TL_HAS_F64X2
+#if TL_HAS_F64X2 && !defined(__wasm__) // whose module is downloaded: one by one takes fewer bytes
 
-static inline tl_f64x2 both(double p, double q)
-{
-    const double two[2] = { p, q };
-    return tl_f64x2_load(two);
-}
+// The elements of a frame are stored by twos, in their order, as compilers load them again: a load of two numbers that
+// were stored apart waits for both stores.
+static_assert(sizeof(tl_frame) == 12 * sizeof(double), "six times two");
 
-static inline void store_row(double *row, double *next_row, tl_f64x2 x, tl_f64x2 y, tl_f64x2 z)
+static inline void store_frame(double *frame, const tl_f64x2 rows[4], double last, tl_vec3d origin)
 {
-    tl_f64x2_store(row, tl_f64x2_lows(x, y));
-    tl_f64x2_store(next_row, tl_f64x2_highs(x, y));
-    row[2] = tl_f64x2_get_x(z);
-    next_row[2] = tl_f64x2_get_y(z);
+    for (int i = 0; i < 4; i++) {
+        tl_f64x2_store(frame + 2 * i, rows[i]);
+    }
+    tl_f64x2_store(frame + 8, tl_f64x2_of_two(last, origin.x));
+    tl_f64x2_store(frame + 10, tl_f64x2_of_two(origin.y, origin.z));
 }
 
 // tl_frame_set of two rotations, one in each lane.
-static void set_rotations(tl_frame *frame_p, tl_quatd p, tl_frame *frame_q, tl_quatd q)
+static void set_frames(tl_minkowski *pair, tl_quatd p, tl_quatd q, tl_vec3d position, tl_vec3d offset)
 {
-    const tl_f64x2 s = tl_f64x2_div(tl_f64x2_all(2.0), both(p.length_sq, q.length_sq)), one = tl_f64x2_all(1.0),
-                   qx = both(p.x, q.x), qy = both(p.y, q.y), qz = both(p.z, q.z), qw = both(p.w, q.w),
-                   x = tl_f64x2_mul(s, qx), y = tl_f64x2_mul(s, qy), z = tl_f64x2_mul(s, qz);
+    const tl_f64x2 s = tl_f64x2_div(tl_f64x2_all(2.0), tl_f64x2_of_two(p.length_sq, q.length_sq)),
+                   one = tl_f64x2_all(1.0), qx = tl_f64x2_of_two(p.x, q.x), qy = tl_f64x2_of_two(p.y, q.y),
+                   qz = tl_f64x2_of_two(p.z, q.z), qw = tl_f64x2_of_two(p.w, q.w), x = tl_f64x2_mul(s, qx),
+                   y = tl_f64x2_mul(s, qy), z = tl_f64x2_mul(s, qz);
     const tl_f64x2 xx = tl_f64x2_mul(x, qx), yy = tl_f64x2_mul(y, qy), zz = tl_f64x2_mul(z, qz),
                    xy = tl_f64x2_mul(x, qy), xz = tl_f64x2_mul(x, qz), yz = tl_f64x2_mul(y, qz),
                    xw = tl_f64x2_mul(x, qw), yw = tl_f64x2_mul(y, qw), zw = tl_f64x2_mul(z, qw);
-    store_row(&frame_p->rows[0].x, &frame_q->rows[0].x, tl_f64x2_sub(one, tl_f64x2_add(yy, zz)),
-              tl_f64x2_sub(xy, zw), tl_f64x2_add(xz, yw));
-    store_row(&frame_p->rows[1].x, &frame_q->rows[1].x, tl_f64x2_add(xy, zw),
-              tl_f64x2_sub(one, tl_f64x2_add(xx, zz)), tl_f64x2_sub(yz, xw));
-    store_row(&frame_p->rows[2].x, &frame_q->rows[2].x, tl_f64x2_sub(xz, yw), tl_f64x2_add(yz, xw),
-              tl_f64x2_sub(one, tl_f64x2_add(xx, yy)));
+    const tl_f64x2 e[9] = {
+        tl_f64x2_sub(one, tl_f64x2_add(yy, zz)), tl_f64x2_sub(xy, zw), tl_f64x2_add(xz, yw), tl_f64x2_add(xy, zw),
+        tl_f64x2_sub(one, tl_f64x2_add(xx, zz)), tl_f64x2_sub(yz, xw), tl_f64x2_sub(xz, yw), tl_f64x2_add(yz, xw),
+        tl_f64x2_sub(one, tl_f64x2_add(xx, yy))
+    };
+    tl_f64x2 rows_p[4], rows_q[4];
+    double first[9];
+    for (int i = 0; i < 4; i++) {
+        rows_p[i] = tl_f64x2_lows(e[2 * i], e[2 * i + 1]);
+        rows_q[i] = tl_f64x2_highs(e[2 * i], e[2 * i + 1]);
+    }
+    for (int i = 0; i < 9; i++) {
+        first[i] = tl_f64x2_get_x(e[i]);
+    }
+    const tl_vec3d turned_back = { first[0] * offset.x + first[3] * offset.y + first[6] * offset.z,
+                                   first[1] * offset.x + first[4] * offset.y + first[7] * offset.z,
+                                   first[2] * offset.x + first[5] * offset.y + first[8] * offset.z };
+    store_frame(&pair->a_to_world.rows[0].x, rows_p, first[8], position);
+    store_frame(&pair->b_to_a.rows[0].x, rows_q, tl_f64x2_get_y(e[8]), turned_back);
+    pair->origin_size = tl_vec3d_size(turned_back);
 }
 
 #else
 
-static void set_rotations(tl_frame *frame_p, tl_quatd p, tl_frame *frame_q, tl_quatd q)
+static void set_frames(tl_minkowski *pair, tl_quatd p, tl_quatd q, tl_vec3d position, tl_vec3d offset)
 {
-    const tl_vec3d none = { 0.0, 0.0, 0.0 };
-    tl_frame_set(frame_p, p, none);
-    tl_frame_set(frame_q, q, none);
+    tl_frame_set(&pair->a_to_world, p, position);
+    tl_frame_set(&pair->b_to_a, q, tl_frame_rotate_back(&pair->a_to_world, offset));
+    pair->origin_size = tl_vec3d_size(pair->b_to_a.origin);
 }
 
 #endif
@@ -287,17 +303,34 @@ bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, const tl_transfor
     const tl_vec3d position_a = tl_vec3d_from(pose_a->position), position_b = tl_vec3d_from(pose_b->position);
     pair->a = a;
     pair->b = b;
-    set_rotations(&pair->a_to_world, rotation_a, &pair->b_to_a, tl_quatd_between(rotation_a, rotation_b));
-    pair->a_to_world.origin = position_a;
-    pair->b_to_a.origin = tl_frame_rotate_back(&pair->a_to_world, tl_vec3d_sub(position_b, position_a));
-    pair->origin_size = tl_vec3d_size(pair->b_to_a.origin);
+    set_frames(pair, rotation_a, tl_quatd_between(rotation_a, rotation_b), position_a,
+               tl_vec3d_sub(position_b, position_a));
     pair->scale = 0.0;
     pair->depth_steps = UINT32_MAX;
+    pair->is_placed = false;
     if (!is_finite_pair(pair, pose_a, pose_b)) {
         return false;
     }
     set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
     return true;
+}
+
+static bool has_few_vertices(const tl_convex *shape)
+{
+    return shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count <= 8;
+}
+
+void tl_minkowski_place_hulls(tl_minkowski *pair)
+{
+    if (!pair->is_placed && has_few_vertices(pair->a) && has_few_vertices(pair->b)) {
+        const tl_hull *a = pair->a->hull, *b = pair->b->hull;
+        const tl_vertex_row row_a = { tl_hull_vertices(a), a->vertex_count },
+                            row_b = { tl_hull_vertices(b), b->vertex_count };
+        const double scale = tl_hull_size(a) + tl_hull_size(b) + pair->origin_size;
+        tl_placed_pair_set(&pair->placed, row_a, row_b, &pair->b_to_a);
+        pair->is_placed = true;
+        pair->scale = scale > pair->scale ? scale : pair->scale;
+    }
 }
 
 tl_vec3d tl_minkowski_offset(const tl_minkowski *pair)
@@ -309,13 +342,22 @@ tl_vec3d tl_minkowski_offset(const tl_minkowski *pair)
 // Sets w from the point of B in B's frame.
 static TL_ALWAYS_INLINE void finish_point(tl_minkowski *pair, tl_vec3d on_b, tl_minkowski_point *point)
 {
-    point->w = tl_vec3d_sub(point->a, tl_frame_point(&pair->b_to_a, on_b));
+    const tl_vec3d origin = tl_vec3d_load_apart(&pair->b_to_a.origin);
+    point->w = tl_vec3d_sub(point->a, tl_vec3d_add(tl_frame_rotate(&pair->b_to_a, on_b), origin));
     double scale = tl_vec3d_size(point->a) + tl_vec3d_size(on_b) + pair->origin_size;
     pair->scale = scale > pair->scale ? scale : pair->scale;
 }
 
 void tl_minkowski_support(tl_minkowski *pair, tl_vec3d direction, tl_minkowski_point *point)
 {
+    if (pair->is_placed) {
+        const uint32_t at = tl_placed_pair_support(&pair->placed, direction.x, direction.y, direction.z);
+        point->a = tl_placed_point(&pair->placed.a, at >> 3);
+        point->w = tl_vec3d_sub(point->a, tl_placed_point(&pair->placed.b, at & 7u));
+        point->vertex_a = tl_placed_vertex(&pair->placed.a, at >> 3);
+        point->vertex_b = tl_placed_vertex(&pair->placed.b, at & 7u);
+        return;
+    }
     tl_vec3d direction_b = tl_frame_rotate_back(&pair->b_to_a, tl_vec3d_neg(direction)), on_b;
     support_of(pair, pair->a, &direction, &pair->last_a, &point->a);
     support_of(pair, pair->b, &direction_b, &pair->last_b, &on_b);
@@ -370,7 +412,7 @@ static TL_ALWAYS_INLINE void reach_along(tl_minkowski *pair, const tl_vec3d *nor
         tl_vec3d back[2];
         double reach_a[2], reach_b[2];
         for (int k = 0; k < directions; k++) {
-            back[k] = tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, normals[k]));
+            back[k] = tl_vec3d_neg(tl_frame_rotate_back(&pair->b_to_a, tl_vec3d_load_apart(&normals[k])));
         }
         double scale = small_reach(pair->a, normals, directions, reach_a) +
                        small_reach(pair->b, back, directions, reach_b) + pair->origin_size;

@@ -6,7 +6,7 @@
 #ifndef TALUS_SRC_CONVEX_MINKOWSKI_H
 #define TALUS_SRC_CONVEX_MINKOWSKI_H
 
-#include "convex/core/scan_four.h"
+#include "convex/core/placed_pair.h"
 
 #include <talus/convex.h>
 
@@ -30,6 +30,8 @@ typedef struct tl_minkowski {
     uint32_t last_a, last_b; // hints
     uint32_t scan_limit;     // hulls of so many vertices are scanned, whatever the hint
     uint32_t depth_steps;    // budget of the search for a depth
+    bool is_placed;          // `placed` is set
+    tl_placed_pair placed;
 } tl_minkowski;
 
 // False when a pose or what a shape holds itself is not finite; the pair is of no use then.
@@ -39,6 +41,16 @@ bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, const tl_transfor
 // Vertices that are likely to be the next support points, or TL_NO_VERTEX for both. Where a hint is right it is faster
 // than any scan.
 void tl_minkowski_set_hints(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_b);
+
+// For queries that ask for several support points: places the vertices of hulls that have few.
+void tl_minkowski_place_hulls(tl_minkowski *pair);
+
+// Moves B, along A's axes.
+static inline void tl_minkowski_shift(tl_minkowski *pair, tl_vec3d by)
+{
+    pair->b_to_a.origin = tl_vec3d_add(pair->b_to_a.origin, by);
+    pair->is_placed = false;
+}
 
 // From the middle of B to the middle of A, roughly; any direction but zero when they coincide.
 tl_vec3d tl_minkowski_offset(const tl_minkowski *pair);

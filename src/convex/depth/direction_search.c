@@ -198,7 +198,7 @@ static void find_search_witness(const direction_search *s)
     tl_vec3d out = tl_vec3d_scale(depth->normal, depth->upper + SEARCH_DEPTH_GAP * s->reach);
     tl_minkowski moved = *s->pair;
     tl_gjk gjk;
-    moved.b_to_a.origin = tl_vec3d_add(moved.b_to_a.origin, out);
+    tl_minkowski_shift(&moved, out);
     tl_gjk_run(&moved, NULL, -1.0, &gjk);
     tl_simplex_witness(&gjk.simplex, &depth->on_a, &depth->on_b);
     depth->on_b = tl_vec3d_sub(depth->on_b, out);
