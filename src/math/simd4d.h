@@ -193,6 +193,12 @@ static inline tl_f64x4 tl_f64x4_load(const double *four)
     return _mm256_loadu_pd(four);
 }
 
+/// The same of what was just stored by twos, or compilers copy by twos: one load of both would wait for both stores.
+static inline tl_f64x4 tl_f64x4_load_twos(const double *four)
+{
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(four)), _mm_loadu_pd(four + 2), 1);
+}
+
 static inline void tl_f64x4_store(double *four, tl_f64x4 a)
 {
     _mm256_storeu_pd(four, a);
@@ -356,6 +362,11 @@ static inline tl_f64x4 tl_f64x4_load(const double *four)
 {
     tl_f64x4 r = { tl_f64x2_load(four), tl_f64x2_load(four + 2) };
     return r;
+}
+
+static inline tl_f64x4 tl_f64x4_load_twos(const double *four)
+{
+    return tl_f64x4_load(four);
 }
 
 static inline void tl_f64x4_store(double *four, tl_f64x4 a)
@@ -561,6 +572,11 @@ static inline tl_f64x4 tl_f64x4_load(const double *four)
     tl_f64x4 r;
     memcpy(r.v, four, sizeof r.v);
     return r;
+}
+
+static inline tl_f64x4 tl_f64x4_load_twos(const double *four)
+{
+    return tl_f64x4_load(four);
 }
 
 static inline void tl_f64x4_store(double *four, tl_f64x4 a)

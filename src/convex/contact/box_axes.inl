@@ -18,13 +18,13 @@ void TL_FIND_BOX_AXES(tl_box_axes *p)
 {
     tl_f64x4 turn[3], size[3], columns[3], column_sizes[3];
     for (int i = 0; i < 3; i++) {
-        turn[i] = tl_f64x4_load(p->turn[i]);
+        turn[i] = tl_f64x4_load_twos(p->turn[i]);
         size[i] = tl_f64x4_abs(turn[i]);
-        columns[i] = tl_f64x4_load(p->columns[i]);
+        columns[i] = tl_f64x4_load_twos(p->columns[i]);
         column_sizes[i] = tl_f64x4_abs(columns[i]);
     }
-    const tl_f64x4 half_a = tl_f64x4_load(p->half_a), half_b = tl_f64x4_load(p->half_b),
-                   apart = tl_f64x4_load(p->apart);
+    const tl_f64x4 half_a = tl_f64x4_load_twos(p->half_a), half_b = tl_f64x4_load_twos(p->half_b),
+                   apart = tl_f64x4_load_twos(p->apart);
     const tl_f64x4 faces_a = tl_f64x4_add(half_a, four_sum(column_sizes, p->half_b)),
                    faces_b = tl_f64x4_add(half_b, four_sum(size, p->half_a));
     tl_f64x4_store(p->depths[0], tl_f64x4_sub(faces_a, tl_f64x4_abs(apart)));

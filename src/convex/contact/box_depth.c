@@ -93,12 +93,18 @@ bool tl_box_of(const tl_convex *shape, tl_box *box)
     return true;
 }
 
+// By twos, as it is loaded.
 static void load_vector(tl_vec3d v, double out[4])
 {
+#if TL_HAS_F64X2
+    tl_f64x2_store(out, tl_f64x2_of_two(v.x, v.y));
+    tl_f64x2_store(out + 2, tl_f64x2_of_two(v.z, 0.0));
+#else
     out[0] = v.x;
     out[1] = v.y;
     out[2] = v.z;
     out[3] = 0.0;
+#endif
 }
 
 static void load_boxes(const tl_minkowski *pair, const tl_box *a, const tl_box *b, box_pair *p)
@@ -107,9 +113,10 @@ static void load_boxes(const tl_minkowski *pair, const tl_box *a, const tl_box *
     const tl_vec3d *rows = pair->b_to_a.rows;
     p->a = a;
     p->b = b;
-    load_vector(a->half, x->half_a);
-    load_vector(b->half, x->half_b);
-    load_vector(tl_vec3d_sub(tl_frame_point(&pair->b_to_a, b->middle), a->middle), x->apart);
+    load_vector(tl_vec3d_load_apart(&a->half), x->half_a);
+    load_vector(tl_vec3d_load_apart(&b->half), x->half_b);
+    const tl_vec3d middle = tl_vec3d_load_apart(&a->middle);
+    load_vector(tl_vec3d_sub(tl_frame_point(&pair->b_to_a, b->middle), middle), x->apart);
     for (int i = 0; i < 3; i++) {
         load_vector(rows[i], x->turn[i]);
     }

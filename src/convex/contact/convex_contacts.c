@@ -42,6 +42,17 @@ typedef struct contact_search {
     tl_patch patch;
 } contact_search;
 
+// Of numbers; fmin and fmax are calls, around which nothing stays in a register.
+static inline double least_of(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double most_of(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 static void add_deepest(tl_patch *patch, const tl_deepest *deepest)
 {
     tl_patch_point point = { tl_vec3d_dot(patch->u, deepest->on_a),          tl_vec3d_dot(patch->v, deepest->on_a),
@@ -64,23 +75,23 @@ static void raise_points(tl_patch *patch, double separation)
 // The corners of the patch, with the deepest point. False when that is neither among them nor known.
 static bool find_common_patch(contact_search *s, const tl_deepest *deepest)
 {
-    const tl_vec3d normal = deepest->normal;
+    const tl_vec3d normal = tl_vec3d_load_apart(&deepest->normal), back = tl_vec3d_neg(normal);
     const double gap = DEEPEST_GAP * s->pair.scale;
     tl_face face_a, face_b;
     tl_patch_start(&s->patch, normal);
-    if (!tl_face_along(s->pair.a, NULL, normal, &face_a) ||
-        !tl_face_along(s->pair.b, &s->pair.b_to_a, tl_vec3d_neg(normal), &face_b)) {
+    if (!tl_face_along(s->pair.a, NULL, &normal, &face_a) ||
+        !tl_face_along(s->pair.b, &s->pair.b_to_a, &back, &face_b)) {
         return deepest->has_points;
     }
-    double limit = fmin(deepest->separation + s->tolerance, s->margin + s->radii);
-    tl_patch_find(&face_a, &face_b, fmax(limit, deepest->separation + gap), s->cache, &s->patch);
-    double slack = deepest->has_points ? gap : fmax(gap, s->slack);
+    const double limit = least_of(deepest->separation + s->tolerance, s->margin + s->radii);
+    tl_patch_find(&face_a, &face_b, most_of(limit, deepest->separation + gap), s->cache, &s->patch);
+    double slack = deepest->has_points ? gap : most_of(gap, s->slack);
     const uint32_t lowest = s->patch.count > 0 ? tl_patch_lowest(&s->patch) : 0;
     if (s->patch.count > 0 && tl_patch_separation(&s->patch.points[lowest]) < deepest->separation - gap) {
         raise_points(&s->patch, deepest->separation);
     }
     if (s->patch.count > 0 && tl_patch_separation(&s->patch.points[lowest]) <= deepest->separation + slack) {
-        tl_patch_choose(&s->patch, lowest, fmax(gap, s->slack));
+        tl_patch_choose(&s->patch, lowest, most_of(gap, s->slack));
         return true;
     }
     if (!deepest->has_points) {
@@ -92,7 +103,7 @@ static bool find_common_patch(contact_search *s, const tl_deepest *deepest)
     }
     if (s->patch.count > 0) {
         add_deepest(&s->patch, deepest);
-        tl_patch_choose(&s->patch, s->patch.count - 1, fmax(gap, s->slack));
+        tl_patch_choose(&s->patch, s->patch.count - 1, most_of(gap, s->slack));
     }
     return true;
 }
@@ -411,8 +422,9 @@ uint32_t tl_convex_contacts_along(const tl_convex *a, tl_transform pose_a, const
     tl_face face_a, face_b;
     tl_patch_start(&s.patch, deepest.normal);
     if (-tl_vec3d_dot(deepest.normal, point.w) - s.radii <= s.margin &&
-        tl_face_along(a, NULL, deepest.normal, &face_a)) {
-        if (tl_face_along(b, &s.pair.b_to_a, tl_vec3d_neg(deepest.normal), &face_b)) {
+        tl_face_along(a, NULL, &deepest.normal, &face_a)) {
+        const tl_vec3d back = tl_vec3d_neg(deepest.normal);
+        if (tl_face_along(b, &s.pair.b_to_a, &back, &face_b)) {
             tl_patch_find(&face_a, &face_b, s.margin + s.radii, NULL, &s.patch);
         } else {
             meet_by_point(&s, &face_a, &point);

@@ -366,9 +366,9 @@ static bool find_edge(const tl_convex *shape, tl_vec3d d, tl_face *face)
     return face->count == 2;
 }
 
-bool tl_face_along(const tl_convex *shape, const tl_frame *frame, tl_vec3d direction, tl_face *face)
+bool tl_face_along(const tl_convex *shape, const tl_frame *frame, const tl_vec3d *direction, tl_face *face)
 {
-    tl_vec3d d = frame != NULL ? tl_frame_rotate_back(frame, direction) : direction;
+    tl_vec3d d = frame != NULL ? tl_frame_rotate_back(frame, *direction) : *direction;
     face->shape = shape;
     face->frame = frame;
     face->first = face->count = 0;

@@ -29,7 +29,7 @@ typedef struct tl_face {
 // face_along.c
 // The face of the shape whose normal is closest to the unit direction, or an edge where all faces are too steep. False
 // when there is neither.
-bool tl_face_along(const tl_convex *shape, const tl_frame *frame, tl_vec3d direction, tl_face *face_out);
+bool tl_face_along(const tl_convex *shape, const tl_frame *frame, const tl_vec3d *direction, tl_face *face_out);
 tl_vec3d tl_face_corner(const tl_face *face, uint32_t at);
 uint32_t tl_face_next(const tl_face *face, uint32_t at);
 uint32_t tl_face_previous(const tl_face *face, uint32_t at);

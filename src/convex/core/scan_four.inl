@@ -165,12 +165,11 @@ static inline tl_f64x4 four_minor(tl_f64x4 a, tl_f64x4 b, tl_f64x4 c, tl_f64x4 d
 }
 
 // The first of the faces that is as near as the least.
-static inline uint32_t first_nearest(const double *nearness, uint32_t count, tl_f64x4 least)
+static inline uint32_t first_nearest(const tl_f64x4 *fours, uint32_t count, tl_f64x4 least)
 {
     uint64_t mask = 0;
     for (uint32_t i = 0; i < count; i += 4) {
-        const uint32_t at = i + 4 <= count ? i : count - 4;
-        mask |= (uint64_t)tl_f64x4_equal(tl_f64x4_load(&nearness[at]), least) << at;
+        mask |= (uint64_t)tl_f64x4_equal(fours[i / 4], least) << (i + 4 <= count ? i : count - 4);
     }
     return mask != 0 && tl_f64x4_get_x(least) > 0.0 ? tl_lowest_bit(mask) : count;
 }
@@ -179,7 +178,8 @@ uint32_t TL_SCAN_NEAREST(const tl_placed_points *points, const uint8_t (*corners
                          double *nearness)
 {
     const tl_f64x4 turned_four = tl_f64x4_all(turned), zero = tl_f64x4_all(0.0);
-    tl_f64x4 least = tl_f64x4_all((double)INFINITY);
+    // Besides in `nearness`, where the last four lie over those before: a load of what two stores wrote waits for both.
+    tl_f64x4 fours[TL_KEPT_FACES / 4 + 1], least = tl_f64x4_all((double)INFINITY);
     for (uint32_t i = 0; i < count; i += 4) {
         const uint32_t at = i + 4 <= count ? i : count - 4; // of the last four some may be computed again
         const four_points last = corners_of_four(points, corners + at, 2),
@@ -191,10 +191,11 @@ uint32_t TL_SCAN_NEAREST(const tl_placed_points *points, const uint8_t (*corners
                        size = tl_f64x4_max(offset, tl_f64x4_sub(zero, offset)),
                        near_four = tl_f64x4_div(tl_f64x4_mul(offset, size), four_dots(normal, normal));
         tl_f64x4_store(&nearness[at], near_four);
+        fours[i / 4] = near_four;
         least = tl_f64x4_min(near_four, least);
     }
     least = tl_f64x4_min(least, tl_f64x4_swap_halves(least));
-    return first_nearest(nearness, count, tl_f64x4_min(least, tl_f64x4_swap_lanes(least)));
+    return first_nearest(fours, count, tl_f64x4_min(least, tl_f64x4_swap_lanes(least)));
 }
 
 static inline tl_f64x4 four_planes(const double *rows, uint32_t lanes, four_points d)

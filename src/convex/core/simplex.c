@@ -33,7 +33,7 @@ static void try_point(const tl_simplex *s, uint32_t i, tl_simplex_point *best)
 
 static void try_segment(const tl_simplex *s, uint32_t i, uint32_t j, tl_simplex_point *best)
 {
-    const tl_vec3d a = s->points[i].w, d = tl_vec3d_sub(s->points[j].w, a);
+    const tl_vec3d a = tl_vec3d_load_apart(&s->points[i].w), d = tl_vec3d_sub(tl_vec3d_load_apart(&s->points[j].w), a);
     double along = -tl_vec3d_dot(a, d), length_sq = tl_vec3d_dot(d, d);
     if (!(along > 0.0)) {
         try_point(s, i, best);
@@ -60,7 +60,8 @@ static void try_segment(const tl_simplex *s, uint32_t i, uint32_t j, tl_simplex_
 // `all`: the edge from i to j too.
 static void try_triangle(const tl_simplex *s, uint32_t i, uint32_t j, uint32_t k, bool all, tl_simplex_point *best)
 {
-    const tl_vec3d a = s->points[i].w, b = s->points[j].w, c = s->points[k].w;
+    const tl_vec3d a = tl_vec3d_load_apart(&s->points[i].w), b = tl_vec3d_load_apart(&s->points[j].w),
+                   c = tl_vec3d_load_apart(&s->points[k].w);
     tl_vec3d n = tl_vec3d_cross(tl_vec3d_sub(b, a), tl_vec3d_sub(c, a));
     double area_sq = tl_vec3d_dot(n, n);
     // Areas of the triangles that the foot of the origin makes with each edge, times the area.
@@ -168,7 +169,11 @@ void tl_simplex_keep(tl_simplex *simplex, const tl_simplex_point *nearest)
 {
     for (uint32_t i = 0; i < nearest->count; i++) {
         if (nearest->index[i] != i) { // ascending, so nothing is overwritten that is still wanted
-            simplex->points[i] = simplex->points[nearest->index[i]];
+            const tl_minkowski_point *from = &simplex->points[nearest->index[i]];
+            simplex->points[i].w = tl_vec3d_load_apart(&from->w);
+            simplex->points[i].a = tl_vec3d_load_apart(&from->a);
+            simplex->points[i].vertex_a = from->vertex_a;
+            simplex->points[i].vertex_b = from->vertex_b;
         }
         simplex->weights[i] = nearest->weight[i];
     }
@@ -188,8 +193,9 @@ void tl_simplex_witness(const tl_simplex *simplex, tl_vec3d *on_a_out, tl_vec3d 
     tl_vec3d on_a = tl_vec3d_make(0.0, 0.0, 0.0), on_b = on_a;
     for (uint32_t i = 0; i < simplex->count; i++) {
         const tl_minkowski_point *p = &simplex->points[i];
-        on_a = tl_vec3d_mul_add(on_a, p->a, simplex->weights[i]);
-        on_b = tl_vec3d_mul_add(on_b, tl_vec3d_sub(p->a, p->w), simplex->weights[i]);
+        const tl_vec3d a = tl_vec3d_load_apart(&p->a), w = tl_vec3d_load_apart(&p->w);
+        on_a = tl_vec3d_mul_add(on_a, a, simplex->weights[i]);
+        on_b = tl_vec3d_mul_add(on_b, tl_vec3d_sub(a, w), simplex->weights[i]);
     }
     *on_a_out = on_a;
     *on_b_out = on_b;

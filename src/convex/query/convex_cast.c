@@ -51,7 +51,7 @@ static void update_nearest(linear_cast *c)
     tl_simplex shifted; // of its points only w is read
     shifted.count = c->simplex.count;
     for (uint32_t i = 0; i < shifted.count; i++) {
-        shifted.points[i].w = tl_vec3d_mul_add(c->simplex.points[i].w, c->motion, -c->t);
+        shifted.points[i].w = tl_vec3d_mul_add(tl_vec3d_load_apart(&c->simplex.points[i].w), c->motion, -c->t);
     }
     tl_simplex_point nearest;
     tl_simplex_solve(&shifted, &nearest);
@@ -69,6 +69,7 @@ static void grow_size(linear_cast *c, const tl_minkowski_point *point)
 
 static void start_cast(linear_cast *c)
 {
+    tl_minkowski_place_hulls(c->pair);
     tl_minkowski_support(c->pair, tl_vec3d_neg(tl_minkowski_offset(c->pair)), &c->simplex.points[0]);
     c->simplex.count = 1;
     grow_size(c, &c->simplex.points[0]);
@@ -90,11 +91,11 @@ static cast_step advance_cast(linear_cast *c)
         c->normal = c->moved && c->radii == 0.0 ? c->normal : tl_vec3d_neg(u);
         return STEP_HIT;
     }
-    tl_minkowski_point point;
-    tl_minkowski_support(c->pair, tl_vec3d_neg(u), &point);
-    grow_size(c, &point);
+    tl_minkowski_point *point = &c->simplex.points[c->simplex.count]; // four of them have the origin inside
+    tl_minkowski_support(c->pair, tl_vec3d_neg(u), point);
+    grow_size(c, point);
     double slack = c->pair->direction_error + cast_noise(c);
-    double free = tl_vec3d_dot(u, tl_vec3d_mul_add(point.w, c->motion, -c->t)) - c->radii;
+    double free = tl_vec3d_dot(u, tl_vec3d_mul_add(point->w, c->motion, -c->t)) - c->radii;
     // Nothing comes nearer along this plane, and it separates the shapes; where they touch, to within rounding.
     if (closing <= 0.0 && free > (touches ? -slack : slack)) {
         return STEP_MISS;
@@ -109,12 +110,12 @@ static cast_step advance_cast(linear_cast *c)
         c->moved = true;
     }
     double before = c->distance;
-    bool known = tl_simplex_holds(&c->simplex, &point);
+    bool known = tl_simplex_holds(&c->simplex, point);
     if (known && !advanced) {
         return STEP_STUCK;
     }
     if (!known) {
-        c->simplex.points[c->simplex.count++] = point;
+        c->simplex.count++;
     }
     update_nearest(c);
     return advanced || c->inside || c->distance < before ? STEP_ON : STEP_STUCK;

@@ -30,7 +30,7 @@ void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex
         separation_out->point_a = separation_out->point_b = tl_minkowski_to_world(&pair, on_a);
         return;
     }
-    const tl_vec3d normal = gjk.normal;
+    const tl_vec3d normal = tl_vec3d_load_apart(&gjk.normal);
     double radii = (double)a->radius + (double)b->radius;
     separation_out->overlap = gjk.upper <= radii;
     separation_out->distance = gjk.upper > radii ? (float)(gjk.upper - radii) : 0.0f;
