@@ -49,6 +49,7 @@ typedef enum ray_family {
     FAMILY_AXES,     // directions in planes of the axes
     FAMILY_PARALLEL, // a direction, from a square
     FAMILY_LIGHT,    // a camera's, whose segments run the other way: to one place
+    FAMILY_PLACES,   // fans from places that change, so that rays of one octant and axis come from several
     FAMILY_CORNERS,  // aimed at corners and middles of edges from one point
     FAMILY_SPOILED,  // a camera's with short, wrong, long and tiny ones among them
     FAMILY_NOTHING,
@@ -104,6 +105,14 @@ static void make_rays(const model *m, tl_aabb box, ray_family family, uint64_t s
         case FAMILY_PARALLEL:
             direction = vec(turn, -1, 0.2f);
             origin = tl_add(eye, tl_scale(vec(x, 0, y), 0.02f * size));
+            break;
+        case FAMILY_PLACES:
+            if (i % 32 == 0) {
+                eye = test_random_point(&random, box.min, box.max);
+                side = tl_sub(test_random_point(&random, box.min, box.max), eye);
+            }
+            origin = eye;
+            direction = tl_scale(tl_mul_add(side, test_random_direction(&random), 0.03f * size), 2.0f / size);
             break;
         case FAMILY_CORNERS:
             direction = tl_sub(aimed_at(m, &random), eye);

@@ -368,9 +368,9 @@ static TL_NOINLINE void trace_packet(const tl_ray_batch *batch, bool one_origin,
     report_packet(batch, p);
 }
 
-// Rays that are coherent but for octant or axis wait for others of their kind. A batch has no more than 16 bits of
-// them.
-enum { PACKET_KINDS = 24 };
+// Rays that are coherent but for octant or axis wait for others of their kind: of the same octant and axis, traced from
+// the same end. A batch has no more than 16 bits of them.
+enum { PACKET_KINDS = 48 };
 
 typedef struct packet_sorter {
     uint32_t count[PACKET_KINDS];
@@ -392,22 +392,23 @@ static void trace_kind(const tl_ray_batch *batch, packet_sorter *sorter, uint32_
     for (uint32_t i = 0; i < count; i++) {
         p->index[i] = sorter->index[kind][i];
     }
-    load_packet(batch, count, p);
-    p->backward = kind & 7u;
-    p->axes = tl_ray_axes(1u << (kind >> 3));
+    load_packet(batch, count, kind % 2 != 0 ? END_SECOND : END_FIRST, p);
+    p->backward = kind >> 1 & 7u;
+    p->axes = tl_ray_axes(1u << (kind >> 4));
     trace_packet(batch, false, p);
 }
 
 static TL_NOINLINE void sort_packet(const tl_ray_batch *batch, packet_sorter *sorter, const packet_kind *kind)
 {
     uint32_t index[PACKET_RAYS]; // the packet's, which others take the place of
+    const uint32_t end = sorter->packet.from_target;
     memcpy(index, sorter->packet.index, sizeof index);
     for (uint32_t rays = sorter->packet.rays; rays != 0; rays &= rays - 1) {
         uint32_t lane = tl_lowest_bit(rays);
         uint32_t octant = (kind->backward[0] >> lane & 1u) | (kind->backward[1] >> lane & 1u) << 1 |
                           (kind->backward[2] >> lane & 1u) << 2;
         uint32_t axis = (kind->along[1] >> lane & 1u) | (kind->along[2] >> lane & 1u) << 1;
-        uint32_t which = axis << 3 | octant;
+        uint32_t which = axis << 4 | octant << 1 | end;
         sorter->index[which][sorter->count[which]++] = (uint16_t)index[lane];
         if (sorter->count[which] == PACKET_RAYS) {
             trace_kind(batch, sorter, which);
@@ -458,7 +459,7 @@ void TL_RAY_PACKETS(const tl_ray_batch *batch)
         for (uint32_t i = 0; i < count; i++) {
             sorter.packet.index[i] = first + i;
         }
-        load_packet(batch, count, &sorter.packet);
+        load_packet(batch, count, END_CLOSER, &sorter.packet);
         if (!trace_coherent(batch, &sorter)) {
             skipped = skipped < MAX_SKIPPED_GROUPS ? 2 * skipped + 1 : MAX_SKIPPED_GROUPS;
             skip = skipped;

@@ -34,6 +34,7 @@ typedef struct ray_packet {
     uint32_t doubt_count;
     uint32_t index[PACKET_RAYS]; // of the ray in the batch
     uint32_t rays;               // bits: lanes that hold one
+    bool from_target;            // segments are traced from their second end
     uint32_t alone;              // bits: rays to be traced alone
     uint32_t found;              // bits: rays of an any-hit query that hit something
     uint32_t pending, contested; // bits: rays that have a pending triangle, and those that have a rival to it
@@ -91,28 +92,31 @@ static TL_ALWAYS_INLINE float spread_of(const tl_f32x16 point[3])
     return tl_f32x16_largest(farthest);
 }
 
-// Sight is the same from both ends, so lines to one place, as to a light, are traced from there.
-static TL_ALWAYS_INLINE void begin_at_closer_ends(packet_vectors *v)
+static TL_ALWAYS_INLINE void swap_ends(packet_vectors *v)
 {
-    if (spread_of(v->target) < spread_of(v->origin)) {
-        for (uint32_t i = 0; i < 3; i++) {
-            tl_f32x16 origin = v->origin[i];
-            v->origin[i] = v->target[i];
-            v->target[i] = origin;
-        }
+    for (uint32_t i = 0; i < 3; i++) {
+        tl_f32x16 origin = v->origin[i];
+        v->origin[i] = v->target[i];
+        v->target[i] = origin;
     }
 }
 
+// The end from which a packet's rays are traced. Sight is the same from both, so lines to one place, as to a light, are
+// traced from there. Rays that were sorted by their octant keep the end that it was found for.
+typedef enum packet_end { END_FIRST, END_SECOND, END_CLOSER } packet_end;
+
 // Loads the rays of p->index, of which the first `count` are meant.
-static TL_ALWAYS_INLINE void load_packet(const tl_ray_batch *batch, uint32_t count, ray_packet *p)
+static TL_ALWAYS_INLINE void load_packet(const tl_ray_batch *batch, uint32_t count, packet_end end, ray_packet *p)
 {
     for (uint32_t i = count; i < PACKET_RAYS; i++) {
         p->index[i] = p->index[count - 1];
     }
     p->rays = (1u << count) - 1u;
     packet_vectors v = load_rays(batch, p->index);
-    if (batch->segments != NULL && batch->hits == NULL) {
-        begin_at_closer_ends(&v);
+    bool is_sight = batch->segments != NULL && batch->hits == NULL;
+    p->from_target = end == END_SECOND || (end == END_CLOSER && is_sight && spread_of(v.target) < spread_of(v.origin));
+    if (p->from_target) {
+        swap_ends(&v);
     }
     for (uint32_t i = 0; i < 3; i++) {
         tl_f32x16_store(p->origin[i], v.origin[i]);
