@@ -63,11 +63,12 @@ tl_result TL_JS_EXPORT(js_soup_check)(const void *bytes, uint32_t size)
 void TL_JS_EXPORT(js_soup_info)(const tl_soup *soup)
 {
     const tl_soup_stats s = tl_soup_get_stats(soup);
-    const double numbers[] = { (double)s.size,   s.source_triangle_count,
-                               s.triangle_count, s.pair_count,
-                               s.single_count,   s.reference_count,
-                               s.leaf_count,     s.node_count,
-                               s.depth,          s.layout };
+    const double numbers[] = { (double)s.size,    s.source_triangle_count,
+                               s.triangle_count,  s.pair_count,
+                               s.single_count,    s.reference_count,
+                               s.leaf_count,      s.node_count,
+                               s.depth,           s.layout,
+                               s.coincident_count };
     memcpy(tl_js_slot, numbers, sizeof numbers);
     tl_js_put_aabb(sizeof numbers / sizeof numbers[0], tl_soup_bounds(soup));
 }

@@ -172,7 +172,8 @@ static void print_bake_summary(const tl_pack_frame *frame, const bake_result *r)
     if (bake->soup != NULL) {
         tl_soup_stats stats = tl_soup_get_stats(bake->soup);
         printf("soup     %u triangles, %.1f%% paired, %.1f bytes a triangle\n", stats.triangle_count,
-               200.0 * stats.pair_count / stats.triangle_count, (double)stats.size / stats.triangle_count);
+               200.0 * stats.pair_count / (stats.triangle_count - stats.coincident_count),
+               (double)stats.size / stats.triangle_count);
     }
     if (bake->hull != NULL) {
         printf("hull     %u vertices, %u faces\n", bake->hull->vertex_count, bake->hull->face_count);
@@ -257,8 +258,9 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
     if (bake->soup != NULL) {
         tl_soup_stats stats = tl_soup_get_stats(bake->soup);
         json_object_set_new(object, "soup",
-                            json_pack("{sI sI sI sI}", "triangles", (json_int_t)stats.triangle_count, "pairs",
-                                      (json_int_t)stats.pair_count, "singles", (json_int_t)stats.single_count, "bytes",
+                            json_pack("{sI sI sI sI sI}", "triangles", (json_int_t)stats.triangle_count, "pairs",
+                                      (json_int_t)stats.pair_count, "singles", (json_int_t)stats.single_count,
+                                      "coincident", (json_int_t)stats.coincident_count, "bytes",
                                       (json_int_t)stats.size));
     }
     if (bake->hull != NULL) {

@@ -156,8 +156,11 @@ static void print_soup(const tl_soup *soup)
     tl_soup_stats s = tl_soup_get_stats(soup);
     double triangles = s.triangle_count;
     printf("soup       %u triangles, %.1f%% paired, %.1f bytes a triangle%s\n", s.triangle_count,
-           200.0 * s.pair_count / triangles, (double)s.size / triangles,
+           200.0 * s.pair_count / (triangles - s.coincident_count), (double)s.size / triangles,
            s.layout == TL_SOUP_COMPACT ? ", compact" : "");
+    if (s.coincident_count > 0) {
+        printf("           %u of them lie on another one, corner by corner\n", s.coincident_count);
+    }
     printf("           %u nodes, %u leaves, %u deep\n", s.node_count, s.leaf_count, s.depth);
 }
 
@@ -234,10 +237,11 @@ static void print_baked(const tl_input *input, const baked_info *info)
 static json_t *soup_json(const tl_pack_frame *frame, const tl_soup *soup)
 {
     tl_soup_stats s = tl_soup_get_stats(soup);
-    return json_pack("{ss sI sI sI so so sI sI sI sI so}", "layout", s.layout == TL_SOUP_COMPACT ? "compact" : "fast",
-                     "triangles", (json_int_t)s.triangle_count, "pairs", (json_int_t)s.pair_count, "singles",
-                     (json_int_t)s.single_count, "paired_share",
-                     tl_json_double(2.0 * s.pair_count / (double)s.triangle_count), "bytes_a_triangle",
+    const double share = 2.0 * s.pair_count / ((double)s.triangle_count - s.coincident_count);
+    return json_pack("{ss sI sI sI sI so so sI sI sI sI so}", "layout",
+                     s.layout == TL_SOUP_COMPACT ? "compact" : "fast", "triangles", (json_int_t)s.triangle_count,
+                     "pairs", (json_int_t)s.pair_count, "singles", (json_int_t)s.single_count, "coincident",
+                     (json_int_t)s.coincident_count, "paired_share", tl_json_double(share), "bytes_a_triangle",
                      tl_json_double((double)s.size / (double)s.triangle_count), "bytes", (json_int_t)s.size, "nodes",
                      (json_int_t)s.node_count, "leaves", (json_int_t)s.leaf_count, "depth", (json_int_t)s.depth,
                      "bounds", tl_json_placed_bounds(frame, tl_soup_bounds(soup)));

@@ -51,8 +51,8 @@ void draw_stage_soup(draw_scene *scene, const tl_soup *soup, uint32_t depth)
 
     snprintf(scene->subtitle, sizeof scene->subtitle,
              "%u triangles, %.1f%% of them in %u pairs; %u nodes, %.1f bytes a triangle; %u boxes down to depth %u",
-             stats.triangle_count, 200.0 * stats.pair_count / stats.triangle_count, stats.pair_count, stats.node_count,
-             (double)stats.size / stats.triangle_count, job.count, depth);
+             stats.triangle_count, 200.0 * stats.pair_count / (stats.triangle_count - stats.coincident_count),
+             stats.pair_count, stats.node_count, (double)stats.size / stats.triangle_count, job.count, depth);
     draw_add_legend(scene, draw_colour_mix(draw_colour_of_id(2), 0xffffff, 0.5f), "pair: first triangle");
     draw_add_legend(scene, draw_colour_mix(draw_colour_of_id(2), 0x8a8a90, 0.35f), "second triangle");
     draw_add_legend(scene, single, "single");

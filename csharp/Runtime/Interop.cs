@@ -746,6 +746,7 @@ namespace Talus.Interop
         public uint degenerate_triangles;
         public uint pair_count;
         public uint single_count;
+        public uint coincident_count;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -756,6 +757,7 @@ namespace Talus.Interop
         public uint triangle_count;
         public uint pair_count;
         public uint single_count;
+        public uint coincident_count;
         public uint reference_count;
         public uint leaf_count;
         public uint node_count;

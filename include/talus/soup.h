@@ -43,7 +43,9 @@ typedef struct tl_soup tl_soup;
 
 /// "tlsp" in memory.
 #define TL_SOUP_MAGIC   0x70736c74u
-#define TL_SOUP_VERSION 3u
+#define TL_SOUP_VERSION 4u
+/// The version of soups in which no triangles coincide: older readers open these too.
+#define TL_SOUP_VERSION_ALONE 3u
 
 /// The largest number of triangles of one view: an index shares a 32-bit word with four bits of its pair.
 #define TL_MAX_SOUP_TRIANGLES 0x0fffffffu
@@ -93,6 +95,7 @@ typedef struct tl_soup_report {
     uint32_t degenerate_triangles; ///< dropped: their area is exactly zero, so no ray can hit them
     uint32_t pair_count;           ///< distinct: copies by spatial splits count once
     uint32_t single_count;         ///< distinct triangles without a partner
+    uint32_t coincident_count;     ///< of the same three corners as one in a pair or a single, which stands for them
 } tl_soup_report;
 
 /// Pairs in a BVH, the fast layout, default quality.
@@ -101,12 +104,13 @@ TL_API tl_soup_def tl_default_soup_def(void);
 /// Bakes a triangle list. Triangles keep their index in the view: queries report it.
 ///
 /// The triangles may intersect, repeat, be loose, or share an edge by the dozen. Corners at equal positions count as
-/// shared, so the view need not be welded. The bytes depend only on the view and on the def's fields before `host`.
-/// A NULL `def` means the defaults. `report_out` may be NULL. Free the soup with `tl_blob_free(soup)`. O(n log n).
-/// Errors, each with its element or field in `report_out->base`: TL_ERR_EMPTY (no triangles), TL_ERR_INDEX (triangle),
-/// TL_ERR_NOT_FINITE (vertex), TL_ERR_RANGE (vertex beyond TL_MAX_COORDINATE), TL_ERR_DEGENERATE (no triangle has
-/// area), TL_ERR_LIMIT (more than TL_MAX_SOUP_TRIANGLES), TL_ERR_ARGUMENT, TL_ERR_MEMORY, TL_ERR_CANCELLED. Vertices
-/// that no triangle uses may hold anything.
+/// shared, so the view need not be welded. Triangles of the same three corners, whichever way they run, are all there
+/// for every query, but up to eight lie in the tree once: both sides of a wall take the time of one. The bytes depend
+/// only on the view and on the def's fields before `host`. A NULL `def` means the defaults. `report_out` may be NULL.
+/// Free the soup with `tl_blob_free(soup)`. O(n log n). Errors, each with its element or field in `report_out->base`:
+/// TL_ERR_EMPTY (no triangles), TL_ERR_INDEX (triangle), TL_ERR_NOT_FINITE (vertex), TL_ERR_RANGE (vertex beyond
+/// TL_MAX_COORDINATE), TL_ERR_DEGENERATE (no triangle has area), TL_ERR_LIMIT (more than TL_MAX_SOUP_TRIANGLES),
+/// TL_ERR_ARGUMENT, TL_ERR_MEMORY, TL_ERR_CANCELLED. Vertices that no triangle uses may hold anything.
 TL_API tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, tl_soup **soup_out,
                               tl_soup_report *report_out);
 
@@ -118,9 +122,10 @@ TL_API tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, 
 /// ray hits them; those that had none when the soup was baked stay dropped. Vertices that had equal positions must
 /// still have equal positions. The soup must be writable (not a mapped file), and no query may run meanwhile: refit a
 /// second soup while the first one is queried.
-/// TL_ERR_ARGUMENT (another number of triangles, or a triangle that came apart from its pair), TL_ERR_UNSUPPORTED (the
-/// compact layout: triangles that may come apart share its vertices), TL_ERR_INDEX (triangle), TL_ERR_NOT_FINITE,
-/// TL_ERR_RANGE (vertex), with the element in `report_out`, which may be NULL; the soup is then unchanged.
+/// TL_ERR_ARGUMENT (another number of triangles, or a triangle that came apart from its pair, or from one that it
+/// coincided with), TL_ERR_UNSUPPORTED (the compact layout: triangles that may come apart share its vertices),
+/// TL_ERR_INDEX (triangle), TL_ERR_NOT_FINITE, TL_ERR_RANGE (vertex), with the element in `report_out`, which may be
+/// NULL; the soup is then unchanged.
 TL_API tl_result tl_soup_refit(tl_soup *soup, const tl_mesh_view *moved, tl_report *report_out);
 
 /// Whether `size` bytes at `bytes` are a sound soup: TL_OK, or TL_ERR_TRUNCATED, TL_ERR_MAGIC, TL_ERR_VERSION,
@@ -143,6 +148,8 @@ typedef struct tl_soup_stats {
     uint32_t triangle_count;        ///< distinct triangles stored
     uint32_t pair_count;            ///< distinct pairs
     uint32_t single_count;          ///< distinct triangles without a partner
+    uint32_t coincident_count;      ///< of the same three corners as one in a pair or a single: triangle_count is
+                                    ///< 2 * pair_count + single_count + coincident_count
     uint32_t reference_count;       ///< pairs and singles in leaves; more than distinct ones where splits copied them
     uint32_t leaf_count;
     uint32_t node_count;
@@ -406,7 +413,7 @@ typedef struct tl_soup_triangle {
 /// Visits all triangles, each once, in the soup's own order. Start with `*cursor` 0; false at the end.
 TL_API bool tl_soup_next_triangle(const tl_soup *soup, uint64_t *cursor, tl_soup_triangle *triangle_out);
 
-/// One pair, or one triangle without a partner.
+/// One pair, or one triangle without a partner. Of triangles that coincide the lowest is named.
 typedef struct tl_soup_pair {
     tl_vec3 corners[4];    ///< a, b, c, d: triangles a, b, c and a, c, d share the edge a, c; a single has d == a
     uint32_t triangles[2]; ///< indices in the view; the second is TL_NO_TRIANGLE for a single

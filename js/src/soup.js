@@ -106,12 +106,12 @@ export class Soup extends Handle {
     const s = SLOT;
     return { size: F64[s], sourceTriangleCount: F64[s + 1], triangleCount: F64[s + 2], pairCount: F64[s + 3],
              singleCount: F64[s + 4], referenceCount: F64[s + 5], leafCount: F64[s + 6], nodeCount: F64[s + 7],
-             depth: F64[s + 8], layout: F64[s + 9] === 1 ? 'compact' : 'fast' };
+             depth: F64[s + 8], layout: F64[s + 9] === 1 ? 'compact' : 'fast', coincidentCount: F64[s + 10] };
   }
 
   bounds() {
     wasm.js_soup_info(this._address);
-    return slotAabb(10);
+    return slotAabb(11);
   }
 
   castRay(ox, oy, oz, dx, dy, dz, maxT = Infinity, filter = null) {

@@ -87,12 +87,12 @@ static PyObject *soup_stats(PyObject *self, PyObject *capsule)
     }
     tl_soup_stats stats = tl_soup_get_stats(soup);
     tl_aabb bounds = tl_soup_bounds(soup);
-    return Py_BuildValue("{sKsIsIsIsIsIsisIs((ddd)(ddd))}", "size", (unsigned long long)stats.size,
+    return Py_BuildValue("{sKsIsIsIsIsIsIsisIs((ddd)(ddd))}", "size", (unsigned long long)stats.size,
                          "source_triangle_count", stats.source_triangle_count, "triangle_count", stats.triangle_count,
-                         "pair_count", stats.pair_count, "single_count", stats.single_count, "node_count",
-                         stats.node_count, "layout", (int)stats.layout, "depth", stats.depth, "bounds",
-                         (double)bounds.min.x, (double)bounds.min.y, (double)bounds.min.z, (double)bounds.max.x,
-                         (double)bounds.max.y, (double)bounds.max.z);
+                         "pair_count", stats.pair_count, "single_count", stats.single_count, "coincident_count",
+                         stats.coincident_count, "node_count", stats.node_count, "layout", (int)stats.layout, "depth",
+                         stats.depth, "bounds", (double)bounds.min.x, (double)bounds.min.y, (double)bounds.min.z,
+                         (double)bounds.max.x, (double)bounds.max.y, (double)bounds.max.z);
 }
 
 // soup_triangles(soup, corners f32[count][3][3], triangles u32[count], materials u16[count])

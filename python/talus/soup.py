@@ -165,6 +165,8 @@ class SoupStats:
     """Pairs of triangles that share an edge."""
     single_count: int
     """Triangles without a partner."""
+    coincident_count: int
+    """Triangles with the same three corners as one in a pair or a single, which stands for them."""
     node_count: int
     """Nodes of the BVH."""
     layout: str

@@ -187,6 +187,24 @@ static void refitted_soup(const tl_mesh_view *view)
     tl_blob_free(soup);
 }
 
+/// Every triangle from both sides.
+static void two_sided_soup(const tl_mesh_view *view)
+{
+    const size_t corners = 3 * (size_t)view->triangle_count;
+    uint32_t *sides = malloc(2 * corners * sizeof *sides);
+    must(sides != NULL ? TL_OK : TL_ERR_MEMORY, "malloc");
+    for (size_t i = 0; i < corners; i++) {
+        sides[i] = sides[2 * corners - 1 - i] = view->indices[i];
+    }
+    tl_mesh_view both = *view;
+    both.indices = sides;
+    both.triangle_count *= 2;
+    both.materials = NULL;
+    const tl_soup_def def = tl_default_soup_def();
+    soup_of(&both, &def, "soup-two-sided");
+    free(sides);
+}
+
 void golden_soups(const tl_mesh_view *view)
 {
     tl_soup_def def = tl_default_soup_def();
@@ -202,6 +220,7 @@ void golden_soups(const tl_mesh_view *view)
     def = tl_default_soup_def();
     def.partition = TL_SOUP_KD_TREE;
     soup_of(view, &def, "soup-kd");
+    two_sided_soup(view);
     refitted_soup(view);
 }
 

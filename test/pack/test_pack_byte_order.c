@@ -116,6 +116,25 @@ static void test_soups(void **state)
         TEST_RESULT(tl_soup_bake(&level->view, &def, &soup, NULL), TL_OK);
         go(soup, tl_soup_check);
     }
+    // Both sides of every triangle.
+    const uint32_t count = level->view.triangle_count;
+    uint32_t *sides = malloc(6 * (size_t)count * sizeof *sides);
+    TEST_CHECK(sides != NULL);
+    for (uint32_t i = 0; i < 3 * count; i++) {
+        sides[i] = sides[6 * count - 1 - i] = level->view.indices[i];
+    }
+    tl_mesh_view both = level->view;
+    both.indices = sides;
+    both.triangle_count = 2 * count;
+    for (int kind = 0; kind < 2; kind++) {
+        tl_soup_def def = tl_default_soup_def();
+        def.layout = kind == 0 ? TL_SOUP_FAST : TL_SOUP_COMPACT;
+        tl_soup *soup;
+        TEST_RESULT(tl_soup_bake(&both, &def, &soup, NULL), TL_OK);
+        TEST_CHECK(tl_soup_get_stats(soup).coincident_count == count);
+        go(soup, tl_soup_check);
+    }
+    free(sides);
     free(level);
 }
 

@@ -85,7 +85,7 @@ static void test_degenerate_input(void **state)
     }
     tl_mesh_view same = model_view(&m);
     TEST_RESULT(build(&same, NULL, &report), TL_OK);
-    TEST_CHECK(report.triangle_count == 1000 && report.pair_count == 500);
+    TEST_CHECK(report.triangle_count == 1000 && report.coincident_count == 875);
     model_free(&m);
 }
 

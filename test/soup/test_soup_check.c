@@ -93,9 +93,11 @@ static void check_sound_soup_passes(tl_soup_layout layout)
     ((tl_blob *)soup)->magic ^= 1;
     TEST_RESULT(tl_soup_check(soup, size, NULL), TL_ERR_MAGIC);
     ((tl_blob *)soup)->magic ^= 1;
-    ((tl_blob *)soup)->version++;
-    TEST_RESULT(tl_soup_check(soup, size, NULL), TL_ERR_VERSION);
-    ((tl_blob *)soup)->version--;
+    static const uint32_t others[] = { TL_SOUP_VERSION + 1, TL_SOUP_VERSION_ALONE - 1, 0 };
+    for (uint32_t i = 0; i < 3; i++) {
+        ((tl_blob *)soup)->version = others[i];
+        TEST_RESULT(tl_soup_check(soup, size, NULL), TL_ERR_VERSION);
+    }
     tl_blob_free(soup);
 }
 

@@ -28,6 +28,8 @@ export interface SoupStats {
   triangleCount: number;
   pairCount: number;
   singleCount: number;
+  /** Triangles with the same three corners as one in a pair or a single, which stands for them. */
+  coincidentCount: number;
   referenceCount: number;
   leafCount: number;
   nodeCount: number;

@@ -615,6 +615,7 @@ pub struct tl_soup_report {
     pub degenerate_triangles: u32,
     pub pair_count: u32,
     pub single_count: u32,
+    pub coincident_count: u32,
 }
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -624,6 +625,7 @@ pub struct tl_soup_stats {
     pub triangle_count: u32,
     pub pair_count: u32,
     pub single_count: u32,
+    pub coincident_count: u32,
     pub reference_count: u32,
     pub leaf_count: u32,
     pub node_count: u32,
@@ -4539,7 +4541,7 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_soup_def, split_budget), 16);
         assert_eq!(core::mem::offset_of!(tl_soup_def, host), 24);
         assert_eq!(core::mem::offset_of!(tl_soup_def, cookie), 48);
-        assert_eq!(core::mem::size_of::<tl_soup_report>(), 64);
+        assert_eq!(core::mem::size_of::<tl_soup_report>(), 72);
         assert_eq!(core::mem::offset_of!(tl_soup_report, base), 0);
         assert_eq!(core::mem::offset_of!(tl_soup_report, triangle_count), 48);
         assert_eq!(
@@ -4548,6 +4550,7 @@ mod layout {
         );
         assert_eq!(core::mem::offset_of!(tl_soup_report, pair_count), 56);
         assert_eq!(core::mem::offset_of!(tl_soup_report, single_count), 60);
+        assert_eq!(core::mem::offset_of!(tl_soup_report, coincident_count), 64);
         assert_eq!(core::mem::size_of::<tl_soup_stats>(), 80);
         assert_eq!(core::mem::offset_of!(tl_soup_stats, size), 0);
         assert_eq!(
@@ -4557,11 +4560,12 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_soup_stats, triangle_count), 12);
         assert_eq!(core::mem::offset_of!(tl_soup_stats, pair_count), 16);
         assert_eq!(core::mem::offset_of!(tl_soup_stats, single_count), 20);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, reference_count), 24);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, leaf_count), 28);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, node_count), 32);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, layout), 36);
-        assert_eq!(core::mem::offset_of!(tl_soup_stats, depth), 40);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, coincident_count), 24);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, reference_count), 28);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, leaf_count), 32);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, node_count), 36);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, layout), 40);
+        assert_eq!(core::mem::offset_of!(tl_soup_stats, depth), 44);
         assert_eq!(core::mem::offset_of!(tl_soup_stats, node_bytes), 48);
         assert_eq!(core::mem::offset_of!(tl_soup_stats, leaf_bytes), 56);
         assert_eq!(core::mem::offset_of!(tl_soup_stats, vertex_bytes), 64);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// From a triangle list to a soup: weld, pair, build the tree, encode.
+// From a triangle list to a soup: weld, merge triangles that coincide, pair, build the tree, encode.
 
 #include "soup/bake/soup_bake.h"
 
@@ -119,9 +119,12 @@ static tl_result bake_welded(const tl_mesh_view *view, tl_mesh *mesh, const tl_s
     tl_stage stage;
     report->base.stage = "pair triangles";
     TL_TRY(tl_stage_begin(&stage, host, "pair triangles", triangles));
+    tl_coincident coincident;
+    TL_TRY(tl_merge_coincident(mesh, view->triangle_count, &stage, arena, &coincident));
     tl_bvh_input input = { mesh, NULL, 0, 0.0f };
     tl_triangle_pair *pairs = NULL;
     TL_TRY(tl_pair_triangles(mesh, def->pair_triangles, &stage, arena, &pairs, &input.pair_count));
+    tl_order_coincident(&coincident, view->triangle_count, pairs, input.pair_count);
     TL_TRY(keep_vertices(mesh, &stage));
     TL_TRY(tl_stage_end(&stage));
     input.pairs = pairs;
@@ -132,11 +135,12 @@ static tl_result bake_welded(const tl_mesh_view *view, tl_mesh *mesh, const tl_s
 
     report->base.stage = "bake soup";
     TL_TRY(tl_stage_begin(&stage, host, "bake soup", triangles));
-    const tl_soup_parts parts = { view, mesh, pairs, input.pair_count, &tree };
+    const tl_soup_parts parts = { view, mesh, pairs, input.pair_count, coincident, &tree };
     TL_TRY(tl_soup_encode(&parts, def->layout, &stage, arena, soup_out));
     report->triangle_count = (*soup_out)->triangle_count;
     report->pair_count = (*soup_out)->pair_count;
     report->single_count = (*soup_out)->single_count;
+    report->coincident_count = tl_soup_get_stats(*soup_out).coincident_count;
     // The last progress call may still cancel.
     return tl_stage_end(&stage);
 }

@@ -18,6 +18,22 @@ typedef struct tl_triangle_pair {
     uint32_t id[2];     ///< id words (soup_layout.h): triangles of the view; the second is TL_ID_NONE for a single
 } tl_triangle_pair;
 
+/// The triangles that take one lane together (soup_layout.h).
+typedef struct tl_coincident {
+    uint32_t *words;     ///< id words; NULL where no triangles coincide
+    uint32_t word_count; ///< of all lanes that several triangles take
+    uint32_t lane_count; ///< of these lanes
+} tl_coincident;
+
+/// Drops the triangles from a mesh that coincide with an earlier one, so that its lane stands for all: its
+/// source_triangles entry becomes `source_count` plus the place of the first word. Words are the arena's. Linear.
+tl_result tl_merge_coincident(tl_mesh *mesh, uint32_t source_count, tl_stage *stage, tl_arena *arena,
+                              tl_coincident *coincident_out);
+
+/// Turns the words' corner orders into those of the lanes, when pairs have given each lane its slots.
+void tl_order_coincident(const tl_coincident *coincident, uint32_t source_count, const tl_triangle_pair *pairs,
+                         uint32_t pair_count);
+
 /// Matches triangles over shared edges, on the tasks of the stage's host; NULL stage: silent, one thread. Pairs are the
 /// arena's. Adds as much as the mesh has triangles to the stage.
 tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, tl_stage *stage, tl_arena *arena,
@@ -102,6 +118,7 @@ typedef struct tl_soup_parts {
     const tl_mesh *mesh; ///< the view, welded: its vertices, bounds and triangle count are used
     const tl_triangle_pair *pairs;
     uint32_t pair_count;
+    tl_coincident coincident;
     tl_bvh *bvh;
 } tl_soup_parts;
 

@@ -264,7 +264,8 @@ static void fill_head(const tl_soup_encoder *b, tl_soup *soup)
     soup->leaf_bytes = b->leaf_bytes;
     soup->vertex_count = b->plan->vertex_count;
     soup->source_triangle_count = b->view->triangle_count;
-    soup->triangle_count = b->mesh->triangle_count;
+    soup->triangle_count = b->mesh->triangle_count + b->coincident.word_count - b->coincident.lane_count;
+    soup->coincident_words = b->coincident.word_count;
     soup->pair_count = b->mesh->triangle_count - b->pair_count;
     soup->single_count = b->pair_count - soup->pair_count;
     soup->reference_count = b->tree->ref_count;
@@ -279,7 +280,8 @@ static void fill_head(const tl_soup_encoder *b, tl_soup *soup)
 // The blob with its head. Nodes and leaves are uninitialized, all other bytes zero.
 static tl_soup *allocate_soup(tl_soup *head, const tl_allocator *allocator)
 {
-    tl_soup *soup = tl_blob_allocate_part(allocator, TL_SOUP_MAGIC, TL_SOUP_VERSION, tl_soup_place_arrays(head),
+    const uint32_t version = head->coincident_words > 0 ? TL_SOUP_VERSION : TL_SOUP_VERSION_ALONE;
+    tl_soup *soup = tl_blob_allocate_part(allocator, TL_SOUP_MAGIC, version, tl_soup_place_arrays(head),
                                           sizeof(tl_soup), head->leaf_offset + head->leaf_bytes);
     if (soup != NULL) {
         head->blob = soup->blob;
@@ -315,6 +317,8 @@ static tl_result write_soup(tl_soup_encoder *b, tl_arena *arena, tl_soup **soup_
     if (b->layout == TL_SOUP_COMPACT) {
         TL_TRY(tl_compact_write_vertices(b));
     }
+    TL_TRY(tl_stage_copy(b->stage, (char *)soup + soup->coincident_offset, b->coincident.words,
+                         soup->coincident_words * sizeof(uint32_t)));
     return soup->has_materials ? tl_stage_copy(b->stage, (char *)soup + soup->material_offset, b->view->materials,
                                                (uint64_t)b->view->triangle_count * sizeof(uint16_t))
                                : TL_OK;
@@ -325,6 +329,7 @@ tl_result tl_soup_encode(const tl_soup_parts *parts, tl_soup_layout layout, tl_s
 {
     tl_soup_encoder b = { .view = parts->view, .mesh = parts->mesh, .pairs = parts->pairs, .tree = parts->bvh };
     b.pair_count = parts->pair_count;
+    b.coincident = parts->coincident;
     b.stage = stage;
     b.layout = layout;
     tl_soup *soup = NULL;

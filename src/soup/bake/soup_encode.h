@@ -29,6 +29,7 @@ typedef struct tl_soup_encoder {
     const tl_mesh *mesh;
     const tl_triangle_pair *pairs;
     uint32_t pair_count;
+    tl_coincident coincident;
     const tl_bvh *tree;
     tl_stage *stage;
     tl_soup_layout layout;

@@ -31,14 +31,15 @@ static bool is_same_position(tl_vec3 a, tl_vec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-static moved_pair move_pair(const tl_mesh_view *view, const tl_leaf_view *leaf, uint32_t pair)
+// Of triangles that coincide the lowest stands for all.
+static moved_pair move_pair(const tl_soup *soup, const tl_mesh_view *view, const tl_leaf_view *leaf, uint32_t pair)
 {
     moved_pair moved;
     memset(&moved, 0, sizeof moved);
     moved.single = leaf->ids[leaf->pair_count + pair] == TL_ID_NONE;
     for (uint32_t half = 0; half < (moved.single ? 1u : 2u); half++) {
         uint32_t id = leaf->ids[half * leaf->pair_count + pair];
-        const uint32_t *index = view->indices + 3 * (size_t)(id & TL_ID_INDEX);
+        const uint32_t *index = view->indices + 3 * (size_t)tl_soup_lowest_triangle(soup, id);
         for (uint32_t k = 0; k < 3; k++) {
             moved.slot[half][tl_soup_corner_slots[tl_id_order(id)][k]] = view->vertices[index[k]];
         }
@@ -63,19 +64,44 @@ static tl_result check_triangle(const tl_mesh_view *view, uint32_t triangle, tl_
     return TL_OK;
 }
 
-static tl_result check_moved_leaf(const tl_mesh_view *view, const tl_leaf_view *leaf, tl_report *report)
+// Every triangle of a lane, and whether those that coincided still do.
+static tl_result check_moved_lane(const tl_soup *soup, const tl_mesh_view *view, uint32_t id, tl_report *report)
+{
+    const uint32_t *word = tl_soup_coincident(soup, id);
+    const uint32_t lowest = tl_soup_lowest_triangle(soup, id);
+    TL_TRY(check_triangle(view, lowest, report));
+    tl_vec3 slots[3];
+    for (uint32_t k = 0; k < 3; k++) {
+        slots[tl_soup_corner_slots[tl_id_order(id)][k]] = view->vertices[view->indices[3 * (size_t)lowest + k]];
+    }
+    while (word != NULL && (*word & TL_ID_LAST) == 0) {
+        const uint32_t triangle = *++word & TL_ID_INDEX;
+        TL_TRY(check_triangle(view, triangle, report));
+        for (uint32_t k = 0; k < 3; k++) {
+            const tl_vec3 corner = view->vertices[view->indices[3 * (size_t)triangle + k]];
+            if (!is_same_position(corner, slots[tl_soup_corner_slots[tl_id_order(*word)][k]])) {
+                return tl_report_fail(report, TL_ERR_ARGUMENT, "triangle", triangle,
+                                      "it came apart from one it lay on: move equal vertices equally, or bake anew");
+            }
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result check_moved_leaf(const tl_soup *soup, const tl_mesh_view *view, const tl_leaf_view *leaf,
+                                  tl_report *report)
 {
     for (uint32_t i = 0; i < 2 * leaf->pair_count; i++) {
         if (leaf->ids[i] != TL_ID_NONE) {
-            TL_TRY(check_triangle(view, leaf->ids[i] & TL_ID_INDEX, report));
+            TL_TRY(check_moved_lane(soup, view, leaf->ids[i], report));
         }
     }
     for (uint32_t i = 0; i < leaf->pair_count; i++) {
-        moved_pair moved = move_pair(view, leaf, i);
+        moved_pair moved = move_pair(soup, view, leaf, i);
         bool together = is_same_position(moved.slot[0][0], moved.slot[1][0]) &&
                         is_same_position(moved.slot[0][2], moved.slot[1][2]);
         if (!moved.single && !together) {
-            return tl_report_fail(report, TL_ERR_ARGUMENT, "triangle", leaf->ids[i] & TL_ID_INDEX,
+            return tl_report_fail(report, TL_ERR_ARGUMENT, "triangle", tl_soup_lowest_triangle(soup, leaf->ids[i]),
                                   "it came apart from its neighbour: move equal vertices equally, or bake anew");
         }
     }
@@ -94,7 +120,7 @@ static tl_result check_view(const tl_soup *soup, const tl_mesh_view *view, tl_re
     }
     for (uint64_t offset = 0; offset < soup->leaf_bytes;) {
         tl_leaf_view leaf = tl_view_leaf(tl_soup_leaf_at(soup, offset));
-        TL_TRY(check_moved_leaf(view, &leaf, report));
+        TL_TRY(check_moved_leaf(soup, view, &leaf, report));
         offset += tl_leaf_size(leaf.pair_count);
     }
     return TL_OK;
@@ -118,13 +144,13 @@ static void write_slot(const tl_leaf_view *leaf, uint32_t lane, uint32_t slot, t
     corner[2 * stride] = at.z;
 }
 
-static tl_aabb refit_leaf(const tl_mesh_view *view, tl_soup_leaf *head)
+static tl_aabb refit_leaf(const tl_soup *soup, const tl_mesh_view *view, tl_soup_leaf *head)
 {
     tl_leaf_view leaf = tl_view_leaf(head);
     tl_aabb box = tl_aabb_empty();
     head->extent = 0.0f;
     for (uint32_t i = 0; i < leaf.pair_count; i++) {
-        moved_pair moved = move_pair(view, &leaf, i);
+        moved_pair moved = move_pair(soup, view, &leaf, i);
         if (moved.single) { // its fourth corner is the first
             moved.slot[1][0] = moved.slot[1][1] = moved.slot[0][0];
             moved.slot[1][2] = moved.slot[0][2];
@@ -168,7 +194,7 @@ tl_result tl_soup_refit(tl_soup *soup, const tl_mesh_view *moved, tl_report *rep
                 continue;
             }
             char *leaf = (char *)soup + soup->leaf_offset + tl_child_leaf_offset(child);
-            tl_aabb box = (child & TL_CHILD_LEAF) != 0 ? refit_leaf(moved, (tl_soup_leaf *)(void *)leaf)
+            tl_aabb box = (child & TL_CHILD_LEAF) != 0 ? refit_leaf(soup, moved, (tl_soup_leaf *)(void *)leaf)
                                                        : box_of_node(&nodes[child]);
             const float planes[6] = { box.min.x, box.max.x, box.min.y, box.max.y, box.min.z, box.max.z };
             for (uint32_t k = 0; k < 6; k++) {

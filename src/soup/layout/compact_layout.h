@@ -3,7 +3,7 @@
 // The compact bytes of a soup: half of the memory, the same answers.
 //
 //   tl_soup | tl_compact_node[node_count] | tl_compact_pair[reference_count] | uint32 groups[] | float vertices[3][] |
-//   zeros | uint16 materials[]
+//   zeros | uint32 coincident[] | uint16 materials[]
 //
 // - Vertices are shared. A pair names its four by 16 bits each, counted from a vertex that 64 pairs have in common. A
 //   vertex that is used again too far away is stored again, which is rare: leaves lie in the order of the tree.
@@ -93,10 +93,11 @@ static inline uint64_t tl_soup_place_arrays(tl_soup *head)
         head->node_offset + (uint64_t)head->node_count * (compact ? sizeof(tl_compact_node) : sizeof(tl_soup_node));
     uint64_t end = head->leaf_offset + head->leaf_bytes;
     head->group_offset = compact ? end : 0;
-    end += compact ? tl_compact_group_count(head->reference_count) * sizeof(uint32_t) : 0;
+    end += compact ? (uint64_t)tl_compact_group_count(head->reference_count) * sizeof(uint32_t) : 0;
     head->vertex_offset = compact ? end : 0;
-    end += compact ? head->vertex_count * sizeof(tl_vec3) : 0;
-    head->material_offset = end + TL_SOUP_TAIL_BYTES;
+    end += (compact ? (uint64_t)head->vertex_count * sizeof(tl_vec3) : 0) + TL_SOUP_TAIL_BYTES;
+    head->coincident_offset = head->coincident_words != 0 ? end : 0;
+    head->material_offset = end + (uint64_t)head->coincident_words * sizeof(uint32_t);
     return head->material_offset + (head->has_materials ? (uint64_t)head->source_triangle_count * sizeof(uint16_t) : 0);
 }
 

@@ -13,7 +13,9 @@ static const tl_word_run SOUP_HEAD[] = {
     { 4, 10 }, // bounds with their padding, materials
     { 8, 4 },  // offsets
     { 4, 2 },  // layout, vertex_count
-    { 8, 8 },  // offsets, reserved
+    { 8, 3 },  // offsets
+    { 4, 2 },  // coincident_words, reserved_word
+    { 8, 4 },  // reserved
 };
 
 static const tl_word_run COMPACT_NODE[] = { { 4, 8 }, { 1, 6 * TL_SOUP_WIDTH }, { 4, TL_SOUP_WIDTH } };
@@ -35,5 +37,6 @@ void tl_soup_swap_words(tl_byte_swap *swap)
         tl_swap_words(swap, head.node_offset, (uint64_t)head.node_count * (sizeof(tl_soup_node) / 4), 4);
         tl_swap_words(swap, head.leaf_offset, head.leaf_bytes / 4, 4);
     }
+    tl_swap_words(swap, head.coincident_offset, head.coincident_words, 4);
     tl_swap_words(swap, head.material_offset, head.has_materials != 0 ? head.source_triangle_count : 0, 2);
 }

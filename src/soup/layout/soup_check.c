@@ -51,11 +51,17 @@ static bool head_is_sound(const tl_soup *soup)
                                          : soup->vertex_count != 0)) {
         return false;
     }
+    // An index of coincident triangles is behind those of the view.
+    if (soup->reserved_word != 0 ||
+        (uint64_t)soup->source_triangle_count + soup->coincident_words > (uint64_t)TL_ID_INDEX + 1 ||
+        (soup->coincident_words != 0 && soup->blob.version == TL_SOUP_VERSION_ALONE)) {
+        return false;
+    }
     tl_soup placed = *soup;
     uint64_t end = tl_soup_place_arrays(&placed);
     if (soup->node_offset != placed.node_offset || soup->leaf_offset != placed.leaf_offset ||
         soup->group_offset != placed.group_offset || soup->vertex_offset != placed.vertex_offset ||
-        soup->material_offset != placed.material_offset ||
+        soup->coincident_offset != placed.coincident_offset || soup->material_offset != placed.material_offset ||
         ((end + TL_BLOB_ALIGNMENT - 1) & ~(uint64_t)(TL_BLOB_ALIGNMENT - 1)) != size) {
         return false;
     }
@@ -67,10 +73,48 @@ static bool head_is_sound(const tl_soup *soup)
     return vec_in_range(soup->bounds_min) && vec_in_range(soup->bounds_max) && !tl_aabb_is_empty(tl_soup_bounds(soup));
 }
 
-static bool id_is_sound(const checker *c, uint32_t id)
+static bool id_is_sound(const tl_soup *soup, uint32_t id)
 {
     uint32_t order = tl_id_order(id);
-    return (id & TL_ID_INDEX) < c->soup->source_triangle_count && order >= 1 && order <= 6;
+    return (id & TL_ID_INDEX) < soup->source_triangle_count && order >= 1 && order <= 6;
+}
+
+// Lists of two to TL_MAX_COINCIDENT words, by index.
+static bool coincident_are_sound(const tl_soup *soup)
+{
+    const uint32_t *words = tl_soup_coincident(soup, soup->source_triangle_count);
+    uint32_t length = 0;
+    for (uint32_t i = 0; i < soup->coincident_words; i++) {
+        length++;
+        if (!id_is_sound(soup, words[i]) || length > TL_MAX_COINCIDENT ||
+            (length > 1 && (words[i] & TL_ID_INDEX) <= (words[i - 1] & TL_ID_INDEX)) ||
+            (length == 1 && (words[i] & TL_ID_LAST) != 0)) {
+            return false;
+        }
+        length = (words[i] & TL_ID_LAST) != 0 ? 0 : length;
+    }
+    return length == 0;
+}
+
+// The triangles of a lane; 0: its id word is not sound. A list is entered at its beginning.
+static uint32_t count_of_lane(const tl_soup *soup, uint32_t id)
+{
+    if ((id & TL_ID_INDEX) < soup->source_triangle_count) {
+        return id_is_sound(soup, id) ? 1 : 0;
+    }
+    const uint32_t place = (id & TL_ID_INDEX) - soup->source_triangle_count;
+    if (place >= soup->coincident_words) {
+        return 0;
+    }
+    const uint32_t *word = tl_soup_coincident(soup, id);
+    if ((place > 0 && (word[-1] & TL_ID_LAST) == 0) || tl_id_order(id) != tl_id_order(*word)) {
+        return 0;
+    }
+    uint32_t count = 1;
+    while ((*word++ & TL_ID_LAST) == 0) {
+        count++;
+    }
+    return count;
 }
 
 static bool vertices_are_there(const tl_soup *soup, uint64_t first, uint32_t count)
@@ -112,8 +156,9 @@ static bool leaf_is_sound(checker *c, uint32_t child)
     for (uint32_t i = 0; i < pairs; i++) {
         bool single = view.ids[pairs + i] == TL_ID_NONE;
         bool copy = (view.ids[i] & TL_ID_COPY) != 0;
-        if (!id_is_sound(c, view.ids[i]) ||
-            (!single && (!id_is_sound(c, view.ids[pairs + i]) || copy != ((view.ids[pairs + i] & TL_ID_COPY) != 0)))) {
+        const uint32_t first = count_of_lane(c->soup, view.ids[i]);
+        const uint32_t second = single ? 0 : count_of_lane(c->soup, view.ids[pairs + i]);
+        if (first == 0 || (!single && (second == 0 || copy != ((view.ids[pairs + i] & TL_ID_COPY) != 0)))) {
             return false;
         }
         // A lane without a triangle must have no area: then no ray can surely hit it.
@@ -123,7 +168,7 @@ static bool leaf_is_sound(checker *c, uint32_t child)
         }
         c->pair_count += !copy && !single;
         c->single_count += !copy && single;
-        c->triangle_count += copy ? 0 : single ? 1 : 2;
+        c->triangle_count += copy ? 0 : first + second;
     }
     for (uint32_t i = 0; i < 12 * pairs; i++) {
         if (!coordinate_in_range(view.floats[i])) {
@@ -214,14 +259,22 @@ static bool counts_are_sound(const checker *c)
 
 tl_result tl_soup_check(const void *bytes, uint64_t size, tl_report *report_out)
 {
-    const tl_blob expected = { TL_SOUP_MAGIC, TL_SOUP_VERSION, sizeof(tl_soup) };
-    TL_TRY(tl_blob_check_head(bytes, size, expected, TL_BLOB_ALIGNMENT, report_out));
+    tl_blob expected = { TL_SOUP_MAGIC, TL_SOUP_VERSION, sizeof(tl_soup) };
+    tl_result result = tl_blob_check_head(bytes, size, expected, TL_BLOB_ALIGNMENT, report_out);
+    if (result == TL_ERR_VERSION) {
+        expected.version = TL_SOUP_VERSION_ALONE;
+        result = tl_blob_check_head(bytes, size, expected, TL_BLOB_ALIGNMENT, report_out);
+    }
+    TL_TRY(result);
     checker c;
     memset(&c, 0, sizeof c);
     c.soup = bytes;
     const char *advice = "bake the soup again, or copy its file again";
     if (!head_is_sound(c.soup)) {
         return tl_report_fail(report_out, TL_ERR_CORRUPT, "head", TL_NO_ELEMENT, advice);
+    }
+    if (!coincident_are_sound(c.soup)) {
+        return tl_report_fail(report_out, TL_ERR_CORRUPT, "coincident", TL_NO_ELEMENT, advice);
     }
     if (!check_nodes(&c)) {
         return tl_report_fail(report_out, TL_ERR_CORRUPT, "node", c.node, advice);

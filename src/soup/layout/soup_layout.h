@@ -3,7 +3,8 @@
 // The soup's plain bytes (compact_layout.h has the others): a head, the 16-wide BVH, leaves of one to four pairs,
 // materials.
 //
-//   tl_soup | tl_soup_node[node_count] | leaves, each 16-byte aligned | 64 zero bytes | uint16 materials[] | zeros
+//   tl_soup | tl_soup_node[node_count] | leaves, each 16-byte aligned | 64 zero bytes | uint32 coincident[] |
+//   uint16 materials[] | zeros
 //
 // A node holds 16 child boxes as plain floats: 448 bytes, seven cache lines. 16 children, because a ray's time goes
 // into visits (a mispredicted branch, a cache miss), not into box arithmetic. Floats, because a ray waits for each
@@ -17,6 +18,12 @@
 //
 // Behind c lies e[2n]: b for the first n lanes and d for the last n. With a, e, c one formula serves both triangles of
 // a pair.
+//
+// Coincident triangles, which have the same three corners in any order (both sides of a wall, a part that was exported
+// twice), take one lane together. An index that is not below source_triangle_count leads to them: the rest is the place
+// of the lowest one's id word in coincident[]; the words of the others follow, by index. So they cost no box, no corner
+// and no test, and what has none costs nothing. Rejected: two of them as a pair, which a leaf tests both, half as full;
+// a link from each triangle to the next, four bytes for every triangle of a level with one such wall.
 
 #ifndef TALUS_SRC_SOUP_SOUP_LAYOUT_H
 #define TALUS_SRC_SOUP_SOUP_LAYOUT_H
@@ -59,11 +66,14 @@ struct tl_soup {
     uint64_t leaf_offset;
     uint64_t leaf_bytes;
     uint64_t material_offset;
-    uint32_t layout;        ///< tl_soup_layout
-    uint32_t vertex_count;  ///< compact_layout.h; these three are 0 in the plain layout
-    uint64_t group_offset;  ///< uint32_t, one each TL_COMPACT_GROUP pairs
-    uint64_t vertex_offset; ///< tl_vec3
-    uint64_t reserved[6];   ///< zero
+    uint32_t layout;            ///< tl_soup_layout
+    uint32_t vertex_count;      ///< compact_layout.h; these three are 0 in the plain layout
+    uint64_t group_offset;      ///< uint32_t, one each TL_COMPACT_GROUP pairs
+    uint64_t vertex_offset;     ///< tl_vec3
+    uint64_t coincident_offset; ///< uint32_t; these two are 0 where no triangles coincide
+    uint32_t coincident_words;
+    uint32_t reserved_word; ///< zero, as are these
+    uint64_t reserved[4];
 };
 
 static_assert(sizeof(tl_soup) == 192, "no padding holes in the head");
@@ -134,6 +144,12 @@ static inline tl_leaf_view tl_view_leaf(const tl_soup_leaf *leaf)
 #define TL_ID_COPY  0x10000000u
 #define TL_ID_INDEX 0x0fffffffu
 
+// An id word of coincident[] has this bit where the last of the triangles that coincide stands. More of them than a
+// lane takes are in several lanes: spatial splits may copy a lane into many leaves, and that must not multiply a list
+// as long as the level.
+#define TL_ID_LAST TL_ID_COPY
+enum { TL_MAX_COINCIDENT = 8 };
+
 /// Slots 0: a, 1: e, 2: c. Row p, corner k: the slot that holds the view's corner k.
 extern const uint8_t tl_soup_corner_slots[8][3];
 
@@ -156,6 +172,24 @@ static inline const tl_soup_node *tl_soup_nodes(const tl_soup *soup)
 static inline const tl_soup_leaf *tl_soup_leaf_at(const tl_soup *soup, uint64_t offset)
 {
     return (const tl_soup_leaf *)(const void *)((const char *)soup + soup->leaf_offset + offset);
+}
+
+/// The id words of the triangles that coincide in the lane of an id word; NULL: it names the only one.
+static inline const uint32_t *tl_soup_coincident(const tl_soup *soup, uint32_t id)
+{
+    const uint32_t index = id & TL_ID_INDEX;
+    if (index < soup->source_triangle_count) {
+        return NULL;
+    }
+    return (const uint32_t *)(const void *)((const char *)soup + soup->coincident_offset) +
+           (index - soup->source_triangle_count);
+}
+
+/// The lowest triangle of a lane.
+static inline uint32_t tl_soup_lowest_triangle(const tl_soup *soup, uint32_t id)
+{
+    const uint32_t *coincident = tl_soup_coincident(soup, id);
+    return (coincident != NULL ? *coincident : id) & TL_ID_INDEX;
 }
 
 static inline uint16_t tl_soup_material(const tl_soup *soup, uint32_t triangle)
@@ -182,14 +216,15 @@ static inline uint32_t tl_leaf_stride(const tl_leaf_view *leaf)
     return 4 * leaf->pair_count;
 }
 
-/// Where the corners of a lane's triangle are, in the view's order.
-static inline void tl_leaf_find_corners(const tl_leaf_view *leaf, uint32_t lane, const float *corners_out[3])
+/// Where the corners of a lane's triangle are, in the view's order, which its id word has.
+static inline void tl_leaf_find_corners(const tl_leaf_view *leaf, uint32_t lane, uint32_t id,
+                                        const float *corners_out[3])
 {
     uint32_t n = leaf->pair_count;
     uint32_t pair = lane - (n & (0u - (uint32_t)(lane >= n)));
     // Where slots a, e and c begin, a byte each, so that the order needs no table in memory.
     uint32_t slots = pair | (2 * n + lane) << 8 | (n + pair) << 16;
-    const uint8_t *order = tl_soup_corner_slots[tl_id_order(leaf->ids[lane])];
+    const uint8_t *order = tl_soup_corner_slots[tl_id_order(id)];
     for (int k = 0; k < 3; k++) {
         corners_out[k] = leaf->floats + (slots >> 8 * order[k] & 0xffu);
     }
@@ -210,10 +245,10 @@ static inline tl_vec3 tl_leaf_slot(const tl_leaf_view *leaf, uint32_t lane, uint
 }
 
 /// The triangle of a lane, its corners as the view has them.
-static inline void tl_leaf_corners(const tl_leaf_view *leaf, uint32_t lane, tl_vec3 corners[3])
+static inline void tl_leaf_corners(const tl_leaf_view *leaf, uint32_t lane, uint32_t id, tl_vec3 corners[3])
 {
     const float *at[3];
-    tl_leaf_find_corners(leaf, lane, at);
+    tl_leaf_find_corners(leaf, lane, id, at);
     for (int k = 0; k < 3; k++) {
         corners[k] = tl_leaf_point(leaf, at[k]);
     }

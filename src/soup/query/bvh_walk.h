@@ -186,6 +186,7 @@ static inline void tl_walk_enter(tl_walk *walk, const tl_walk_boxes *boxes, uint
 
 /// An open leaf.
 typedef struct tl_walk_leaf {
+    const tl_soup *soup;
     const tl_soup_leaf *leaf; ///< in the soup, or in `buffer`
     const tl_walk_scale *scale;
     tl_leaf_view view;
@@ -199,11 +200,14 @@ typedef struct tl_walk_triangle {
     tl_vec3 corners[3]; ///< as in the view; where the walk has a scale, as it makes them
     uint32_t triangle;
     const tl_walk_leaf *leaf;
-    uint32_t lane; ///< its place in the leaf
+    uint32_t lane;              ///< its place in the leaf
+    uint32_t id;                ///< its id word
+    const uint32_t *coincident; ///< the id word among those of its lane; NULL: it is alone there
 } tl_walk_triangle;
 
 static inline void tl_walk_open_leaf(const tl_walk *walk, uint32_t child, tl_walk_leaf *leaf)
 {
+    leaf->soup = walk->soup;
     leaf->leaf = tl_open_leaf(walk->soup, child, &leaf->buffer);
     leaf->scale = walk->scale;
     leaf->view = tl_view_leaf(leaf->leaf);
@@ -211,19 +215,39 @@ static inline void tl_walk_open_leaf(const tl_walk *walk, uint32_t child, tl_wal
     leaf->lane_count = 2 * leaf->view.pair_count;
 }
 
-/// False when the lane holds no triangle.
-static inline bool tl_walk_read_triangle(const tl_walk_leaf *leaf, uint32_t lane, tl_walk_triangle *triangle)
+/// Reads the triangle of an id word of its lane.
+static inline void tl_walk_read_word(tl_walk_triangle *triangle, uint32_t id)
 {
-    if (leaf->view.ids[lane] == TL_ID_NONE) {
-        return false;
-    }
-    tl_leaf_corners(&leaf->view, lane, triangle->corners);
+    const tl_walk_leaf *leaf = triangle->leaf;
+    tl_leaf_corners(&leaf->view, triangle->lane, id, triangle->corners);
     if (leaf->scale != NULL) {
         tl_walk_scale_corners(leaf->scale, triangle->corners);
     }
-    triangle->triangle = leaf->view.ids[lane] & TL_ID_INDEX;
+    triangle->id = id;
+    triangle->triangle = id & TL_ID_INDEX;
+}
+
+/// The first triangle of a lane. False when it holds none.
+static inline bool tl_walk_read_triangle(const tl_walk_leaf *leaf, uint32_t lane, tl_walk_triangle *triangle)
+{
+    const uint32_t id = leaf->view.ids[lane];
+    if (id == TL_ID_NONE) {
+        return false;
+    }
     triangle->leaf = leaf;
     triangle->lane = lane;
+    triangle->coincident = tl_soup_coincident(leaf->soup, id);
+    tl_walk_read_word(triangle, triangle->coincident != NULL ? *triangle->coincident : id);
+    return true;
+}
+
+/// The next triangle that coincides with this one. False when it was the last of its lane.
+static inline bool tl_walk_next_coincident(tl_walk_triangle *triangle)
+{
+    if (triangle->coincident == NULL || (*triangle->coincident & TL_ID_LAST) != 0) {
+        return false;
+    }
+    tl_walk_read_word(triangle, *++triangle->coincident);
     return true;
 }
 

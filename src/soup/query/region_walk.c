@@ -75,12 +75,13 @@ static uint32_t enter_region(const tl_walk_boxes *boxes, const tl_region *region
     return region->box != NULL ? lanes_meeting_box(boxes, *region->box) : region->enter(boxes, region->region);
 }
 
-static bool leaf_has(const tl_walk *walk, uint32_t child, uint32_t triangle)
+// Whether a leaf has a copy of a lane, by the index in its id word.
+static bool leaf_has(const tl_walk *walk, uint32_t child, uint32_t index)
 {
     tl_walk_leaf leaf;
     tl_walk_open_leaf(walk, child, &leaf);
     for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
-        if (leaf.view.ids[lane] != TL_ID_NONE && (leaf.view.ids[lane] & TL_ID_INDEX) == triangle) {
+        if (leaf.view.ids[lane] != TL_ID_NONE && (leaf.view.ids[lane] & TL_ID_INDEX) == index) {
             return true;
         }
     }
@@ -91,6 +92,7 @@ static bool leaf_has(const tl_walk *walk, uint32_t child, uint32_t triangle)
 static TL_NOINLINE bool is_first_copy(const tl_soup *soup, const tl_region *region, const tl_walk_triangle *triangle)
 {
     tl_aabb own = tl_walk_triangle_box(triangle);
+    const uint32_t index = triangle->leaf->view.ids[triangle->lane] & TL_ID_INDEX;
     tl_walk walk;
     tl_walk_begin_scaled(&walk, soup, triangle->leaf->scale);
     uint32_t child, first = UINT32_MAX;
@@ -100,7 +102,7 @@ static TL_NOINLINE bool is_first_copy(const tl_soup *soup, const tl_region *regi
             tl_walk_read_boxes(&walk, child, &boxes);
             uint32_t mask = lanes_meeting_box(&boxes, own) & enter_region(&boxes, region);
             tl_walk_enter_all(&walk, &boxes, mask);
-        } else if (child < first && leaf_has(&walk, child, triangle->triangle)) {
+        } else if (child < first && leaf_has(&walk, child, index)) {
             first = child;
         }
     }
@@ -137,10 +139,9 @@ static bool is_new(const tl_soup *soup, region_pass *pass, const tl_walk_triangl
     return true;
 }
 
-static bool is_in_part(const region_pass *pass, const tl_walk_leaf *leaf, uint32_t lane)
+static bool is_in_part(const region_pass *pass, const tl_walk_triangle *triangle)
 {
-    return pass->part_count == 1 ||
-           (tl_hash_mix(leaf->view.ids[lane] & TL_ID_INDEX) >> 32) % pass->part_count == pass->part;
+    return pass->part_count == 1 || (tl_hash_mix(triangle->triangle) >> 32) % pass->part_count == pass->part;
 }
 
 // Bit i: the own box of the triangle of lane i, which no walk scales, shares a point with `box`; of lanes without a
@@ -191,10 +192,12 @@ static bool report_leaf(const tl_walk *walk, region_pass *pass, uint32_t child)
     for (uint32_t lanes = lanes_to_read(&leaf, region); lanes != 0; lanes &= lanes - 1) {
         const uint32_t lane = tl_lowest_bit(lanes);
         tl_walk_triangle triangle;
-        if (is_in_part(pass, &leaf, lane) && tl_walk_read_triangle(&leaf, lane, &triangle) &&
-            belongs(region, &triangle) && is_new(walk->soup, pass, &triangle) &&
-            !region->found(&triangle, region->user)) {
-            return false;
+        for (bool more = tl_walk_read_triangle(&leaf, lane, &triangle); more;
+             more = tl_walk_next_coincident(&triangle)) {
+            if (is_in_part(pass, &triangle) && belongs(region, &triangle) && is_new(walk->soup, pass, &triangle) &&
+                !region->found(&triangle, region->user)) {
+                return false;
+            }
         }
     }
     return true;

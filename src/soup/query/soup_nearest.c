@@ -65,31 +65,35 @@ static void set_nearest_limit(soup_nearest_search *s, double limit_sq)
     s->limit_key = limit_sq < (double)FLT_MAX ? (float)limit_sq + FLT_MIN : INFINITY;
 }
 
+static void measure_distance(soup_nearest_search *s, const tl_walk_triangle *triangle)
+{
+    if (box_key(s->at, tl_walk_triangle_box(triangle)) > s->limit_key) {
+        return;
+    }
+    tl_triangle_point found;
+    tl_triangle_nearest(triangle->corners, s->point, &found);
+    bool better =
+        found.distance_sq < s->limit_sq || (found.distance_sq == s->limit_sq && triangle->triangle < s->triangle);
+    if (!better || (s->filter != NULL && !tl_ray_filter_accepts(s->soup, s->filter, triangle->triangle,
+                                                                seen_from_point(triangle->corners, s->at)))) {
+        return;
+    }
+    s->best = found;
+    s->triangle = triangle->triangle;
+    memcpy(s->corners, triangle->corners, sizeof s->corners);
+    set_nearest_limit(s, found.distance_sq);
+}
+
 static void visit_nearest_leaf(soup_nearest_search *s, const tl_walk *walk, uint32_t child)
 {
     tl_walk_leaf leaf;
     tl_walk_open_leaf(walk, child, &leaf);
     tl_walk_triangle triangle;
     for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
-        if (!tl_walk_read_triangle(&leaf, lane, &triangle)) {
-            continue;
+        for (bool more = tl_walk_read_triangle(&leaf, lane, &triangle); more;
+             more = tl_walk_next_coincident(&triangle)) {
+            measure_distance(s, &triangle);
         }
-        tl_aabb own = tl_walk_triangle_box(&triangle);
-        if (box_key(s->at, own) > s->limit_key) {
-            continue;
-        }
-        tl_triangle_point found;
-        tl_triangle_nearest(triangle.corners, s->point, &found);
-        bool better =
-            found.distance_sq < s->limit_sq || (found.distance_sq == s->limit_sq && triangle.triangle < s->triangle);
-        if (!better || (s->filter != NULL && !tl_ray_filter_accepts(s->soup, s->filter, triangle.triangle,
-                                                                    seen_from_point(triangle.corners, s->at)))) {
-            continue;
-        }
-        s->best = found;
-        s->triangle = triangle.triangle;
-        memcpy(s->corners, triangle.corners, sizeof s->corners);
-        set_nearest_limit(s, found.distance_sq);
     }
 }
 

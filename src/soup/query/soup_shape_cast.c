@@ -190,7 +190,8 @@ static void visit_swept_leaf(sweep_search *s, const tl_walk *walk, uint32_t chil
     tl_walk_open_leaf(walk, child, &leaf);
     tl_walk_triangle triangle;
     for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
-        if (tl_walk_read_triangle(&leaf, lane, &triangle)) {
+        for (bool more = tl_walk_read_triangle(&leaf, lane, &triangle); more;
+             more = tl_walk_next_coincident(&triangle)) {
             visit_triangle(s, &triangle);
         }
     }

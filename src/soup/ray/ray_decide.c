@@ -29,7 +29,7 @@
 
 typedef struct triangle_test {
     tl_leaf_view leaf;
-    uint32_t lane;
+    uint32_t lane, id;
     double weight[3]; // E of the edge across from each corner
     double reach;     // the largest distance along an axis from the origin to a corner
     double error;     // bound of a weight's error
@@ -45,7 +45,7 @@ static inline int sign_of_weight(double value)
 static int exact_side(const tl_ray_job *job, const triangle_test *test, int k)
 {
     tl_vec3 v[3];
-    tl_leaf_corners(&test->leaf, test->lane, v);
+    tl_leaf_corners(&test->leaf, test->lane, test->id, v);
     tl_vec3 a = v[(k + 1) % 3], b = v[(k + 2) % 3];
     int side = job->is_segment ? tl_orient3d(job->origin.point, job->target.point, a, b)
                                : tl_line_side(job->origin.point, job->target.point, a, b);
@@ -74,7 +74,7 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
     double origin_y = (double)job->origin.lane[job->axes[1]];
     double origin_z = (double)job->origin.lane[job->axes[2]];
     const float *corners[3];
-    tl_leaf_find_corners(&test->leaf, test->lane, corners);
+    tl_leaf_find_corners(&test->leaf, test->lane, test->id, corners);
     uint32_t stride = tl_leaf_stride(&test->leaf);
     for (int k = 0; k < 3; k++) {
         const float *corner = corners[k];
@@ -112,7 +112,7 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
 static double exact_t(const tl_ray_job *job, const triangle_test *test)
 {
     tl_vec3 v[3];
-    tl_leaf_corners(&test->leaf, test->lane, v);
+    tl_leaf_corners(&test->leaf, test->lane, test->id, v);
     double across = tl_normal_dot(v[0], v[1], v[2], v[0], job->origin.point);
     double along = job->is_segment ? tl_normal_dot(v[0], v[1], v[2], job->target.point, job->origin.point)
                                    : tl_normal_dot(v[0], v[1], v[2], job->target.point, tl_vec3_make(0.0f, 0.0f, 0.0f));
@@ -123,7 +123,7 @@ static double exact_t(const tl_ray_job *job, const triangle_test *test)
 static int exact_order(const tl_ray_job *job, const triangle_test *test, tl_vec3 at)
 {
     tl_vec3 v[3];
-    tl_leaf_corners(&test->leaf, test->lane, v);
+    tl_leaf_corners(&test->leaf, test->lane, test->id, v);
     // normal . (corner - at) over normal . direction; the latter's sign is that of the weights along the axis.
     int across = -tl_orient3d(v[0], v[1], v[2], at);
     int along = job->direction[job->axes[2]] > 0.0 ? test->sign : -test->sign;
@@ -134,7 +134,7 @@ static int exact_order(const tl_ray_job *job, const triangle_test *test, tl_vec3
 static double width_of(const triangle_test *test)
 {
     tl_vec3 v[3];
-    tl_leaf_corners(&test->leaf, test->lane, v);
+    tl_leaf_corners(&test->leaf, test->lane, test->id, v);
     double width = 0.0;
     for (int k = 1; k < 3; k++) {
         tl_vec3d side = tl_vec3d_sub(tl_vec3d_from(v[k]), tl_vec3d_from(v[0]));
@@ -148,7 +148,7 @@ static double find_place(const tl_ray_job *job, const triangle_test *test, float
                          double normal_out[3])
 {
     const float *corners[3];
-    tl_leaf_find_corners(&test->leaf, test->lane, corners);
+    tl_leaf_find_corners(&test->leaf, test->lane, test->id, corners);
     tl_ray_crossing crossing = tl_ray_cross_plane(job, corners, tl_leaf_stride(&test->leaf));
     for (int k = 0; k < 3; k++) {
         normal_out[k] = tl_f64x4_get_x(crossing.normal[k]);
@@ -188,7 +188,7 @@ static bool round_t(const tl_ray_job *job, const triangle_test *test, double t, 
     return true;
 }
 
-bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
+bool tl_ray_decide_triangle(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane, uint32_t id)
 {
     if (!job->is_exact) {
         prepare_exact(job);
@@ -196,7 +196,8 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
     triangle_test test;
     test.leaf = tl_view_leaf(leaf);
     test.lane = lane;
-    uint32_t triangle = test.leaf.ids[lane] & TL_ID_INDEX;
+    test.id = id;
+    uint32_t triangle = id & TL_ID_INDEX;
     if (!meets_line(job, &test)) {
         return false;
     }
@@ -222,4 +223,17 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
     job->v = v;
     memcpy(job->normal, normal, sizeof job->normal);
     return true;
+}
+
+bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
+{
+    const uint32_t id = tl_view_leaf(leaf).ids[lane], *word = tl_soup_coincident(job->soup, id);
+    if (word == NULL) {
+        return tl_ray_decide_triangle(job, leaf, lane, id);
+    }
+    bool better = tl_ray_decide_triangle(job, leaf, lane, *word);
+    while ((*word & TL_ID_LAST) == 0) {
+        better |= tl_ray_decide_triangle(job, leaf, lane, *++word);
+    }
+    return better;
 }

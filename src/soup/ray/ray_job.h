@@ -96,8 +96,12 @@ bool tl_ray_prepare_unusual(tl_ray_job *job);
 /// Moves the filters' origin of a ray from far away close to the soup's box. False: the ray surely misses the box.
 bool tl_ray_approach(tl_ray_job *job);
 
-/// Decides one lane of a leaf. If it is hit, and better than the best so far, it becomes the best.
+/// Decides one lane of a leaf, all triangles that coincide there. If one is hit, and better than the best so far, it
+/// becomes the best.
 bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane);
+
+/// Decides a triangle of a lane, given by its id word.
+bool tl_ray_decide_triangle(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane, uint32_t id);
 
 /// Describes the best hit.
 void tl_ray_describe(const tl_ray_job *job, tl_ray_hit *hit_out);

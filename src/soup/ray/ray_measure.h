@@ -17,6 +17,10 @@
 // 3 (8 u L^2 D + 2 L^2 D 4 u) = 48 u L^2 D, and n.c by 48 u L^2 M. The hit lies on the triangle, so |t| D <= M + L.
 // Together t is off by 48 u L^2 (2 M + L) / |n.d|, which is 48 u L^2 (2 M + L) / |n.c| of itself: that is much only
 // when the ray grazes the triangle's plane, or begins in it. Then t is computed exactly (ray_decide.c).
+//
+// Coincident triangles may be measured from different corners, and then their t round differently. They are all within
+// the error of the true t. So where t, taken twice that off to either side, rounds to the same float, it is the t of
+// all of them: but for one hit in some hundred thousand, one of them is measured.
 
 #ifndef TALUS_SRC_SOUP_RAY_MEASURE_H
 #define TALUS_SRC_SOUP_RAY_MEASURE_H
@@ -93,6 +97,16 @@ static inline bool tl_ray_t_is_safe(double across, double wide, double reach)
     return tl_ray_least_across(wide, reach) <= fabs(across);
 }
 
+/// Whether a t that is as exact as promised is that of every triangle with these corners. `least` is what
+/// tl_ray_least_across has for them.
+static inline bool tl_ray_t_is_common(double along, double across, double least)
+{
+    const double inverse = 1.0 / along, t = fabs(across * inverse);
+    // Roundings of this bound take an eighth of it at most.
+    const double off = 2.25 * TL_RAY_T_ERROR * least * fabs(inverse);
+    return (float)(t - off) == (float)(t + off);
+}
+
 /// Clamps u and v to the triangle: their rounding error may lead out of it.
 static inline void tl_ray_keep_inside(float *u, float *v)
 {
@@ -105,20 +119,19 @@ static inline void tl_ray_keep_inside(float *u, float *v)
 /// A triangle that the filters have proven to be hit, and where.
 typedef struct tl_ray_place {
     double normal[3]; ///< n
+    double along, across;
     float t, u, v;
-    uint32_t triangle;
     bool back;
     bool behind; ///< the origin
 } tl_ray_place;
 
-/// Where the ray's line meets the first or second triangle of pair (bit & 3) of a leaf of n, which it surely meets.
-/// False when t must be computed exactly. Bounds of the whole leaf bound this triangle's coordinates.
+/// Where the ray's line meets the first or second triangle of pair (bit & 3) of a leaf of n, which it surely meets; its
+/// id word is `id`. False when t must be computed exactly. Bounds of the whole leaf bound this triangle's coordinates.
 static TL_ALWAYS_INLINE bool tl_ray_find_place(const tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n,
-                                               uint32_t bit, tl_ray_place *out)
+                                               uint32_t bit, uint32_t id, tl_ray_place *out)
 {
     uint32_t pair = bit & 3u, second = bit >> 2;
     const uint32_t *ids = (const uint32_t *)(const void *)(leaf + 1);
-    uint32_t id = ids[pair + (second != 0 ? n : 0)];
     const float *floats = (const float *)(const void *)(ids + 2 * (size_t)n);
     // Where slots a, e and c begin, in bytes of a word, as in tl_leaf_find_corners.
     uint32_t slots = pair * 0x10101u + n * (0x10200u + (second << 8));
@@ -145,7 +158,8 @@ static TL_ALWAYS_INLINE bool tl_ray_find_place(const tl_ray_job *job, const tl_s
     out->u = place[2];
     out->v = place[3];
     tl_ray_keep_inside(&out->u, &out->v);
-    out->triangle = id & TL_ID_INDEX;
+    out->along = along;
+    out->across = across;
     out->back = along > 0.0;
     return true;
 }

@@ -297,12 +297,46 @@ static inline uint32_t lane_of_bit(uint32_t bit, uint32_t n)
     return bit < 4 ? bit : n + bit - 4;
 }
 
+static TL_ALWAYS_INLINE void keep_better(tl_ray_job *job, const tl_ray_place *place, uint32_t triangle)
+{
+    if (place->t < job->t || (place->t == job->t && triangle < job->triangle)) {
+        job->t = place->t;
+        job->box_limit = tl_ray_box_limit(job, place->t);
+        job->triangle = triangle;
+        job->back = place->back;
+        job->u = place->u;
+        job->v = place->v;
+        memcpy(job->normal, place->normal, sizeof job->normal);
+    }
+}
+
+// The triangles that coincide in a lane, each by itself: where a filter chooses, or their t may round differently.
+// False when they must be decided exactly.
+static TL_NOINLINE bool measure_each(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit,
+                                     const uint32_t *word)
+{
+    for (;; word++) {
+        tl_ray_place place;
+        if (!tl_ray_find_place(job, leaf, n, bit, *word, &place) || (job->is_segment && !(place.t < 1.0f))) {
+            return false;
+        }
+        const uint32_t triangle = *word & TL_ID_INDEX;
+        if (tl_ray_filter_accepts(job->soup, job->filter, triangle, place.back ? TL_SEEN_BACK : TL_SEEN_FRONT)) {
+            keep_better(job, &place, triangle);
+        }
+        if ((*word & TL_ID_LAST) != 0) {
+            return true;
+        }
+    }
+}
+
 // A triangle that the line surely meets needs no test, only its t: the better of it and the best so far stays. False
 // when it must be decided exactly, as at a segment's end.
 static TL_ALWAYS_INLINE bool measure_met(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit)
 {
+    const uint32_t id = ((const uint32_t *)(const void *)(leaf + 1))[lane_of_bit(bit, n)];
     tl_ray_place place;
-    if (!tl_ray_find_place(job, leaf, n, bit, &place)) {
+    if (!tl_ray_find_place(job, leaf, n, bit, id, &place)) {
         return false;
     }
     if (place.behind) {
@@ -311,15 +345,16 @@ static TL_ALWAYS_INLINE bool measure_met(tl_ray_job *job, const tl_soup_leaf *le
     if (job->is_segment && !(place.t < 1.0f)) {
         return place.t > SURELY_BEYOND_END;
     }
-    if (place.t < job->t || (place.t == job->t && place.triangle < job->triangle)) {
-        job->t = place.t;
-        job->box_limit = tl_ray_box_limit(job, place.t);
-        job->triangle = place.triangle;
-        job->back = place.back;
-        job->u = place.u;
-        job->v = place.v;
-        memcpy(job->normal, place.normal, sizeof job->normal);
+    uint32_t triangle = id & TL_ID_INDEX;
+    if (triangle >= job->soup->source_triangle_count) {
+        const uint32_t *word = tl_soup_coincident(job->soup, id);
+        const double least = tl_ray_least_across((double)leaf->extent, (double)job->reach);
+        if (job->filter != NULL || !tl_ray_t_is_common(place.along, place.across, least)) {
+            return measure_each(job, leaf, n, bit, word);
+        }
+        triangle = *word & TL_ID_INDEX;
     }
+    keep_better(job, &place, triangle);
     return true;
 }
 
@@ -373,8 +408,16 @@ static TL_ALWAYS_INLINE uint32_t nearest_lane(const walk_lanes *lanes, uint32_t 
     return nearest;
 }
 
-// Which of the lanes that are surely hit the filter ignores. All weights of such a lane have one sign, that of
-// `negative` for the order of its slots, and so it is known from which side the ray comes.
+// Whether the filter lets a triangle count that is surely hit, by its id word and the weights' sign.
+static bool word_counts(const tl_ray_job *job, uint32_t id, bool negative)
+{
+    const bool positive = negative == tl_id_is_reversed(id);
+    const tl_seen seen = (job->per_depth > 0.0f) == positive ? TL_SEEN_BACK : TL_SEEN_FRONT;
+    return tl_ray_filter_accepts(job->soup, job->filter, id & TL_ID_INDEX, seen);
+}
+
+// Which of the lanes that are surely hit the filter ignores, with all triangles in them. All weights of such a lane
+// have one sign, that of `negative` for the order of its slots, and so it is known from which side the ray comes.
 static TL_NOINLINE uint32_t ignored_lanes(const tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t sure,
                                           uint32_t negative)
 {
@@ -382,9 +425,13 @@ static TL_NOINLINE uint32_t ignored_lanes(const tl_ray_job *job, const tl_soup_l
     const uint32_t *ids = (const uint32_t *)(const void *)(leaf + 1);
     for (; sure != 0; sure &= sure - 1) {
         uint32_t bit = tl_lowest_bit(sure), id = ids[lane_of_bit(bit, n)];
-        bool positive = (negative >> bit & 1u) == (uint32_t)tl_id_is_reversed(id);
-        tl_seen seen = (job->per_depth > 0.0f) == positive ? TL_SEEN_BACK : TL_SEEN_FRONT;
-        ignored |= (uint32_t)!tl_ray_filter_accepts(job->soup, job->filter, id & TL_ID_INDEX, seen) << bit;
+        const bool is_negative = (negative >> bit & 1u) != 0;
+        const uint32_t *word = tl_soup_coincident(job->soup, id);
+        bool counts = word_counts(job, word != NULL ? *word : id, is_negative);
+        while (!counts && word != NULL && (*word & TL_ID_LAST) == 0) {
+            counts = word_counts(job, *++word, is_negative);
+        }
+        ignored |= (uint32_t)!counts << bit;
     }
     return ignored;
 }

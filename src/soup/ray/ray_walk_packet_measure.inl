@@ -10,10 +10,12 @@ typedef struct packet_triangles {
     float normal[3][PACKET_RAYS];
     float extent[PACKET_RAYS]; // of the leaf
     uint32_t triangle[PACKET_RAYS];
+    uint32_t coincident; // lanes whose triangle is the lowest of several
 } packet_triangles;
 
 typedef struct packet_places {
     _Alignas(64) double along[PACKET_RAYS]; // n.d
+    double across[PACKET_RAYS];             // n.c
     double margin[PACKET_RAYS];             // t is as exact as promised where this is not negative
     float t[PACKET_RAYS], u[PACKET_RAYS], v[PACKET_RAYS];
 } packet_places;
@@ -31,7 +33,7 @@ static TL_ALWAYS_INLINE uint32_t find_corners(const tl_soup_leaf *leaf, uint32_t
     for (uint32_t k = 0; k < 3; k++) {
         corners_out[k] = floats + (slots >> shift[k] & 0xffu);
     }
-    return id & TL_ID_INDEX;
+    return id;
 }
 
 static TL_ALWAYS_INLINE tl_vec3 corners_normal(const float *const corner[3], uint32_t stride)
@@ -50,6 +52,7 @@ static TL_ALWAYS_INLINE void gather_triangles(const tl_soup *soup, const uint32_
 {
     tl_f32x16 corners[3][3], normals[3], extents = tl_f32x16_all(0.0f);
     memset(all->triangle, 0, sizeof all->triangle);
+    all->coincident = 0;
     for (uint32_t i = 0; i < 3; i++) {
         corners[i][0] = corners[i][1] = corners[i][2] = normals[i] = tl_f32x16_all(0.0f);
     }
@@ -58,7 +61,9 @@ static TL_ALWAYS_INLINE void gather_triangles(const tl_soup *soup, const uint32_
         uint32_t same = lanes & tl_u32x16_equal(child, child[lane]) & tl_u32x16_equal(bit, bit[lane]);
         const tl_soup_leaf *leaf = tl_soup_leaf_at(soup, tl_child_leaf_offset(child[lane]));
         const float *corner[3];
-        tl_u32x16_store_where(all->triangle, same, find_corners(leaf, n, bit[lane], corner));
+        const uint32_t id = find_corners(leaf, n, bit[lane], corner);
+        tl_u32x16_store_where(all->triangle, same, tl_soup_lowest_triangle(soup, id));
+        all->coincident |= (id & TL_ID_INDEX) >= soup->source_triangle_count ? same : 0;
         for (uint32_t k = 0; k < 3; k++) {
             for (uint32_t i = 0; i < 3; i++) {
                 corners[k][i] = tl_f32x16_choose(same, tl_f32x16_all(corner[k][4 * (size_t)n * i]), corners[k][i]);
@@ -111,6 +116,7 @@ static TL_ALWAYS_INLINE void measure_lanes(const ray_packet *p, bool is_segment,
         places->u[i] = (float)(sum_axes(mx * qx, my * qy, mz * qz) * inverse);
         places->v[i] = -(float)(sum_axes(mx * px, my * py, mz * pz) * inverse);
         places->along[i] = along;
+        places->across[i] = across;
     }
     // As tl_ray_keep_inside does; a choice in the loop would keep compilers from making vectors of it.
     tl_f32x16 zero = tl_f32x16_all(0.0f), one = tl_f32x16_all(1.0f);
@@ -121,7 +127,8 @@ static TL_ALWAYS_INLINE void measure_lanes(const ray_packet *p, bool is_segment,
 }
 
 // Writes the hits of some lanes, in front of what is there already when `compare`: of equal t the lowest index wins.
-// Returns the lanes that must be traced alone, for their t must be computed exactly.
+// Returns the lanes that must be traced alone, for their t must be computed exactly, or as that of each of several
+// coincident triangles.
 static TL_ALWAYS_INLINE uint32_t measure_triangles(const tl_ray_batch *batch, const ray_packet *p,
                                                    const uint32_t *child, const uint32_t *bit, uint32_t lanes,
                                                    bool compare)
@@ -135,7 +142,10 @@ static TL_ALWAYS_INLINE uint32_t measure_triangles(const tl_ray_batch *batch, co
         uint32_t i = tl_lowest_bit(lanes);
         tl_ray_hit *hit = &batch->hits[p->index[i]];
         float t = places.t[i];
-        if (!(places.margin[i] >= 0.0 && t < TL_RAY_T_MAX)) {
+        const bool is_common = (all.coincident >> i & 1u) == 0 ||
+                               tl_ray_t_is_common(places.along[i], places.across[i],
+                                                  tl_ray_least_across((double)all.extent[i], (double)p->reach));
+        if (!(places.margin[i] >= 0.0 && t < TL_RAY_T_MAX && is_common)) {
             doubtful |= 1u << i;
             continue;
         }
