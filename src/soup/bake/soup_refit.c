@@ -68,18 +68,17 @@ static tl_result check_triangle(const tl_mesh_view *view, uint32_t triangle, tl_
 static tl_result check_moved_lane(const tl_soup *soup, const tl_mesh_view *view, uint32_t id, tl_report *report)
 {
     const uint32_t *word = tl_soup_coincident(soup, id);
-    const uint32_t lowest = tl_soup_lowest_triangle(soup, id);
-    TL_TRY(check_triangle(view, lowest, report));
     tl_vec3 slots[3];
-    for (uint32_t k = 0; k < 3; k++) {
-        slots[tl_soup_corner_slots[tl_id_order(id)][k]] = view->vertices[view->indices[3 * (size_t)lowest + k]];
-    }
-    while (word != NULL && (*word & TL_ID_LAST) == 0) {
-        const uint32_t triangle = *++word & TL_ID_INDEX;
+    for (bool first = true, last = false; !last; first = false) {
+        id = word != NULL ? *word : id;
+        last = word == NULL || (*word++ & TL_ID_LAST) != 0;
+        const uint32_t triangle = id & TL_ID_INDEX;
         TL_TRY(check_triangle(view, triangle, report));
         for (uint32_t k = 0; k < 3; k++) {
             const tl_vec3 corner = view->vertices[view->indices[3 * (size_t)triangle + k]];
-            if (!is_same_position(corner, slots[tl_soup_corner_slots[tl_id_order(*word)][k]])) {
+            tl_vec3 *slot = &slots[tl_soup_corner_slots[tl_id_order(id)][k]];
+            *slot = first ? corner : *slot;
+            if (!is_same_position(corner, *slot)) {
                 return tl_report_fail(report, TL_ERR_ARGUMENT, "triangle", triangle,
                                       "it came apart from one it lay on: move equal vertices equally, or bake anew");
             }

@@ -14,8 +14,7 @@ static const tl_word_run SOUP_HEAD[] = {
     { 8, 4 },  // offsets
     { 4, 2 },  // layout, vertex_count
     { 8, 3 },  // offsets
-    { 4, 2 },  // coincident_words, reserved_word
-    { 8, 4 },  // reserved
+    { 4, 10 }, // coincident_words, reserved
 };
 
 static const tl_word_run COMPACT_NODE[] = { { 4, 8 }, { 1, 6 * TL_SOUP_WIDTH }, { 4, TL_SOUP_WIDTH } };

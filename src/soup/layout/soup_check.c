@@ -8,6 +8,7 @@
 
 #include "base/assert.h"
 #include "base/blob_check.h"
+#include "base/compiler.h"
 #include "base/host.h"
 
 #include <float.h>
@@ -51,10 +52,8 @@ static bool head_is_sound(const tl_soup *soup)
                                          : soup->vertex_count != 0)) {
         return false;
     }
-    // An index of coincident triangles is behind those of the view.
-    if (soup->reserved_word != 0 ||
-        (uint64_t)soup->source_triangle_count + soup->coincident_words > (uint64_t)TL_ID_INDEX + 1 ||
-        (soup->coincident_words != 0 && soup->blob.version == TL_SOUP_VERSION_ALONE)) {
+    // Indices of coincident triangles are behind those of the view.
+    if (soup->coincident_words > TL_ID_INDEX - soup->source_triangle_count) {
         return false;
     }
     tl_soup placed = *soup;
@@ -79,39 +78,32 @@ static bool id_is_sound(const tl_soup *soup, uint32_t id)
     return (id & TL_ID_INDEX) < soup->source_triangle_count && order >= 1 && order <= 6;
 }
 
-// Lists of two to TL_MAX_COINCIDENT words, by index.
+// Lists of TL_MAX_COINCIDENT words at most, so that no lane takes longer, and the last of them has an end.
 static bool coincident_are_sound(const tl_soup *soup)
 {
     const uint32_t *words = tl_soup_coincident(soup, soup->source_triangle_count);
     uint32_t length = 0;
     for (uint32_t i = 0; i < soup->coincident_words; i++) {
-        length++;
-        if (!id_is_sound(soup, words[i]) || length > TL_MAX_COINCIDENT ||
-            (length > 1 && (words[i] & TL_ID_INDEX) <= (words[i - 1] & TL_ID_INDEX)) ||
-            (length == 1 && (words[i] & TL_ID_LAST) != 0)) {
+        if (!id_is_sound(soup, words[i]) || length == TL_MAX_COINCIDENT) {
             return false;
         }
-        length = (words[i] & TL_ID_LAST) != 0 ? 0 : length;
+        length = (words[i] & TL_ID_LAST) != 0 ? 0 : length + 1;
     }
     return length == 0;
 }
 
-// The triangles of a lane; 0: its id word is not sound. A list is entered at its beginning.
-static uint32_t count_of_lane(const tl_soup *soup, uint32_t id)
+// The triangles of a lane; 0: its id word is not sound.
+static TL_NOINLINE uint32_t count_of_lane(const tl_soup *soup, uint32_t id)
 {
-    if ((id & TL_ID_INDEX) < soup->source_triangle_count) {
+    const uint32_t index = id & TL_ID_INDEX;
+    if (index < soup->source_triangle_count) {
         return id_is_sound(soup, id) ? 1 : 0;
     }
-    const uint32_t place = (id & TL_ID_INDEX) - soup->source_triangle_count;
-    if (place >= soup->coincident_words) {
-        return 0;
-    }
-    const uint32_t *word = tl_soup_coincident(soup, id);
-    if ((place > 0 && (word[-1] & TL_ID_LAST) == 0) || tl_id_order(id) != tl_id_order(*word)) {
+    if (index - soup->source_triangle_count >= soup->coincident_words) {
         return 0;
     }
     uint32_t count = 1;
-    while ((*word++ & TL_ID_LAST) == 0) {
+    for (const uint32_t *word = tl_soup_coincident(soup, id); (*word & TL_ID_LAST) == 0; word++) {
         count++;
     }
     return count;

@@ -72,8 +72,7 @@ struct tl_soup {
     uint64_t vertex_offset;     ///< tl_vec3
     uint64_t coincident_offset; ///< uint32_t; these two are 0 where no triangles coincide
     uint32_t coincident_words;
-    uint32_t reserved_word; ///< zero, as are these
-    uint64_t reserved[4];
+    uint32_t reserved[9]; ///< zero
 };
 
 static_assert(sizeof(tl_soup) == 192, "no padding holes in the head");

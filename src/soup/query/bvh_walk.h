@@ -21,6 +21,7 @@
 #ifndef TALUS_SRC_SOUP_BVH_WALK_H
 #define TALUS_SRC_SOUP_BVH_WALK_H
 
+#include "base/compiler.h"
 #include "base/lowest_bit.h"
 #include "math/tolerance.h"
 #include "soup/layout/compact_layout.h"
@@ -201,7 +202,6 @@ typedef struct tl_walk_triangle {
     uint32_t triangle;
     const tl_walk_leaf *leaf;
     uint32_t lane;              ///< its place in the leaf
-    uint32_t id;                ///< its id word
     const uint32_t *coincident; ///< the id word among those of its lane; NULL: it is alone there
 } tl_walk_triangle;
 
@@ -215,15 +215,26 @@ static inline void tl_walk_open_leaf(const tl_walk *walk, uint32_t child, tl_wal
     leaf->lane_count = 2 * leaf->view.pair_count;
 }
 
+/// A triangle's id word.
+static inline uint32_t tl_walk_id(const tl_walk_triangle *triangle)
+{
+    return triangle->coincident != NULL ? *triangle->coincident : triangle->leaf->view.ids[triangle->lane];
+}
+
+#if defined(__wasm__) // code is downloaded there: one copy
+#define TL_WALK_READ TL_NOINLINE
+#else
+#define TL_WALK_READ
+#endif
+
 /// Reads the triangle of an id word of its lane.
-static inline void tl_walk_read_word(tl_walk_triangle *triangle, uint32_t id)
+static inline TL_WALK_READ void tl_walk_read_word(tl_walk_triangle *triangle, uint32_t id)
 {
     const tl_walk_leaf *leaf = triangle->leaf;
     tl_leaf_corners(&leaf->view, triangle->lane, id, triangle->corners);
     if (leaf->scale != NULL) {
         tl_walk_scale_corners(leaf->scale, triangle->corners);
     }
-    triangle->id = id;
     triangle->triangle = id & TL_ID_INDEX;
 }
 

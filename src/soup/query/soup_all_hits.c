@@ -46,7 +46,7 @@ static bool is_hit(const tl_walk_triangle *triangle, void *user)
     // As if nothing were hit yet.
     c->job.t = c->tmax;
     c->job.triangle = UINT32_MAX;
-    return tl_ray_decide_triangle(&c->job, triangle->leaf->leaf, triangle->lane, triangle->id) &&
+    return tl_ray_decide_triangle(&c->job, triangle->leaf->leaf, triangle->lane, tl_walk_id(triangle)) &&
            (c->rule == TL_HITS_TOUCHED || tl_moved_line_crosses(c->origin, c->direction, triangle->corners));
 }
 

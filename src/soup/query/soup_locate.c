@@ -74,7 +74,7 @@ static bool is_crossed(const tl_walk_triangle *triangle, void *user)
     counter *c = user;
     c->job.t = INFINITY;
     c->job.triangle = UINT32_MAX;
-    return tl_ray_decide_triangle(&c->job, triangle->leaf->leaf, triangle->lane, triangle->id) &&
+    return tl_ray_decide_triangle(&c->job, triangle->leaf->leaf, triangle->lane, tl_walk_id(triangle)) &&
            tl_moved_line_crosses(c->origin, c->direction, triangle->corners);
 }
 
