@@ -25,14 +25,14 @@
 // Lanes that pass get an interval of t, which settles most of them without ray_decide.c: triangles behind the ray or
 // beyond the best are dropped, and one that is surely hit, surely in front of the best and of its leaf's others, is
 // measured (ray_measure.h). The walk goes on meanwhile: its limit is the interval, not t. With D = sum(E) and depths
-// z_i, t = sum(E_i z_i) / D times per_depth. Let the line meet the triangle. Depths differ by L at most, so all are
-// within Z = |z_a| + L, and no corner is farther away than M' = Z + L: it is off by d' = 8 u M'. With m the largest of
-// the triangle's own computed coordinates, at most 2 M', E is off by at most 4 d' m + 2 d'^2 + 4 u m^2 <= 5 d' m + 2
-// d'^2; taken as e = 5.5 d' m + 3 d'^2 + FLT_MIN. (L is that of the leaf's largest triangle: where small ones lie
-// beside it, 13 d' L could not tell a fourth of some camera's hits from misses.) True weights have one sign, so errors
-// of the weights move the quotient by at most sum(e |z_i - z|) / |D| <= 3 e L / |D|. With |D| >= 64 e, roundings of
-// depths, products, sums and the quotient add 18 u Z, per_depth (two of its own) and its product 3 u Z. Taken as 4 e L
-// / |D| + 26 u Z.
+// z_i, t = sum(E_i z_i) / D times per_depth. Let the line meet the triangle. With m the largest of its computed
+// coordinates across the ray, and Z of its depths, no corner is farther away than M' = m + Z, as X = x' + S Z: it is
+// off by d' = 8 u M'. E is off by at most 4 d' m + 2 d'^2 + 4 u m^2 <= 4.5 d' m + 2 d'^2; taken as e = 5.5 d' m + 3
+// d'^2 + FLT_MIN. True weights have one sign, so the true quotient T lies among the depths, and errors of the weights
+// move it by at most e sum(|z_i - T|) / |D| <= 2 e s / |D|, with s the largest depth less the smallest. With |D| >= 64
+// e, roundings of depths, products, sums and the quotient add 18 u Z, per_depth (two of its own) and its product 3 u Z.
+// Taken as 2.25 e s / |D| + 26 u Z. (The triangle's own size tells more than L: that of the largest in the leaf, for
+// all three depths, left one in six of some rays in doubt whether they begin before a floor or behind it.)
 //
 // Underflow. Products of the depths' sum, and that sum times per_depth, err by 2^-150 each, which 1 / |D| makes large:
 // with e taken as 2^-77 at least, so that |D| >= 2^-71, and |per_depth| >= 2^-20, by less than 2^-58.9 |per_depth|,
@@ -60,7 +60,7 @@
 #define LANE_SIZE_TERM   5.5f
 #define LANE_ERROR_TERM  3.0f
 #define LANE_MIN_RATIO   64.0f // |D| / e
-#define T_RATIO_TERM     8.0f
+#define T_RATIO_TERM     2.25f
 #define T_ROUNDING       (28.0f * TL_FLOAT_ROUNDING)
 #define LANE_UNDERFLOW   0x1p-77f
 #define DEPTH_UNDERFLOW  0x1p-38f // metres
@@ -220,7 +220,6 @@ typedef struct leaf_lanes {
     tl_f32x8 ae, ec, ca;             // sidedness of each edge: the weights of c, a and e
     uint32_t maybe;                  // bits of lanes that the line may meet: 0-3 first triangles, 4-7 second ones
     tl_f32x8 sure;                   // signs: lanes that it meets
-    float extent;                    // of any triangle, in metres
 } leaf_lanes;
 
 static inline tl_f32x8 cross_lanes(tl_f32x8 ax, tl_f32x8 ay, tl_f32x8 bx, tl_f32x8 by)
@@ -253,7 +252,6 @@ static TL_ALWAYS_INLINE void test_leaf(const tl_ray_job *job, const tl_soup_leaf
     cy = tl_f32x8_mul_sub_from(shear_y, cz, cy);
     ey = tl_f32x8_mul_sub_from(shear_y, ez, ey);
     tl_f32x8 ae = cross_lanes(ax, ay, ex, ey), ec = cross_lanes(ex, ey, cx, cy), ca = cross_lanes(cx, cy, ax, ay);
-    lanes->extent = leaf->extent;
     tl_f32x8 error = tl_f32x8_all(
         job->corner_error * (LEAF_EXTENT_TERM * leaf->extent + LEAF_ERROR_TERM * job->corner_error) + FLT_MIN);
     // The signs of these tell which edges are surely negative, and which surely positive.
@@ -310,28 +308,42 @@ static TL_ALWAYS_INLINE void keep_better(tl_ray_job *job, const tl_ray_place *pl
     }
 }
 
-// The triangles that coincide in a lane, each by itself: where a filter chooses, or their t may round differently.
-// False when they must be decided exactly.
-static TL_NOINLINE bool measure_each(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit,
-                                     const uint32_t *word)
+// A triangle that the line surely meets needs no test, only its t: the better of it and the best so far stays. Of a
+// lane, each triangle for itself. False when they must be decided exactly, as at a segment's end.
+static TL_NOINLINE bool measure_each(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit)
 {
-    for (;; word++) {
+    uint32_t id = ((const uint32_t *)(const void *)(leaf + 1))[lane_of_bit(bit, n)];
+    const uint32_t *word = tl_soup_coincident(job->soup, id);
+    for (bool last = false; !last;) {
+        id = word != NULL ? *word : id;
+        last = word == NULL || (*word++ & TL_ID_LAST) != 0;
         tl_ray_place place;
-        if (!tl_ray_find_place(job, leaf, n, bit, *word, &place) || (job->is_segment && !(place.t < 1.0f))) {
+        if (!tl_ray_find_place(job, leaf, n, bit, id, &place)) {
             return false;
         }
-        const uint32_t triangle = *word & TL_ID_INDEX;
-        if (tl_ray_filter_accepts(job->soup, job->filter, triangle, place.back ? TL_SEEN_BACK : TL_SEEN_FRONT)) {
+        const bool is_past = job->is_segment && !(place.t < 1.0f);
+        if (!place.behind && is_past && !(place.t > SURELY_BEYOND_END)) {
+            return false;
+        }
+        const uint32_t triangle = id & TL_ID_INDEX;
+        const tl_seen seen = place.back ? TL_SEEN_BACK : TL_SEEN_FRONT;
+        if (!place.behind && !is_past && tl_ray_filter_accepts(job->soup, job->filter, triangle, seen)) {
             keep_better(job, &place, triangle);
         }
-        if ((*word & TL_ID_LAST) != 0) {
-            return true;
-        }
     }
+    return true;
 }
 
-// A triangle that the line surely meets needs no test, only its t: the better of it and the best so far stays. False
-// when it must be decided exactly, as at a segment's end.
+// The lowest of the triangles that coincide in a lane, where it has the t of all; else TL_NO_TRIANGLE.
+static TL_NOINLINE uint32_t lowest_of_lane(const tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t id, double along,
+                                           double across)
+{
+    const double least = tl_ray_least_across((double)leaf->extent, (double)job->reach);
+    const bool is_common = job->filter == NULL && tl_ray_t_is_common(along, across, least);
+    return is_common ? tl_soup_lowest_triangle(job->soup, id) : TL_NO_TRIANGLE;
+}
+
+// The same for the lowest triangle alone where that is enough, and the filter is known to let the lane count.
 static TL_ALWAYS_INLINE bool measure_met(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit)
 {
     const uint32_t id = ((const uint32_t *)(const void *)(leaf + 1))[lane_of_bit(bit, n)];
@@ -347,12 +359,10 @@ static TL_ALWAYS_INLINE bool measure_met(tl_ray_job *job, const tl_soup_leaf *le
     }
     uint32_t triangle = id & TL_ID_INDEX;
     if (triangle >= job->soup->source_triangle_count) {
-        const uint32_t *word = tl_soup_coincident(job->soup, id);
-        const double least = tl_ray_least_across((double)leaf->extent, (double)job->reach);
-        if (job->filter != NULL || !tl_ray_t_is_common(place.along, place.across, least)) {
-            return measure_each(job, leaf, n, bit, word);
+        triangle = lowest_of_lane(job, leaf, id, place.along, place.across);
+        if (triangle == TL_NO_TRIANGLE) {
+            return measure_each(job, leaf, n, bit);
         }
-        triangle = *word & TL_ID_INDEX;
     }
     keep_better(job, &place, triangle);
     return true;
@@ -361,7 +371,7 @@ static TL_ALWAYS_INLINE bool measure_met(tl_ray_job *job, const tl_soup_leaf *le
 // The lanes of a leaf that may be hit, as far as the float filters tell.
 typedef struct walk_lanes {
     uint32_t maybe; // bits
-    uint32_t sure;  // bits: hit, and in front of the origin
+    uint32_t met;   // bits: the line meets them
     uint32_t clear; // bits: t is within the bounds
     float low[8], high[8];
 } walk_lanes;
@@ -378,7 +388,7 @@ static TL_NOINLINE void settle_each(tl_ray_job *job, const walk_lanes *lanes, co
         if (beyond || ids[lane] == TL_ID_NONE || (ids[lane] & TL_ID_INDEX) == job->triangle) {
             continue;
         }
-        if ((lanes->sure >> bit & 1u) == 0 || !measure_met(job, leaf, n, bit)) {
+        if ((lanes->met >> bit & 1u) == 0 || !measure_each(job, leaf, n, bit)) {
             (void)tl_ray_decide(job, leaf, lane);
         }
     }
@@ -427,10 +437,12 @@ static TL_NOINLINE uint32_t ignored_lanes(const tl_ray_job *job, const tl_soup_l
         uint32_t bit = tl_lowest_bit(sure), id = ids[lane_of_bit(bit, n)];
         const bool is_negative = (negative >> bit & 1u) != 0;
         const uint32_t *word = tl_soup_coincident(job->soup, id);
-        bool counts = word_counts(job, word != NULL ? *word : id, is_negative);
-        while (!counts && word != NULL && (*word & TL_ID_LAST) == 0) {
-            counts = word_counts(job, *++word, is_negative);
-        }
+        bool counts, is_last;
+        do {
+            id = word != NULL ? *word : id;
+            counts = word_counts(job, id, is_negative);
+            is_last = word == NULL || (*word++ & TL_ID_LAST) != 0;
+        } while (!counts && !is_last);
         ignored |= (uint32_t)!counts << bit;
     }
     return ignored;
@@ -440,24 +452,27 @@ static TL_NOINLINE uint32_t ignored_lanes(const tl_ray_job *job, const tl_soup_l
 static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, const leaf_lanes *v,
                                           bool any, walk_best *best)
 {
-    float per_depth = job->per_depth, extent = v->extent;
+    float per_depth = job->per_depth;
     float size = fabsf(per_depth);
     tl_f32x8 sum = tl_f32x8_add(tl_f32x8_add(v->ae, v->ec), v->ca);
     tl_f32x8 inverse = tl_f32x8_div(tl_f32x8_all(1.0f), sum);
     tl_f32x8 weighted =
         tl_f32x8_add(tl_f32x8_add(tl_f32x8_mul(v->ae, v->cz), tl_f32x8_mul(v->ec, v->az)), tl_f32x8_mul(v->ca, v->ez));
     tl_f32x8 t = tl_f32x8_mul(tl_f32x8_mul(weighted, tl_f32x8_all(per_depth)), inverse);
-    tl_f32x8 depth = tl_f32x8_abs(v->az);
-    tl_f32x8 corner_error = tl_f32x8_mul_add(depth, tl_f32x8_all(TL_RAY_CORNER_ERROR),
-                                             tl_f32x8_all(2.0f * TL_RAY_CORNER_ERROR * extent + FLT_MIN));
+    tl_f32x8 deepest = tl_f32x8_max(tl_f32x8_max(v->az, v->cz), v->ez);
+    tl_f32x8 nearest_z = tl_f32x8_min(tl_f32x8_min(v->az, v->cz), v->ez);
+    tl_f32x8 depth = tl_f32x8_max(tl_f32x8_abs(deepest), tl_f32x8_abs(nearest_z));
+    tl_f32x8 across = farthest_across(v);
+    tl_f32x8 corner_error =
+        tl_f32x8_mul_add(tl_f32x8_add(across, depth), tl_f32x8_all(TL_RAY_CORNER_ERROR), tl_f32x8_all(FLT_MIN));
     tl_f32x8 error = tl_f32x8_mul_add(corner_error, tl_f32x8_all(LANE_ERROR_TERM),
-                                      tl_f32x8_mul(farthest_across(v), tl_f32x8_all(LANE_SIZE_TERM)));
+                                      tl_f32x8_mul(across, tl_f32x8_all(LANE_SIZE_TERM)));
     error = tl_f32x8_mul_add(error, corner_error, tl_f32x8_all(LANE_UNDERFLOW));
     tl_f32x8 ratio = tl_f32x8_abs(tl_f32x8_mul(error, inverse));
     float rounding = T_ROUNDING * size;
-    tl_f32x8 spread =
-        tl_f32x8_mul_add(depth, tl_f32x8_all(rounding), tl_f32x8_all(rounding * (extent + DEPTH_UNDERFLOW)));
-    spread = tl_f32x8_mul_add(ratio, tl_f32x8_all(T_RATIO_TERM * extent * size), spread);
+    tl_f32x8 spread = tl_f32x8_mul_add(depth, tl_f32x8_all(rounding), tl_f32x8_all(rounding * DEPTH_UNDERFLOW));
+    tl_f32x8 slope = tl_f32x8_mul(tl_f32x8_sub(deepest, nearest_z), tl_f32x8_all(T_RATIO_TERM * size));
+    spread = tl_f32x8_mul_add(ratio, slope, spread);
     tl_f32x8 low = tl_f32x8_sub(t, spread), high = tl_f32x8_add(t, spread);
     uint32_t clear = tl_f32x8_less(ratio, tl_f32x8_all(1.0f / LANE_MIN_RATIO)) & (job->has_intervals ? 0xffu : 0u);
     uint32_t gone = tl_f32x8_less(high, tl_f32x8_all(0.0f)) | tl_f32x8_less(tl_f32x8_all(best->limit), low);
@@ -465,7 +480,8 @@ static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const tl_soup_leaf *l
     if (maybe == 0) {
         return false;
     }
-    uint32_t sure = tl_f32x8_signs(v->sure) & tl_f32x8_less(tl_f32x8_all(0.0f), low) & clear;
+    uint32_t met = tl_f32x8_signs(v->sure) & (job->has_intervals ? 0xffu : 0u);
+    uint32_t sure = met & tl_f32x8_less(tl_f32x8_all(0.0f), low) & clear;
     if (job->filter != NULL) {
         maybe &= ~ignored_lanes(job, leaf, n, maybe & sure, tl_f32x8_signs(v->ae));
         if (maybe == 0) {
@@ -490,7 +506,7 @@ static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const tl_soup_leaf *l
         }
     }
     lanes.maybe = maybe;
-    lanes.sure = sure;
+    lanes.met = met;
     lanes.clear = clear;
     settle_each(job, &lanes, leaf, n);
     *best = best_of_job(job);

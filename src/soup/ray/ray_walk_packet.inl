@@ -157,7 +157,8 @@ static TL_NOINLINE void note_doubts(ray_packet *p, uint32_t child, uint32_t bit,
     }
 }
 
-// Settles the rays that may meet a triangle, by the bounds of settle_lanes.
+// Settles the rays that may meet a triangle, by bounds as in settle_lanes. For the sizes of the triangle they take the
+// leaf's largest: narrower intervals were no faster here.
 static TL_ALWAYS_INLINE void settle_rays(ray_packet *p, const packet_leaf *leaf, const packet_triangle *v,
                                          uint32_t maybe, uint32_t met, uint32_t bit, bool any)
 {
