@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Mending a prepared navmesh: a tile of a city is taken out and put back, and its visibility graph brought up to date.
+// Mending a prepared navmesh: tiles of a city change, and its visibility graph is brought up to date.
 //
 //   bench_mend [--triangles N (1000000)] [--edits N (60)] [--pairs N (400)] [--json FILE]
 //
-// Beside each other: what it takes to prepare the navmesh from nothing, what a mend takes, and searches between random
-// places before the edits and after them, which say what is left of the landmarks. Processor time of one thread.
+// Beside each other: what it takes to prepare the navmesh from nothing, and what a mend takes after an edit of each
+// kind: a tile is replaced by an equal one; a crate comes, and its tiles are replaced by rebaked ones, and goes again;
+// a tile goes, and comes back. Searches between random places before the edits and after them say what is left of the
+// landmarks. Processor time of one thread.
 
 #include "base/random.h"
 #include "bench_options.h"
@@ -15,6 +17,7 @@
 
 #include <talus/nav_around.h>
 #include <talus/nav_bake.h>
+#include <talus/nav_obstacles.h>
 #include <talus/nav_prepare.h>
 #include <talus/nav_query.h>
 
@@ -22,7 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_EDITS = 1 << 16, MAX_PAIRS = 1 << 12, RUNS = 5 };
+enum { MAX_EDITS = 1 << 14, MAX_PAIRS = 1 << 12, RUNS = 5 };
 
 static const double BAR_MS = 5.0;
 
@@ -37,7 +40,10 @@ static void must(tl_result result, const char *what)
 static uint64_t random_state = 3;
 
 typedef struct world {
-    tl_nav_tiles tiles;
+    tl_nav_tile_block block;
+    tl_nav_tile **tiles; // of the block
+    uint32_t tile_count;
+    tl_nav_obstacles *obstacles;
     tl_navmesh *navmesh;
     tl_nav_query *query;
     tl_vec3 pairs[MAX_PAIRS][2];
@@ -60,13 +66,24 @@ static void bake_world(world *w, uint32_t triangles)
     must(tl_sample_build_level(tl_sample_find_level("city"), triangles, 1, &mesh), "sample");
     tl_nav_def def = tl_default_nav_def();
     def.tile_size = 64;
+    for (uint32_t i = 0; i < mesh.vertex_count; i++) {
+        def.bounds = tl_aabb_add_point(def.bounds, mesh.vertices[i]);
+    }
     tl_nav_input input;
     memset(&input, 0, sizeof input);
     input.mesh = tl_sample_mesh_as_view(&mesh);
-    must(tl_nav_bake(&def, &input, &w->tiles, NULL), "bake");
+    must(tl_nav_obstacles_bake(&def, &input, &w->obstacles, &w->block, NULL), "bake");
     tl_sample_mesh_free(&mesh);
     must(tl_navmesh_create(NULL, &w->navmesh), "navmesh");
-    must(tl_navmesh_add_tiles(w->navmesh, w->tiles.tiles, w->tiles.tile_count, TL_NAV_TILE_BORROWED, NULL), "tiles");
+    const uint32_t places = w->block.range.count_x * w->block.range.count_z;
+    w->tiles = malloc(places * sizeof *w->tiles);
+    must(w->tiles != NULL ? TL_OK : TL_ERR_MEMORY, "list of tiles");
+    for (uint32_t i = 0; i < places; i++) {
+        for (uint32_t k = 0; k < w->block.stacks[i].count && k < 1; k++) {
+            w->tiles[w->tile_count++] = w->block.stacks[i].tiles[k];
+        }
+    }
+    must(tl_navmesh_add_tiles(w->navmesh, w->tiles, w->tile_count, TL_NAV_TILE_BORROWED, NULL), "tiles");
 }
 
 // Places have other polygons once their tile was put back.
@@ -122,32 +139,98 @@ static void measure_paths(const world *w, const char *when, bench_report *report
     bench_report_value(report, "paths", "us", when, best);
 }
 
+// Of mends after edits of one kind.
+typedef struct mend_times {
+    const char *kind;
+    double times[MAX_EDITS];
+    uint32_t count;
+    double looked;
+    tl_nav_prepared made;
+} mend_times;
+
+static void mend(const world *w, mend_times *m)
+{
+    const double began = bench_thread_seconds();
+    m->made = prepare(w);
+    m->times[m->count++] = (bench_thread_seconds() - began) * 1e3;
+    m->looked += m->made.renewed_count;
+}
+
+static void report_mends(mend_times *m, bench_report *report)
+{
+    const double median = bench_quantile(m->times, m->count, 0.5);
+    printf("  %-26s median %5.2f ms, 90%% %5.2f, most %5.2f; %4.0f corner vertices look; now %u, %u edges, %.1f MB\n",
+           m->kind, median, bench_quantile(m->times, m->count, 0.9), bench_quantile(m->times, m->count, 1.0),
+           m->looked / (double)m->count, m->made.corner_vertex_count, m->made.edge_count, 1e-6 * (double)m->made.bytes);
+    char claim[96];
+    snprintf(claim, sizeof claim, "ms to mend a graph after: %s", m->kind);
+    bench_report_at_most(report, claim, median, BAR_MS);
+}
+
+static tl_nav_tile *random_tile(const world *w)
+{
+    return w->tiles[tl_random_bits(&random_state) % w->tile_count];
+}
+
+// Puts all tiles that wait into the navmesh.
+static void update_tiles(const world *w)
+{
+    uint32_t waiting = 1;
+    while (waiting > 0) {
+        must(tl_nav_obstacles_update(w->obstacles, w->navmesh, 64, &waiting, NULL), "update");
+    }
+}
+
+static tl_nav_obstacle random_crate(const world *w)
+{
+    tl_nav_obstacle crate;
+    memset(&crate, 0, sizeof crate);
+    crate.shape = TL_NAV_OBSTACLE_BOX;
+    tl_nav_location place;
+    const uint64_t random[2] = { tl_random_bits(&random_state), tl_random_bits(&random_state) };
+    must(tl_navmesh_random_point(w->navmesh, NULL, random, &place), "place");
+    crate.base = place.point;
+    crate.half_x = crate.half_z = 0.5f;
+    crate.height = 1.0f;
+    return crate;
+}
+
 static void measure_mends(const world *w, uint32_t edits, bench_report *report)
 {
-    static double times[MAX_EDITS];
-    double looked = 0.0;
-    tl_nav_prepared made = { .bytes = 0 };
+    static mend_times equal = { .kind = "an equal tile" }, crate_comes = { .kind = "a crate comes" },
+                      crate_goes = { .kind = "a crate goes" }, goes = { .kind = "a tile goes" },
+                      comes = { .kind = "a tile comes" };
     for (uint32_t i = 0; i < edits; i++) {
-        const tl_nav_tile *tile = w->tiles.tiles[tl_random_bits(&random_state) % w->tiles.tile_count];
+        const tl_nav_tile *tile = random_tile(w);
         must(tl_navmesh_remove_tile(w->navmesh, tile->tile_x, tile->tile_z), "remove");
         must(tl_navmesh_add_tile(w->navmesh, tile, TL_NAV_TILE_BORROWED), "add");
-        const double began = bench_thread_seconds();
-        made = prepare(w);
-        times[i] = (bench_thread_seconds() - began) * 1e3;
-        looked += made.renewed_count;
+        mend(w, &equal);
+        const tl_nav_obstacle crate = random_crate(w);
+        tl_nav_obstacle_id id = 0;
+        must(tl_nav_obstacles_add(w->obstacles, &crate, &id, NULL), "crate");
+        update_tiles(w);
+        mend(w, &crate_comes);
+        must(tl_nav_obstacles_remove(w->obstacles, id), "crate");
+        update_tiles(w);
+        mend(w, &crate_goes);
+        tile = random_tile(w);
+        must(tl_navmesh_remove_tile(w->navmesh, tile->tile_x, tile->tile_z), "remove");
+        mend(w, &goes);
+        must(tl_navmesh_add_tile(w->navmesh, tile, TL_NAV_TILE_BORROWED), "add");
+        mend(w, &comes);
     }
-    const double median = bench_quantile(times, edits, 0.5);
-    printf("  mend: median %.2f ms, 90%% %.2f, most %.2f; %.0f corner vertices look; now %u, %u edges, %.1f MB\n",
-           median, bench_quantile(times, edits, 0.9), bench_quantile(times, edits, 1.0), looked / (double)edits,
-           made.corner_vertex_count, made.edge_count, 1e-6 * (double)made.bytes);
-    bench_report_at_most(report, "ms to mend a graph after a tile was put back", median, BAR_MS);
+    report_mends(&equal, report);
+    report_mends(&crate_comes, report);
+    report_mends(&crate_goes, report);
+    report_mends(&goes, report);
+    report_mends(&comes, report);
 }
 
 int main(int argc, char **argv)
 {
     uint32_t triangles = 1000000, edits = 60, pairs = 400;
     const bench_option options[] = { { "triangles", BENCH_COUNT, &triangles, "of the city" },
-                                     { "edits", BENCH_COUNT, &edits, "tiles that are taken out and put back" },
+                                     { "edits", BENCH_COUNT, &edits, "of each kind" },
                                      { "pairs", BENCH_COUNT, &pairs, "of places between which paths are found" },
                                      { NULL, BENCH_COUNT, NULL, NULL } };
     const char *json = NULL;
@@ -160,7 +243,7 @@ int main(int argc, char **argv)
     const double began = bench_thread_seconds();
     const tl_nav_prepared made = prepare(&w);
     printf("city of %u triangles, %u tiles: prepared in %.1f ms; %u corner vertices, %u edges, %.1f MB\n", triangles,
-           w.tiles.tile_count, (bench_thread_seconds() - began) * 1e3, made.corner_vertex_count, made.edge_count,
+           w.tile_count, (bench_thread_seconds() - began) * 1e3, made.corner_vertex_count, made.edge_count,
            1e-6 * (double)made.bytes);
     choose_pairs(&w, pairs);
     measure_paths(&w, "before", report);
@@ -169,6 +252,8 @@ int main(int argc, char **argv)
     bench_report_print_claims(report);
     tl_nav_query_destroy(w.query);
     tl_navmesh_destroy(w.navmesh);
-    tl_nav_tiles_free(&w.tiles);
+    tl_nav_obstacles_destroy(w.obstacles);
+    tl_nav_tile_block_free(&w.block);
+    free(w.tiles);
     return bench_report_close(report, json);
 }

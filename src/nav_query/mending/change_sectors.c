@@ -15,6 +15,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "nav_query/mending/known_rings.h"
 
 #include <string.h>
 
@@ -75,12 +76,12 @@ static bool is_in_box(const tl_nav_plan_box *box, const tl_nav_corner_vertex *ve
     return vertex->x >= box->low_x && vertex->x <= box->high_x && vertex->z >= box->low_z && vertex->z <= box->high_z;
 }
 
+// `polygon`, by its old number, is one of a region, which is all of the slot if it is of another tile.
 static tl_result add_polygon_sectors(sector_finder *f, uint32_t slot, uint32_t polygon, bool is_other)
 {
     const tl_nav_visibility_graph *graph = f->s->changes->graph;
     const tl_nav_graph_tile *tile = &graph->tiles[slot];
-    const tl_nav_plan_box box =
-        is_other ? tile->box : tl_nav_box_of_polygons(&f->s->changes->navmesh->slots[slot].rings, polygon, 1);
+    const tl_nav_plan_box box = is_other ? tile->box : tl_nav_box_of_known(&tile->rings, polygon);
     for (uint32_t i = tile->cones.first[polygon]; i < tile->cones.first[polygon + 1]; i++) {
         const uint32_t v = tl_nav_cone_vertex(&tile->cones, i);
         if (graph->marks[v] == TL_NAV_MARK_LOOKS && is_in_box(&box, &graph->vertices[v])) {
@@ -121,8 +122,8 @@ static tl_result find_sectors(sector_finder *f)
             TL_TRY(add_polygon_sectors(f, slot, p, true));
         }
     }
-    for (uint64_t i = 0; i < c->polygons.count; i++) {
-        const uint64_t key = c->polygons.items[i].key;
+    for (uint64_t i = 0; i < c->old_polygons.count; i++) {
+        const uint64_t key = c->old_polygons.items[i].key;
         TL_TRY(add_polygon_sectors(f, (uint32_t)(key >> 32), (uint32_t)key, false));
     }
     return add_gone_sectors(f);
@@ -269,6 +270,18 @@ static ray_chord chord_of_polygon(const tl_navmesh *navmesh, const sight_ray *ra
     return chord;
 }
 
+static ray_chord chord_of_known(const tl_nav_known_rings *known, const sight_ray *ray, uint32_t polygon)
+{
+    const tl_nav_known_edge *edges = known->edges + known->first[polygon];
+    const uint32_t count = known->first[polygon + 1] - known->first[polygon];
+    ray_chord chord = { (double)INFINITY, -(double)INFINITY };
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_nav_known_edge *a = &edges[i], *b = &edges[i + 1 < count ? i + 1 : 0];
+        cut_chord(ray, (double)a->x, (double)a->z, (double)b->x, (double)b->z, &chord);
+    }
+    return chord;
+}
+
 static ray_chord chord_of_box(const tl_nav_plan_box *box, const sight_ray *ray)
 {
     ray_chord chord = { (double)INFINITY, -(double)INFINITY };
@@ -292,7 +305,7 @@ static ray_chord chord_of_region(const tl_nav_graph_changes *c, const sight_ray 
         return chord;
     }
     if (sector->polygon != TL_NO_POLYGON) {
-        return chord_of_polygon(c->navmesh, ray, sector->slot, sector->polygon);
+        return chord_of_known(&c->graph->tiles[sector->slot].rings, ray, sector->polygon);
     }
     return chord_of_box(&c->graph->tiles[sector->slot].box, ray);
 }
@@ -378,6 +391,20 @@ typedef struct slot_pass {
     bool keeps; // some of them
 } slot_pass;
 
+// Who had cones in polygons of a slot that are gone, and in no others, has lost it.
+static tl_result note_lost_in(tl_nav_change_sectors *s, uint32_t slot, const slot_pass *passes)
+{
+    const tl_nav_graph_changes *c = s->changes;
+    for (uint64_t k = 0; k < looker_count(s); k++) {
+        for (uint64_t i = s->first[k]; i < s->first[k + 1]; i++) {
+            if (s->sectors[i].slot == slot && passes[k].slot != slot) {
+                TL_TRY(tl_nav_add_pair(c->allocator, &s->lost, c->lookers.numbers[k], slot));
+            }
+        }
+    }
+    return TL_OK;
+}
+
 // Goes through the cones of a slot whose tile stays. `passes`, by looker.
 static tl_result find_beyond(tl_nav_change_sectors *s, uint32_t slot, slot_pass *passes)
 {
@@ -408,6 +435,7 @@ static tl_result find_beyond(tl_nav_change_sectors *s, uint32_t slot, slot_pass 
             }
         }
     }
+    TL_TRY((c->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0 ? note_lost_in(s, slot, passes) : TL_OK);
     for (uint64_t i = first_beyond; i < s->beyond.count; i++) {
         const uint32_t order = (uint32_t)(s->beyond.items[i].key >> 32);
         if (!passes[order].keeps) {
@@ -454,6 +482,19 @@ static tl_result note_lost_tiles(tl_nav_change_sectors *s)
     return TL_OK;
 }
 
+// Cones in polygons that stay go to their new numbers. From here on the slots are as if they had always had these.
+static tl_result renumber_cones(const tl_nav_graph_changes *c)
+{
+    for (uint64_t i = 0; i < c->slots.count; i++) {
+        const uint32_t slot = c->slots.numbers[i];
+        if ((c->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0) {
+            TL_TRY(tl_nav_renumber_cones(c->allocator, c->graph, slot, c->navmesh->slots[slot].rings.polygon_count,
+                                         c->map.numbers + c->first_map[slot]));
+        }
+    }
+    return TL_OK;
+}
+
 tl_result tl_nav_find_change_sectors(tl_nav_graph_changes *changes, tl_nav_change_sectors *sectors_out)
 {
     memset(sectors_out, 0, sizeof *sectors_out);
@@ -467,6 +508,7 @@ tl_result tl_nav_find_change_sectors(tl_nav_graph_changes *changes, tl_nav_chang
     result = result == TL_OK ? sort_sectors(&finder) : result;
     tl_nav_free_pairs(changes->allocator, &finder.found);
     TL_TRY(result);
+    TL_TRY(renumber_cones(changes));
     TL_TRY(note_slots(sectors_out));
     TL_TRY(find_all_beyond(sectors_out));
     TL_TRY(note_lost_tiles(sectors_out));

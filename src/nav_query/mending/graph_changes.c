@@ -16,10 +16,14 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/hash.h"
 #include "base/min_max.h"
+#include "nav_query/mending/known_rings.h"
 
 #include <math.h>
 #include <string.h>
+
+#define SLOT_IS_OTHER (TL_NAV_SLOT_OTHER | TL_NAV_SLOT_CONES | TL_NAV_SLOT_SIGHTS)
 
 tl_result tl_nav_note_slot(tl_nav_graph_changes *c, uint32_t slot, uint32_t bits)
 {
@@ -35,13 +39,37 @@ static uint32_t salt_of(const tl_navmesh *navmesh, uint32_t slot)
     return slot < navmesh->slot_count && navmesh->slots[slot].tile != NULL ? navmesh->slots[slot].salt : 0;
 }
 
+// The polygons of a slot whose tile is another now: which of them are there still.
+static tl_result map_slot(tl_nav_graph_changes *c, uint32_t slot)
+{
+    const tl_nav_known_rings *known = &c->graph->tiles[slot].rings;
+    const uint64_t first = c->map.count;
+    c->first_map[slot] = (uint32_t)first;
+    TL_TRY(tl_nav_map_polygons(c->navmesh, known, slot, &c->map));
+    const uint32_t count = c->navmesh->slots[slot].rings.polygon_count;
+    bool moves = known->polygon_count != count;
+    for (uint32_t p = 0; p < count; p++) {
+        TL_TRY(tl_nav_add_number(c->allocator, &c->map, TL_NO_POLYGON));
+    }
+    for (uint32_t p = 0; p < known->polygon_count; p++) {
+        const uint32_t now = c->map.numbers[first + p];
+        moves = moves || now != p;
+        if (now != TL_NO_POLYGON) {
+            c->map.numbers[first + known->polygon_count + now] = p;
+        }
+    }
+    return moves ? tl_nav_note_slot(c, slot, TL_NAV_SLOT_MAPPED | TL_NAV_SLOT_CONES) : TL_OK;
+}
+
 static tl_result find_edited_slots(tl_nav_graph_changes *c)
 {
     const tl_navmesh *navmesh = c->navmesh;
     for (uint32_t slot = 0; slot < c->graph->slot_count; slot++) {
-        const uint32_t salt = salt_of(navmesh, slot);
-        if (salt != c->graph->tiles[slot].salt) {
-            TL_TRY(tl_nav_note_slot(c, slot, TL_NAV_SLOT_OTHER | TL_NAV_SLOT_CONES | TL_NAV_SLOT_SIGHTS));
+        const uint32_t salt = salt_of(navmesh, slot), before = c->graph->tiles[slot].salt;
+        if (salt != before) {
+            const bool is_other = salt == 0 || before == 0;
+            TL_TRY(tl_nav_note_slot(c, slot, is_other ? SLOT_IS_OTHER : TL_NAV_SLOT_EDITED));
+            TL_TRY(is_other ? TL_OK : map_slot(c, slot));
         } else if (salt != 0 && navmesh->slots[slot].last_edit.number > navmesh->graph_edit) {
             TL_TRY(tl_nav_note_slot(c, slot, TL_NAV_SLOT_EDITED));
         }
@@ -52,30 +80,80 @@ static tl_result find_edited_slots(tl_nav_graph_changes *c)
 // ---------------------------------------------------------------------------------------------------------
 // Corner vertices that are gone.
 
-// Corner vertices of a tile that stayed: those with names that are still there find their places in its rings again, in
-// which edges may have been cut anew. The others are marked as gone.
-static void find_places(tl_nav_graph_changes *c, uint32_t slot)
+static uint32_t key_of_vertex(tl_vec3 at, const tl_nav_ring_walls *walls)
+{
+    const float values[7] = { at.x, at.y, at.z, walls->first_x, walls->first_z, walls->last_x, walls->last_z };
+    return (uint32_t)tl_hash_bytes(values, sizeof values, 0);
+}
+
+static bool is_at(const tl_nav_corner_vertex *vertex, tl_vec3 at, const tl_nav_ring_walls *walls)
+{
+    return vertex->x == at.x && vertex->y == at.y && vertex->z == at.z && vertex->walls.first_x == walls->first_x &&
+           vertex->walls.first_z == walls->first_z && vertex->walls.last_x == walls->last_x &&
+           vertex->walls.last_z == walls->last_z;
+}
+
+// All corner vertices of slots with changes, by key, each marked as gone until it is found.
+static tl_result list_known(tl_nav_graph_changes *c, tl_nav_pair_list *known)
+{
+    tl_nav_visibility_graph *graph = c->graph;
+    for (uint64_t i = 0; i < c->slots.count; i++) {
+        for (uint32_t v = graph->tiles[c->slots.numbers[i]].first_vertex; v != TL_NAV_NO_VERTEX;
+             v = graph->vertices[v].next) {
+            const tl_nav_corner_vertex *vertex = &graph->vertices[v];
+            graph->marks[v] = TL_NAV_MARK_GONE;
+            TL_TRY(tl_nav_add_pair(c->allocator, known,
+                                   key_of_vertex(tl_vec3_make(vertex->x, vertex->y, vertex->z), &vertex->walls), v));
+        }
+    }
+    return tl_nav_sort_pairs(c->allocator, known, NULL);
+}
+
+// A corner vertex that has its old name, or stands as another did between the same walls. TL_NAV_NO_VERTEX: there is
+// none, or it is found already.
+static uint32_t find_known(const tl_nav_graph_changes *c, const tl_nav_pair_list *known, uint32_t turn, tl_vec3 at,
+                           const tl_nav_ring_walls *walls)
+{
+    const tl_nav_visibility_graph *graph = c->graph;
+    const uint32_t named = tl_nav_find_name(&graph->names, turn);
+    if (named != TL_NAV_NO_VERTEX) {
+        return graph->marks[named] == TL_NAV_MARK_GONE ? named : TL_NAV_NO_VERTEX;
+    }
+    const uint32_t key = key_of_vertex(at, walls);
+    for (uint64_t i = tl_nav_find_pair(known, key); i < known->count && known->items[i].key >> 32 == key; i++) {
+        const uint32_t v = (uint32_t)known->items[i].key;
+        if (graph->marks[v] == TL_NAV_MARK_GONE && is_at(&graph->vertices[v], at, walls)) {
+            return v;
+        }
+    }
+    return TL_NAV_NO_VERTEX;
+}
+
+static tl_result find_vertices(tl_nav_graph_changes *c, uint32_t slot, const tl_nav_pair_list *known)
 {
     tl_nav_visibility_graph *graph = c->graph;
     const tl_nav_rings *rings = &c->navmesh->slots[slot].rings;
-    for (uint32_t v = graph->tiles[slot].first_vertex; v != TL_NAV_NO_VERTEX; v = graph->vertices[v].next) {
-        graph->marks[v] = TL_NAV_MARK_GONE;
-    }
     for (uint32_t p = 0; p < rings->polygon_count; p++) {
         const tl_nav_ring ring = tl_nav_ring_of(rings, p);
         for (uint32_t i = 0; i < ring.count; i++) {
-            const uint32_t turn = tl_nav_turn_of(rings, tl_nav_ring_edge_at(&ring, i));
-            const uint32_t v = turn != 0 ? tl_nav_find_name(&graph->names, turn) : TL_NAV_NO_VERTEX;
-            if (v != TL_NAV_NO_VERTEX && graph->marks[v] == TL_NAV_MARK_GONE && graph->vertices[v].place.slot == slot) {
-                tl_nav_ring_place place = { slot, p, i };
-                tl_nav_find_fan(c->navmesh, NULL, &place);
-                if (place.slot == slot) {
-                    graph->vertices[v].place = place;
-                    graph->marks[v] = TL_NAV_MARK_NONE;
+            const tl_nav_ring_edge edge = tl_nav_ring_edge_at(&ring, i);
+            const uint32_t turn = tl_nav_turn_of(rings, edge);
+            const uint32_t v =
+                turn != 0 ? find_known(c, known, turn, ring.points[i], tl_nav_walls_of(rings, edge)) : TL_NAV_NO_VERTEX;
+            tl_nav_ring_place place = { slot, p, i };
+            if (v != TL_NAV_NO_VERTEX && (tl_nav_find_fan(c->navmesh, NULL, &place), true) &&
+                place.slot == graph->vertices[v].place.slot) {
+                graph->vertices[v].place = place;
+                graph->marks[v] = TL_NAV_MARK_NONE;
+                if (graph->vertices[v].turn != turn) {
+                    tl_nav_drop_name(&graph->names, graph->vertices[v].turn);
+                    graph->vertices[v].turn = turn;
+                    TL_TRY(tl_nav_set_name(c->allocator, &graph->names, turn, v));
                 }
             }
         }
     }
+    return TL_OK;
 }
 
 // Takes the corner vertices that are marked as gone from a tile's list.
@@ -96,21 +174,25 @@ static tl_result list_gone(tl_nav_graph_changes *c, uint32_t slot)
     return TL_OK;
 }
 
-static tl_result find_gone(tl_nav_graph_changes *c)
+static tl_result find_all_vertices(tl_nav_graph_changes *c, tl_nav_pair_list *known)
 {
-    tl_nav_visibility_graph *graph = c->graph;
-    for (uint64_t i = 0; i < c->slots.count; i++) {
+    TL_TRY(list_known(c, known));
+    for (uint64_t i = 0; i < c->slots.count && known->count > 0; i++) {
         const uint32_t slot = c->slots.numbers[i];
-        if ((c->slot_bits[slot] & TL_NAV_SLOT_EDITED) != 0) {
-            find_places(c, slot);
-        }
-        for (uint32_t v = graph->tiles[slot].first_vertex;
-             v != TL_NAV_NO_VERTEX && (c->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0; v = graph->vertices[v].next) {
-            graph->marks[v] = TL_NAV_MARK_GONE;
-        }
-        TL_TRY(list_gone(c, slot));
+        TL_TRY(salt_of(c->navmesh, slot) != 0 ? find_vertices(c, slot, known) : TL_OK);
+    }
+    for (uint64_t i = 0; i < c->slots.count; i++) {
+        TL_TRY(list_gone(c, c->slots.numbers[i]));
     }
     return TL_OK;
+}
+
+static tl_result find_gone(tl_nav_graph_changes *c)
+{
+    tl_nav_pair_list known = { NULL, 0, 0 };
+    const tl_result result = find_all_vertices(c, &known);
+    tl_nav_free_pairs(c->allocator, &known);
+    return result;
 }
 
 // ---------------------------------------------------------------------------------------------------------
@@ -151,44 +233,116 @@ static tl_result drop_gone(tl_nav_graph_changes *c)
     return TL_OK;
 }
 
-// Whether an edge may have been another before an edit beside its tile.
-static bool may_edge_be_new(const tl_nav_graph_changes *c, uint32_t slot, tl_nav_ring_edge edge)
+// ---------------------------------------------------------------------------------------------------------
+// Polygons that are what they were.
+
+// Whether a polygon is none of those that were there.
+static bool is_polygon_fresh(const tl_nav_graph_changes *c, uint32_t slot, uint32_t polygon)
+{
+    const uint32_t bits = c->slot_bits[slot];
+    return (bits & TL_NAV_SLOT_OTHER) != 0 ||
+           ((bits & TL_NAV_SLOT_MAPPED) != 0 &&
+            c->map.numbers[c->first_map[slot] + c->graph->tiles[slot].rings.polygon_count + polygon] == TL_NO_POLYGON);
+}
+
+// Whether what lies across an edge is what lay there. Of two polygons that have no match none is that of another.
+static bool leads_on_alike(const tl_nav_graph_changes *c, uint32_t slot, const tl_nav_known_edge *before, uint32_t to)
+{
+    const tl_nav_known_rings *known = &c->graph->tiles[slot].rings;
+    if (!tl_nav_ring_is_open(before->to) || !tl_nav_ring_is_open(to)) {
+        return tl_nav_ring_is_open(before->to) == tl_nav_ring_is_open(to);
+    }
+    tl_nav_ring_seam was = { slot, before->to };
+    if (tl_nav_ring_is_seam(before->to)) {
+        was = known->seams[tl_nav_ring_seam_number(before->to)];
+    }
+    const tl_nav_ring_seam is = tl_nav_ring_across(c->navmesh, slot, to);
+    const bool stays = (c->slot_bits[was.slot] & TL_NAV_SLOT_OTHER) == 0;
+    const uint32_t now = stays ? tl_nav_new_polygon(c, was.slot, was.polygon) : TL_NO_POLYGON;
+    if (now != TL_NO_POLYGON) {
+        return is.slot == was.slot && is.polygon == now;
+    }
+    return is_polygon_fresh(c, is.slot, is.polygon);
+}
+
+static bool is_edge_alike(const tl_nav_graph_changes *c, uint32_t slot, const tl_nav_known_edge *before,
+                          tl_nav_ring_edge edge)
 {
     const uint32_t turn = tl_nav_turn_of(&c->navmesh->slots[slot].rings, edge);
-    if (turn != 0 && tl_nav_find_name(&c->graph->names, turn) == TL_NAV_NO_VERTEX) {
-        return true;
-    }
-    if (!tl_nav_ring_is_open(edge.to)) {
-        return tl_nav_ring_twin_hint(edge) == TL_NAV_RING_ON_PORTAL;
-    }
-    return (edge.to & TL_NAV_RING_SEAM) != 0 &&
-           (c->slot_bits[tl_nav_ring_across(c->navmesh, slot, edge.to).slot] & TL_NAV_SLOT_OTHER) != 0;
+    const uint32_t v = turn != 0 ? tl_nav_find_name(&c->graph->names, turn) : TL_NAV_NO_VERTEX;
+    return v == before->vertex && (v == TL_NAV_NO_VERTEX ? turn == 0 : c->graph->marks[v] != TL_NAV_MARK_GONE) &&
+           leads_on_alike(c, slot, before, edge.to);
 }
 
-static bool may_be_new(const tl_nav_graph_changes *c, uint32_t slot, uint32_t polygon)
+// Whether nothing that can be seen in a polygon, or through it, is another for what has changed of itself.
+static bool is_polygon_alike(const tl_nav_graph_changes *c, uint32_t slot, uint32_t before, uint32_t polygon)
 {
+    const tl_nav_known_rings *known = &c->graph->tiles[slot].rings;
     const tl_nav_ring ring = tl_nav_ring_at(c->navmesh, slot, polygon);
+    const tl_nav_known_edge *edges = known->edges + known->first[before];
+    const uint32_t turn = tl_nav_turn_of_rings(known, before, &ring);
+    if (turn == UINT32_MAX) {
+        return false;
+    }
     for (uint32_t i = 0; i < ring.count; i++) {
-        if (may_edge_be_new(c, slot, tl_nav_ring_edge_at(&ring, i))) {
-            return true;
+        const uint32_t k = turn + i < ring.count ? turn + i : turn + i - ring.count;
+        if (!is_edge_alike(c, slot, &edges[k], tl_nav_ring_edge_at(&ring, i))) {
+            return false;
         }
     }
-    return false;
+    return true;
 }
 
-// Those whose cones lie in polygons that may have changed.
-static tl_result find_onlookers(tl_nav_graph_changes *c, uint32_t slot)
+// Lists the polygons of a slot that came, went or may have changed. Where none is what it was the tile is another.
+static tl_result compare_slot(tl_nav_graph_changes *c, uint32_t slot)
+{
+    const uint64_t old_count = c->old_polygons.count, count = c->polygons.count;
+    const tl_nav_known_rings *known = &c->graph->tiles[slot].rings;
+    for (uint32_t p = 0; p < known->polygon_count; p++) {
+        const uint32_t now = tl_nav_new_polygon(c, slot, p);
+        if (now == TL_NO_POLYGON || !is_polygon_alike(c, slot, p, now)) {
+            TL_TRY(tl_nav_add_pair(c->allocator, &c->old_polygons, slot, p));
+            TL_TRY(now != TL_NO_POLYGON ? tl_nav_add_pair(c->allocator, &c->polygons, slot, now) : TL_OK);
+        }
+    }
+    for (uint32_t p = 0; p < c->navmesh->slots[slot].rings.polygon_count; p++) {
+        TL_TRY(is_polygon_fresh(c, slot, p) ? tl_nav_add_pair(c->allocator, &c->polygons, slot, p) : TL_OK);
+    }
+    if (c->old_polygons.count - old_count == known->polygon_count) {
+        c->old_polygons.count = old_count;
+        c->polygons.count = count;
+        c->slot_bits[slot] = SLOT_IS_OTHER;
+    }
+    return TL_OK;
+}
+
+// Those whose cones lie in a polygon that may have changed, by its old number.
+static tl_result let_onlookers_look(tl_nav_graph_changes *c, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_corner_cones *cones = &c->graph->tiles[slot].cones;
-    const bool stays = (c->slot_bits[slot] & TL_NAV_SLOT_EDITED) != 0;
-    for (uint32_t p = 0; p < cones->polygon_count; p++) {
-        if (stays && !may_be_new(c, slot, p)) {
-            continue;
+    for (uint32_t i = cones->first[polygon]; i < cones->first[polygon + 1]; i++) {
+        TL_TRY(let_look(c, tl_nav_cone_vertex(cones, i)));
+    }
+    return TL_OK;
+}
+
+static tl_result find_onlookers(tl_nav_graph_changes *c)
+{
+    for (uint64_t i = 0; i < c->slots.count; i++) {
+        const uint32_t slot = c->slots.numbers[i];
+        TL_TRY((c->slot_bits[slot] & TL_NAV_SLOT_EDITED) != 0 ? compare_slot(c, slot) : TL_OK);
+    }
+    TL_TRY(tl_nav_sort_pairs(c->allocator, &c->polygons, NULL));
+    for (uint64_t i = 0; i < c->slots.count; i++) {
+        const uint32_t slot = c->slots.numbers[i];
+        const bool is_other = (c->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0;
+        for (uint32_t p = 0; is_other && p < c->graph->tiles[slot].cones.polygon_count; p++) {
+            TL_TRY(let_onlookers_look(c, slot, p));
         }
-        TL_TRY(stays ? tl_nav_add_pair(c->allocator, &c->polygons, slot, p) : TL_OK);
-        for (uint32_t i = cones->first[p]; i < cones->first[p + 1]; i++) {
-            TL_TRY(let_look(c, tl_nav_cone_vertex(cones, i)));
-        }
+    }
+    for (uint64_t i = 0; i < c->old_polygons.count; i++) {
+        const uint64_t key = c->old_polygons.items[i].key;
+        TL_TRY(let_onlookers_look(c, (uint32_t)(key >> 32), (uint32_t)key));
     }
     return TL_OK;
 }
@@ -266,12 +420,7 @@ static tl_result compare_graph(tl_nav_graph_changes *c)
         tl_nav_drop_name(&c->graph->names, c->graph->vertices[c->gone.numbers[i]].turn);
     }
     TL_TRY(drop_gone(c));
-    for (uint64_t i = 0; i < c->slots.count; i++) {
-        if ((c->slot_bits[c->slots.numbers[i]] & (TL_NAV_SLOT_OTHER | TL_NAV_SLOT_EDITED)) != 0) {
-            TL_TRY(find_onlookers(c, c->slots.numbers[i]));
-        }
-    }
-    TL_TRY(tl_nav_sort_pairs(c->allocator, &c->polygons, NULL));
+    TL_TRY(find_onlookers(c));
     for (uint64_t i = 0; i < c->lookers.count; i++) {
         TL_TRY(tl_nav_note_slot(c, c->graph->vertices[c->lookers.numbers[i]].place.slot, TL_NAV_SLOT_SIGHTS));
     }
@@ -293,29 +442,27 @@ tl_result tl_nav_find_changes(const tl_navmesh *navmesh, tl_nav_visibility_graph
     changes_out->allocator = &navmesh->allocator;
     changes_out->graph = graph;
     changes_out->slot_bits = tl_allocate_array(&navmesh->allocator, graph->slot_count, sizeof *changes_out->slot_bits);
-    if (changes_out->slot_bits == NULL) {
+    changes_out->first_map = tl_allocate_array(&navmesh->allocator, graph->slot_count, sizeof *changes_out->first_map);
+    if (changes_out->slot_bits == NULL || changes_out->first_map == NULL) {
         return TL_ERR_MEMORY;
     }
     memset(changes_out->slot_bits, 0, graph->slot_count * sizeof *changes_out->slot_bits);
     return compare_graph(changes_out);
 }
 
-tl_nav_plan_box tl_nav_box_of_polygons(const tl_nav_rings *rings, uint32_t first, uint32_t count)
+static tl_nav_plan_box box_of_known(const tl_nav_known_rings *known)
 {
     tl_nav_plan_box box = { INFINITY, INFINITY, -INFINITY, -INFINITY };
-    for (uint32_t p = first; p < first + count; p++) {
-        const tl_nav_ring ring = tl_nav_ring_of(rings, p);
-        for (uint32_t i = 0; i < ring.count; i++) {
-            box.low_x = tl_min_f32(box.low_x, ring.points[i].x);
-            box.low_z = tl_min_f32(box.low_z, ring.points[i].z);
-            box.high_x = tl_max_f32(box.high_x, ring.points[i].x);
-            box.high_z = tl_max_f32(box.high_z, ring.points[i].z);
-        }
+    for (uint32_t i = 0; i < known->edge_count; i++) {
+        box.low_x = tl_min_f32(box.low_x, known->edges[i].x);
+        box.low_z = tl_min_f32(box.low_z, known->edges[i].z);
+        box.high_x = tl_max_f32(box.high_x, known->edges[i].x);
+        box.high_z = tl_max_f32(box.high_z, known->edges[i].z);
     }
     return box;
 }
 
-void tl_nav_settle_changes(const tl_nav_graph_changes *c)
+tl_result tl_nav_settle_changes(const tl_nav_graph_changes *c)
 {
     for (uint64_t i = 0; i < c->gone.count; i++) {
         c->graph->marks[c->gone.numbers[i]] = TL_NAV_MARK_NONE;
@@ -325,12 +472,18 @@ void tl_nav_settle_changes(const tl_nav_graph_changes *c)
     }
     for (uint64_t i = 0; i < c->slots.count; i++) {
         const uint32_t slot = c->slots.numbers[i];
-        c->graph->tiles[slot].salt = salt_of(c->navmesh, slot);
-        if ((c->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0 && c->graph->tiles[slot].salt != 0) {
-            const tl_nav_rings *rings = &c->navmesh->slots[slot].rings;
-            c->graph->tiles[slot].box = tl_nav_box_of_polygons(rings, 0, rings->polygon_count);
+        tl_nav_graph_tile *tile = &c->graph->tiles[slot];
+        const bool is_edited = (c->slot_bits[slot] & (TL_NAV_SLOT_OTHER | TL_NAV_SLOT_EDITED)) != 0;
+        tile->salt = salt_of(c->navmesh, slot);
+        if (is_edited && tile->salt != 0) {
+            TL_TRY(tl_nav_keep_rings(c->navmesh, c->graph, slot));
+            tile->box = box_of_known(&tile->rings);
+        } else if (is_edited) {
+            c->graph->tile_bytes -= tl_nav_known_rings_size(&tile->rings);
+            tl_nav_free_known_rings(c->allocator, &tile->rings);
         }
     }
+    return TL_OK;
 }
 
 void tl_nav_free_changes(tl_nav_graph_changes *c)
@@ -341,5 +494,8 @@ void tl_nav_free_changes(tl_nav_graph_changes *c)
     tl_nav_free_numbers(c->allocator, &c->gone);
     tl_nav_free_pairs(c->allocator, &c->gone_sights);
     tl_nav_free_pairs(c->allocator, &c->polygons);
+    tl_nav_free_pairs(c->allocator, &c->old_polygons);
+    tl_nav_free_numbers(c->allocator, &c->map);
+    tl_release_array(c->allocator, c->first_map, c->graph->slot_count, sizeof *c->first_map);
     tl_release_array(c->allocator, c->slot_bits, c->graph->slot_count, sizeof *c->slot_bits);
 }

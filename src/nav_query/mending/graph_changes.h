@@ -18,10 +18,11 @@ enum {
 };
 
 /// What a slot is to a mend, as bits.
-#define TL_NAV_SLOT_OTHER  1u ///< its tile came, went, or is another
-#define TL_NAV_SLOT_EDITED 2u ///< its tile stayed, but polygons at its border may have changed
-#define TL_NAV_SLOT_CONES  4u ///< cones of its polygons go or come
-#define TL_NAV_SLOT_SIGHTS 8u ///< edges or reaches of corner vertices whose fans begin in it do
+#define TL_NAV_SLOT_OTHER  1u  ///< its tile came, went, or has nothing in common with the one before
+#define TL_NAV_SLOT_EDITED 2u  ///< some of its polygons are what they were
+#define TL_NAV_SLOT_CONES  4u  ///< cones of its polygons go or come
+#define TL_NAV_SLOT_SIGHTS 8u  ///< edges or reaches of corner vertices whose fans begin in it do
+#define TL_NAV_SLOT_MAPPED 16u ///< its polygons have other numbers than before: tl_nav_new_polygon
 
 typedef struct tl_nav_gone_spot {
     float x, z;
@@ -39,7 +40,11 @@ typedef struct tl_nav_graph_changes {
     tl_nav_number_list gone;
     tl_nav_gone_spot *gone_spots; ///< by place in `gone`: where they were
     tl_nav_pair_list gone_sights; ///< corner vertex that looks, and one in `gone`, by its place there, that it saw
-    tl_nav_pair_list polygons;    ///< slot that was edited, and polygon that may have changed; sorted
+    /// Slot that was edited, and polygon there that came or may have changed; sorted. The same of polygons that were
+    /// there before, by their old numbers.
+    tl_nav_pair_list polygons, old_polygons;
+    tl_nav_number_list map; ///< of mapped slots one after another: by old polygon the new one, or TL_NO_POLYGON
+    uint32_t *first_map;    ///< [graph->slot_count], by mapped slot: where its part begins
 } tl_nav_graph_changes;
 
 /// Compares the graph with the navmesh. Corner vertices whose names are no more leave it, new ones enter it without
@@ -47,12 +52,16 @@ typedef struct tl_nav_graph_changes {
 /// tl_nav_free_changes frees what is returned, after an error too.
 tl_result tl_nav_find_changes(const tl_navmesh *navmesh, tl_nav_visibility_graph *graph,
                               tl_nav_graph_changes *changes_out);
-/// Takes the marks away, and notes the tiles that are there.
-void tl_nav_settle_changes(const tl_nav_graph_changes *changes);
+/// Takes the marks away, and notes the tiles that are there. TL_ERR_MEMORY: the graph can only be freed.
+tl_result tl_nav_settle_changes(const tl_nav_graph_changes *changes);
 void tl_nav_free_changes(tl_nav_graph_changes *changes);
 
-/// The box of so many polygons of a tile from `first` on.
-tl_nav_plan_box tl_nav_box_of_polygons(const tl_nav_rings *rings, uint32_t first, uint32_t count);
+/// The number now of a polygon that an edited slot had, or TL_NO_POLYGON.
+static inline uint32_t tl_nav_new_polygon(const tl_nav_graph_changes *changes, uint32_t slot, uint32_t polygon)
+{
+    return (changes->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0 ? changes->map.numbers[changes->first_map[slot] + polygon]
+                                                                : polygon;
+}
 
 /// Whether a polygon came, or may have changed.
 static inline bool tl_nav_is_polygon_new(const tl_nav_graph_changes *changes, uint32_t slot, uint32_t polygon)

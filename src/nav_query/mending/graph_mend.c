@@ -129,8 +129,7 @@ static tl_result mend(graph_mend *m, const tl_navmesh *navmesh, tl_nav_visibilit
     graph->looked = (uint32_t)lookers->count;
     graph->last_fan = navmesh->last_fan;
     TL_TRY(tl_nav_mend_landmarks(&m->changes, m->stage.host));
-    tl_nav_settle_changes(&m->changes);
-    return TL_OK;
+    return tl_nav_settle_changes(&m->changes);
 }
 
 tl_result tl_nav_mend_graph(const tl_navmesh *navmesh, const tl_host *host, tl_nav_visibility_graph *graph)

@@ -84,8 +84,7 @@ tl_result tl_nav_unite_pairs(const tl_allocator *allocator, tl_nav_pair_list *li
     return TL_OK;
 }
 
-// The first item whose key is no less.
-static uint64_t find_key(const tl_nav_pair_list *list, uint64_t key)
+uint64_t tl_nav_find_key(const tl_nav_pair_list *list, uint64_t key)
 {
     uint64_t begin = 0, end = list->count;
     while (begin < end) {
@@ -101,11 +100,11 @@ static uint64_t find_key(const tl_nav_pair_list *list, uint64_t key)
 
 uint64_t tl_nav_find_pair(const tl_nav_pair_list *list, uint32_t first)
 {
-    return find_key(list, (uint64_t)first << 32);
+    return tl_nav_find_key(list, (uint64_t)first << 32);
 }
 
 bool tl_nav_has_pair(const tl_nav_pair_list *list, uint32_t first, uint32_t second)
 {
-    const uint64_t key = (uint64_t)first << 32 | second, at = find_key(list, key);
+    const uint64_t key = (uint64_t)first << 32 | second, at = tl_nav_find_key(list, key);
     return at < list->count && list->items[at].key == key;
 }

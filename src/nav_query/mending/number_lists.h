@@ -31,7 +31,9 @@ tl_result tl_nav_add_pair(const tl_allocator *allocator, tl_nav_pair_list *list,
 tl_result tl_nav_sort_pairs(const tl_allocator *allocator, tl_nav_pair_list *list, tl_stage *stage);
 /// The same, and the first of equal ones alone.
 tl_result tl_nav_unite_pairs(const tl_allocator *allocator, tl_nav_pair_list *list, tl_stage *stage);
-/// Of a sorted list: the first pair whose first number is no less, and whether there is a pair.
+/// Of a sorted list: the first item whose key is no less, the first pair whose first number is no less, and whether
+/// there is a pair.
+uint64_t tl_nav_find_key(const tl_nav_pair_list *list, uint64_t key);
 uint64_t tl_nav_find_pair(const tl_nav_pair_list *list, uint32_t first);
 bool tl_nav_has_pair(const tl_nav_pair_list *list, uint32_t first, uint32_t second);
 void tl_nav_free_pairs(const tl_allocator *allocator, tl_nav_pair_list *list);

@@ -329,3 +329,34 @@ tl_result tl_nav_remake_cones(const tl_allocator *allocator, tl_nav_visibility_g
     tl_release_array(allocator, sorted, count, sizeof *sorted);
     return result;
 }
+
+tl_result tl_nav_renumber_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint32_t slot,
+                                uint32_t polygon_count, const uint32_t *new_polygons)
+{
+    tl_nav_corner_cones *old = &graph->tiles[slot].cones, made;
+    uint32_t count = 0;
+    for (uint32_t p = 0; p < old->polygon_count; p++) {
+        count += new_polygons[p] != TL_NO_POLYGON ? old->first[p + 1] - old->first[p] : 0;
+    }
+    if (!allocate_cones(allocator, polygon_count, count, &made)) {
+        return TL_ERR_MEMORY;
+    }
+    memset(made.first, 0, ((size_t)polygon_count + 1) * sizeof *made.first);
+    for (uint32_t p = 0; p < old->polygon_count; p++) {
+        if (new_polygons[p] != TL_NO_POLYGON) {
+            made.first[new_polygons[p] + 1] = old->first[p + 1] - old->first[p];
+        }
+    }
+    for (uint32_t p = 0; p < polygon_count; p++) {
+        made.first[p + 1] += made.first[p];
+    }
+    for (uint32_t p = 0; p < old->polygon_count; p++) {
+        if (new_polygons[p] != TL_NO_POLYGON) {
+            copy_run(old, old->first[p], old->first[p + 1] - old->first[p], &made, made.first[new_polygons[p]]);
+        }
+    }
+    graph->tile_bytes += tl_nav_cones_size(&made) - tl_nav_cones_size(old);
+    tl_nav_free_cones(allocator, old);
+    *old = made;
+    return TL_OK;
+}

@@ -37,6 +37,7 @@ void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibili
         tl_nav_graph_tile *tile = &graph->tiles[slot];
         tl_release_array(allocator, tile->sights, tile->sight_words, sizeof *tile->sights);
         tl_nav_free_cones(allocator, &tile->cones);
+        tl_nav_free_known_rings(allocator, &tile->rings);
     }
     tl_nav_free_corner_distances(allocator, graph);
     tl_nav_free_legs(allocator, graph);
@@ -47,6 +48,20 @@ void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibili
     tl_release_array(allocator, graph->orders, graph->vertex_capacity, sizeof *graph->orders);
     tl_release_array(allocator, graph->tiles, graph->slot_count, sizeof *graph->tiles);
     tl_release_array(allocator, graph, 1, sizeof *graph);
+}
+
+uint64_t tl_nav_known_rings_size(const tl_nav_known_rings *rings)
+{
+    return rings->first != NULL ? ((uint64_t)rings->polygon_count + 1) * sizeof *rings->first +
+                                      rings->edge_count * (uint64_t)sizeof *rings->edges +
+                                      rings->seam_count * (uint64_t)sizeof *rings->seams
+                                : 0;
+}
+
+void tl_nav_free_known_rings(const tl_allocator *allocator, tl_nav_known_rings *rings)
+{
+    tl_release_array(allocator, rings->first, tl_nav_known_rings_size(rings), 1);
+    memset(rings, 0, sizeof *rings);
 }
 
 uint64_t tl_nav_visibility_graph_size(const tl_nav_visibility_graph *graph)

@@ -76,6 +76,21 @@ typedef struct tl_nav_plan_box {
     float low_x, low_z, high_x, high_z;
 } tl_nav_plan_box;
 
+/// An edge of a ring that a graph was made from.
+typedef struct tl_nav_known_edge {
+    float x, z;      ///< where it starts
+    uint32_t to;     ///< tl_nav_ring_edge.to
+    uint32_t vertex; ///< the corner vertex there, or TL_NAV_NO_VERTEX
+} tl_nav_known_edge;
+
+/// The rings of a tile that a graph was made from (known_rings.c). An edit compares them with those that are there.
+typedef struct tl_nav_known_rings {
+    uint32_t *first; ///< [polygon_count + 1], by polygon; the block that all arrays stand in, or NULL: there is no tile
+    tl_nav_known_edge *edges; ///< those of polygon p at [first[p], first[p + 1])
+    tl_nav_ring_seam *seams;  ///< by tl_nav_ring_seam_number
+    uint32_t polygon_count, edge_count, seam_count;
+} tl_nav_known_rings;
+
 /// What the graph keeps by slot. An edit writes that of the tiles that it is seen from, and of no others.
 typedef struct tl_nav_graph_tile {
     uint32_t salt;         ///< that of the slot's tile (tl_nav_slot); 0: it has none
@@ -84,6 +99,7 @@ typedef struct tl_nav_graph_tile {
     uint32_t *sights;      ///< their edges and reaches
     uint64_t sight_words;  ///< 4 bytes each
     tl_nav_corner_cones cones;
+    tl_nav_known_rings rings;
 } tl_nav_graph_tile;
 
 struct tl_nav_visibility_graph {
@@ -128,6 +144,10 @@ static inline uint32_t tl_nav_turns_at(const tl_nav_corner_vertex *vertex, doubl
 /// A graph of nothing. NULL: out of memory.
 tl_nav_visibility_graph *tl_nav_create_visibility_graph(const tl_allocator *allocator);
 void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibility_graph *graph);
+/// Releases the block; there is no tile then.
+void tl_nav_free_known_rings(const tl_allocator *allocator, tl_nav_known_rings *rings);
+/// Bytes of the block.
+uint64_t tl_nav_known_rings_size(const tl_nav_known_rings *rings);
 /// Bytes that the graph takes, without its table.
 uint64_t tl_nav_visibility_graph_size(const tl_nav_visibility_graph *graph);
 
