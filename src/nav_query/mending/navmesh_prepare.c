@@ -88,8 +88,7 @@ static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *de
     navmesh->derived[TL_NAV_DERIVED_GRAPH] = &derived;
     if (!tl_nav_has_current_graph(navmesh)) {
         if (floors_fork(navmesh)) {
-            free_graph(navmesh);
-            return TL_OK;
+            return TL_OK; // what there is of before is mended when they do no more
         }
         TL_TRY(update_graph(navmesh, &host));
         *renewed_out = navmesh->graph->looked;
@@ -110,14 +109,17 @@ static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *de
     return TL_OK;
 }
 
-static void note_prepared(const tl_nav_visibility_graph *graph, tl_nav_prepared *made)
+static void note_prepared(const tl_navmesh *navmesh, tl_nav_prepared *made)
 {
-    made->kind = graph->table != NULL ? TL_NAV_PREPARED_TABLE : TL_NAV_PREPARED_GRAPH;
-    made->corner_vertex_count = graph->vertex_count;
-    made->edge_count = graph->edge_count;
-    made->table_bytes = tl_nav_corner_distances_size(graph);
-    made->bytes = tl_nav_visibility_graph_size(graph) + tl_nav_kept_legs_size(graph) +
-                  (graph->table != NULL ? made->table_bytes : 0);
+    const tl_nav_visibility_graph *graph = navmesh->graph;
+    made->bytes = tl_nav_visibility_graph_size(graph) + tl_nav_kept_legs_size(graph);
+    if (tl_nav_has_current_graph(navmesh)) {
+        made->kind = graph->table != NULL ? TL_NAV_PREPARED_TABLE : TL_NAV_PREPARED_GRAPH;
+        made->corner_vertex_count = graph->vertex_count;
+        made->edge_count = graph->edge_count;
+        made->table_bytes = tl_nav_corner_distances_size(graph);
+    }
+    made->bytes += graph->table != NULL ? tl_nav_corner_distances_size(graph) : 0;
 }
 
 tl_result tl_navmesh_prepare(tl_navmesh *navmesh, const tl_nav_prepare_def *def, tl_nav_prepared *prepared_out)
@@ -135,7 +137,7 @@ tl_result tl_navmesh_prepare(tl_navmesh *navmesh, const tl_nav_prepare_def *def,
     if (result != TL_OK) {
         free_graph(navmesh);
     } else if (navmesh->graph != NULL) {
-        note_prepared(navmesh->graph, made);
+        note_prepared(navmesh, made);
     }
     return result;
 }
