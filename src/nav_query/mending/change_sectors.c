@@ -57,8 +57,10 @@ typedef struct sector_finder {
     tl_nav_pair_list found;
 } sector_finder;
 
-static tl_result add_sector(sector_finder *f, uint32_t vertex, tl_nav_change_sector sector)
+static tl_result add_sector(sector_finder *f, uint32_t vertex, tl_nav_sector directions, uint32_t slot,
+                            uint32_t polygon)
 {
+    const tl_nav_change_sector sector = { directions, 0.0, 0.0, 0.0, 0.0, slot, polygon };
     tl_nav_change_sectors *s = f->s;
     if (s->count == s->capacity) {
         tl_nav_change_sector *grown = tl_grow_array(s->changes->allocator, s->sectors, &s->capacity, sizeof *grown);
@@ -88,9 +90,7 @@ static tl_result add_polygon_sectors(sector_finder *f, uint32_t slot, uint32_t p
             graph->marks[v] = TL_NAV_MARK_WHOLE;
         }
         if (graph->marks[v] == TL_NAV_MARK_LOOKS) {
-            const tl_nav_change_sector sector = { tl_nav_sector_of_cone(&tile->cones, i), slot,
-                                                  is_other ? TL_NO_POLYGON : polygon };
-            TL_TRY(add_sector(f, v, sector));
+            TL_TRY(add_sector(f, v, tl_nav_sector_of_cone(&tile->cones, i), slot, is_other ? TL_NO_POLYGON : polygon));
         }
     }
     return TL_OK;
@@ -105,8 +105,7 @@ static tl_result add_gone_sectors(sector_finder *f)
         const double x = (double)c->gone_spots[gone].x - (double)c->graph->vertices[v].x;
         const double z = (double)c->gone_spots[gone].z - (double)c->graph->vertices[v].z;
         if (c->graph->marks[v] == TL_NAV_MARK_LOOKS && fabs(x) + fabs(z) > c->graph->rounding) {
-            const tl_nav_change_sector sector = { sector_towards(c->graph, x, z), TL_NAV_NO_SLOT, gone };
-            TL_TRY(add_sector(f, v, sector));
+            TL_TRY(add_sector(f, v, sector_towards(c->graph, x, z), TL_NAV_NO_SLOT, gone));
         }
     }
     return TL_OK;
@@ -171,6 +170,11 @@ static tl_result sort_sectors(sector_finder *f)
         if (width > MOST_DIRECTIONS || count == begin) {
             s->changes->graph->marks[v] = TL_NAV_MARK_WHOLE;
         }
+    }
+    for (uint64_t n = 0; n < count; n++) {
+        const tl_nav_sector *sector = &sorted[n].sector;
+        tl_nav_diamond_direction(sector->from, &sorted[n].right_x, &sorted[n].right_z);
+        tl_nav_diamond_direction(tl_nav_wrap_turn(sector->from + sector->width), &sorted[n].left_x, &sorted[n].left_z);
     }
     s->first[looker_count(s)] = count;
     tl_release_array(allocator, s->sectors, s->capacity, sizeof *sorted);
@@ -341,15 +345,32 @@ static bool is_beyond(const tl_nav_change_sectors *s, uint32_t v, uint32_t slot,
     return false;
 }
 
+// Whether a box surely lies beside a sector: all of it left of where that ends, or right of where it begins.
+static bool lies_beside(const tl_nav_change_sector *change, const tl_nav_corner_vertex *vertex,
+                        const tl_nav_plan_box *box, double rounding)
+{
+    const double x = 0.5 * ((double)box->low_x + (double)box->high_x) - (double)vertex->x;
+    const double z = 0.5 * ((double)box->low_z + (double)box->high_z) - (double)vertex->z;
+    const double half_x = 0.5 * ((double)box->high_x - (double)box->low_x) + PLACE_MARGIN * rounding;
+    const double half_z = 0.5 * ((double)box->high_z - (double)box->low_z) + PLACE_MARGIN * rounding;
+    const double left = change->left_x * z - change->left_z * x, right = change->right_x * z - change->right_z * x;
+    return left < -(fabs(change->left_x) * half_z + fabs(change->left_z) * half_x) ||
+           right > fabs(change->right_x) * half_z + fabs(change->right_z) * half_x;
+}
+
 static slot_place place_of_slot(const tl_nav_change_sectors *s, uint32_t order, uint32_t slot)
 {
     const tl_nav_graph_changes *c = s->changes;
     const tl_nav_corner_vertex *vertex = &c->graph->vertices[c->lookers.numbers[order]];
     const tl_nav_plan_box *box = &c->graph->tiles[slot].box;
-    const tl_nav_sector sector = sector_of_box(box, vertex);
+    tl_nav_sector sector = { 0.0, -1.0 }; // not asked for yet
     bool any_before = false, any_beyond = false;
     for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
         const tl_nav_change_sector *change = &s->sectors[i];
+        if (lies_beside(change, vertex, box, c->graph->rounding)) {
+            continue;
+        }
+        sector = sector.width < 0.0 ? sector_of_box(box, vertex) : sector;
         if (!tl_nav_sectors_overlap(&change->sector, &sector)) {
             continue;
         }
@@ -368,76 +389,81 @@ static slot_place place_of_slot(const tl_nav_change_sectors *s, uint32_t order, 
     return !any_beyond ? SLOT_APART : any_before ? SLOT_UNCLEAR : SLOT_BEYOND;
 }
 
-static tl_result note_slots(const tl_nav_change_sectors *s)
+// Notes the slots whose cones may go; and which of them corner vertices may see beyond a change: slot and place of the
+// looker, as value where the slot lies.
+static tl_result note_slots(const tl_nav_change_sectors *s, tl_nav_pair_list *places)
 {
     tl_nav_graph_changes *c = s->changes;
     for (uint64_t k = 0; k < looker_count(s); k++) {
         const uint32_t v = c->lookers.numbers[k];
         const tl_nav_corner_vertex *vertex = &c->graph->vertices[v];
         const uint32_t *reach = tl_nav_reach_of(vertex);
+        const bool is_whole = c->graph->marks[v] == TL_NAV_MARK_WHOLE;
         for (uint32_t i = 0; i < vertex->reach_count; i++) {
-            if (c->graph->marks[v] == TL_NAV_MARK_WHOLE || place_of_slot(s, (uint32_t)k, reach[i]) != SLOT_APART) {
+            const slot_place place = is_whole ? SLOT_UNCLEAR : place_of_slot(s, (uint32_t)k, reach[i]);
+            if (place != SLOT_APART) {
+                const tl_sort_item item = { (uint64_t)reach[i] << 32 | k, (uint32_t)place, 0 };
                 TL_TRY(tl_nav_note_slot(c, reach[i], TL_NAV_SLOT_CONES));
+                TL_TRY(is_whole ? TL_OK : tl_nav_add_item(c->allocator, places, item));
             }
         }
     }
-    return TL_OK;
+    return tl_nav_sort_pairs(c->allocator, places, NULL);
 }
 
 // A looker's cones in the slot that is gone through.
 typedef struct slot_pass {
-    uint32_t slot;
     slot_place place;
     bool keeps; // some of them
 } slot_pass;
 
-// Who had cones in polygons of a slot that are gone, and in no others, has lost it.
-static tl_result note_lost_in(tl_nav_change_sectors *s, uint32_t slot, const slot_pass *passes)
-{
-    const tl_nav_graph_changes *c = s->changes;
-    for (uint64_t k = 0; k < looker_count(s); k++) {
-        for (uint64_t i = s->first[k]; i < s->first[k + 1]; i++) {
-            if (s->sectors[i].slot == slot && passes[k].slot != slot) {
-                TL_TRY(tl_nav_add_pair(c->allocator, &s->lost, c->lookers.numbers[k], slot));
-            }
-        }
-    }
-    return TL_OK;
-}
-
-// Goes through the cones of a slot whose tile stays. `passes`, by looker.
-static tl_result find_beyond(tl_nav_change_sectors *s, uint32_t slot, slot_pass *passes)
+// Drops the cones of a corner vertex from `i` on, of a polygon whose cones end at `last`, if it sees any beyond a
+// change. Returns where they end.
+static tl_result drop_beyond(tl_nav_change_sectors *s, uint32_t slot, uint32_t polygon, uint32_t i, uint32_t last,
+                             slot_pass *pass, uint32_t *end_out)
 {
     const tl_nav_graph_changes *c = s->changes;
     const tl_nav_corner_cones *cones = &c->graph->tiles[slot].cones;
-    const uint64_t first_beyond = s->beyond.count;
+    const uint32_t v = tl_nav_cone_vertex(cones, i);
+    bool any = false;
+    uint32_t end = i;
+    for (; end < last && tl_nav_cone_vertex(cones, end) == v; end++) {
+        any = any || is_beyond(s, v, slot, polygon, end, pass->place);
+    }
+    pass->keeps = pass->keeps || !any;
+    for (uint32_t k = i; any && k < end; k++) {
+        const tl_sort_item item = { (uint64_t)c->graph->orders[v] << 32 | slot, k, polygon };
+        TL_TRY(tl_nav_add_item(c->allocator, &s->beyond, item));
+        TL_TRY(tl_nav_add_pair(c->allocator, &s->dropped, slot, k));
+    }
+    *end_out = end;
+    return TL_OK;
+}
+
+// Goes through the cones of a slot for those who may see it beyond a change: `places` of the slot. `passes`, by looker:
+// SLOT_APART before and after.
+static tl_result find_beyond(tl_nav_change_sectors *s, uint32_t slot, const tl_sort_item *places, uint64_t count,
+                             slot_pass *passes)
+{
+    const tl_nav_graph_changes *c = s->changes;
+    const tl_nav_corner_cones *cones = &c->graph->tiles[slot].cones;
+    for (uint64_t i = 0; i < count; i++) {
+        const slot_pass pass = { (slot_place)places[i].value, false };
+        passes[(uint32_t)places[i].key] = pass;
+    }
     for (uint32_t p = 0; p < cones->polygon_count; p++) {
         for (uint32_t i = cones->first[p], end; i < cones->first[p + 1]; i = end) {
-            const uint32_t v = tl_nav_cone_vertex(cones, i), order = c->graph->orders[v];
+            const uint32_t v = tl_nav_cone_vertex(cones, i);
+            slot_pass *pass = c->graph->marks[v] == TL_NAV_MARK_LOOKS ? &passes[c->graph->orders[v]] : NULL;
             end = i + 1;
-            if (c->graph->marks[v] != TL_NAV_MARK_LOOKS) {
-                continue;
-            }
-            slot_pass *pass = &passes[order];
-            if (pass->slot != slot) {
-                const slot_pass here = { slot, place_of_slot(s, order, slot), false };
-                *pass = here;
-            }
-            bool any = pass->place != SLOT_APART && is_beyond(s, v, slot, p, i, pass->place);
-            for (; end < cones->first[p + 1] && tl_nav_cone_vertex(cones, end) == v; end++) {
-                any = any || (pass->place != SLOT_APART && is_beyond(s, v, slot, p, end, pass->place));
-            }
-            pass->keeps = pass->keeps || !any;
-            for (uint32_t k = i; any && k < end; k++) {
-                const tl_sort_item item = { (uint64_t)order << 32 | slot, k, p };
-                TL_TRY(tl_nav_add_item(c->allocator, &s->beyond, item));
-                TL_TRY(tl_nav_add_pair(c->allocator, &s->dropped, slot, k));
+            if (pass != NULL && pass->place != SLOT_APART) {
+                TL_TRY(drop_beyond(s, slot, p, i, cones->first[p + 1], pass, &end));
             }
         }
     }
-    TL_TRY((c->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0 ? note_lost_in(s, slot, passes) : TL_OK);
-    for (uint64_t i = first_beyond; i < s->beyond.count; i++) {
-        const uint32_t order = (uint32_t)(s->beyond.items[i].key >> 32);
+    for (uint64_t i = 0; i < count; i++) {
+        const uint32_t order = (uint32_t)places[i].key;
+        passes[order].place = SLOT_APART;
         if (!passes[order].keeps) {
             TL_TRY(tl_nav_add_pair(c->allocator, &s->lost, c->lookers.numbers[order], slot));
         }
@@ -445,7 +471,7 @@ static tl_result find_beyond(tl_nav_change_sectors *s, uint32_t slot, slot_pass 
     return TL_OK;
 }
 
-static tl_result find_all_beyond(tl_nav_change_sectors *s)
+static tl_result find_all_beyond(tl_nav_change_sectors *s, const tl_nav_pair_list *places)
 {
     const tl_nav_graph_changes *c = s->changes;
     slot_pass *passes = tl_allocate_array(c->allocator, looker_count(s), sizeof *passes);
@@ -453,14 +479,17 @@ static tl_result find_all_beyond(tl_nav_change_sectors *s)
         return TL_ERR_MEMORY;
     }
     for (uint64_t i = 0; i < looker_count(s); i++) {
-        const slot_pass none = { TL_NAV_NO_SLOT, SLOT_APART, false };
-        passes[i] = none;
+        passes[i].place = SLOT_APART;
     }
     tl_result result = TL_OK;
-    for (uint64_t i = 0; i < c->slots.count && result == TL_OK; i++) {
-        const uint32_t slot = c->slots.numbers[i];
-        if ((c->slot_bits[slot] & (TL_NAV_SLOT_CONES | TL_NAV_SLOT_OTHER)) == TL_NAV_SLOT_CONES) {
-            result = find_beyond(s, slot, passes);
+    for (uint64_t i = 0, end; i < places->count && result == TL_OK; i = end) {
+        const uint32_t slot = (uint32_t)(places->items[i].key >> 32);
+        end = i + 1;
+        while (end < places->count && places->items[end].key >> 32 == slot) {
+            end++;
+        }
+        if ((c->slot_bits[slot] & TL_NAV_SLOT_OTHER) == 0) {
+            result = find_beyond(s, slot, places->items + i, end - i, passes);
         }
     }
     tl_release_array(c->allocator, passes, looker_count(s), sizeof *passes);
@@ -509,8 +538,11 @@ tl_result tl_nav_find_change_sectors(tl_nav_graph_changes *changes, tl_nav_chang
     tl_nav_free_pairs(changes->allocator, &finder.found);
     TL_TRY(result);
     TL_TRY(renumber_cones(changes));
-    TL_TRY(note_slots(sectors_out));
-    TL_TRY(find_all_beyond(sectors_out));
+    tl_nav_pair_list places = { NULL, 0, 0 };
+    result = note_slots(sectors_out, &places);
+    result = result == TL_OK ? find_all_beyond(sectors_out, &places) : result;
+    tl_nav_free_pairs(changes->allocator, &places);
+    TL_TRY(result);
     TL_TRY(note_lost_tiles(sectors_out));
     TL_TRY(tl_nav_sort_pairs(changes->allocator, &sectors_out->beyond, NULL));
     return tl_nav_unite_pairs(changes->allocator, &sectors_out->lost, NULL);
