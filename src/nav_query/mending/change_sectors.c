@@ -60,7 +60,7 @@ typedef struct sector_finder {
 static tl_result add_sector(sector_finder *f, uint32_t vertex, tl_nav_sector directions, uint32_t slot,
                             uint32_t polygon)
 {
-    const tl_nav_change_sector sector = { directions, 0.0, 0.0, 0.0, 0.0, slot, polygon };
+    const tl_nav_change_sector sector = { directions, { 0.0, 0.0, 0.0, 0.0 }, slot, polygon };
     tl_nav_change_sectors *s = f->s;
     if (s->count == s->capacity) {
         tl_nav_change_sector *grown = tl_grow_array(s->changes->allocator, s->sectors, &s->capacity, sizeof *grown);
@@ -172,9 +172,7 @@ static tl_result sort_sectors(sector_finder *f)
         }
     }
     for (uint64_t n = 0; n < count; n++) {
-        const tl_nav_sector *sector = &sorted[n].sector;
-        tl_nav_diamond_direction(sector->from, &sorted[n].right_x, &sorted[n].right_z);
-        tl_nav_diamond_direction(tl_nav_wrap_turn(sector->from + sector->width), &sorted[n].left_x, &sorted[n].left_z);
+        sorted[n].rays = tl_nav_rays_of_sector(&sorted[n].sector);
     }
     s->first[looker_count(s)] = count;
     tl_release_array(allocator, s->sectors, s->capacity, sizeof *sorted);
@@ -346,16 +344,15 @@ static bool is_beyond(const tl_nav_change_sectors *s, uint32_t v, uint32_t slot,
 }
 
 // Whether a box surely lies beside a sector: all of it left of where that ends, or right of where it begins.
-static bool lies_beside(const tl_nav_change_sector *change, const tl_nav_corner_vertex *vertex,
+static bool lies_beside(const tl_nav_sector_rays *rays, const tl_nav_corner_vertex *vertex,
                         const tl_nav_plan_box *box, double rounding)
 {
     const double x = 0.5 * ((double)box->low_x + (double)box->high_x) - (double)vertex->x;
     const double z = 0.5 * ((double)box->low_z + (double)box->high_z) - (double)vertex->z;
     const double half_x = 0.5 * ((double)box->high_x - (double)box->low_x) + PLACE_MARGIN * rounding;
     const double half_z = 0.5 * ((double)box->high_z - (double)box->low_z) + PLACE_MARGIN * rounding;
-    const double left = change->left_x * z - change->left_z * x, right = change->right_x * z - change->right_z * x;
-    return left < -(fabs(change->left_x) * half_z + fabs(change->left_z) * half_x) ||
-           right > fabs(change->right_x) * half_z + fabs(change->right_z) * half_x;
+    return rays->left_x * z - rays->left_z * x < -(fabs(rays->left_x) * half_z + fabs(rays->left_z) * half_x) ||
+           rays->right_x * z - rays->right_z * x > fabs(rays->right_x) * half_z + fabs(rays->right_z) * half_x;
 }
 
 static slot_place place_of_slot(const tl_nav_change_sectors *s, uint32_t order, uint32_t slot)
@@ -367,7 +364,7 @@ static slot_place place_of_slot(const tl_nav_change_sectors *s, uint32_t order, 
     bool any_before = false, any_beyond = false;
     for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
         const tl_nav_change_sector *change = &s->sectors[i];
-        if (lies_beside(change, vertex, box, c->graph->rounding)) {
+        if (lies_beside(&change->rays, vertex, box, c->graph->rounding)) {
             continue;
         }
         sector = sector.width < 0.0 ? sector_of_box(box, vertex) : sector;

@@ -12,7 +12,7 @@
 /// where a corner vertex was that is gone.
 typedef struct tl_nav_change_sector {
     tl_nav_sector sector;
-    double right_x, right_z, left_x, left_z; ///< where it begins and ends
+    tl_nav_sector_rays rays;
     uint32_t slot;    ///< of the region; TL_NAV_NO_SLOT: a corner vertex
     uint32_t polygon; ///< of the slot; TL_NO_POLYGON: all of it. Or the place of the corner vertex among those gone
 } tl_nav_change_sector;

@@ -13,6 +13,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "nav_query/exact/wedge_sight.h"
 #include "nav_query/search/query_memory.h"
 
 #include <string.h>
@@ -28,6 +29,39 @@ static tl_result make_look_query(tl_nav_corner_look *look, uint32_t max_nodes)
     return tl_nav_query_allocate(max_nodes, none, look->changes->allocator, &look->query);
 }
 
+static tl_result list_new_polygons(tl_nav_corner_look *look)
+{
+    const tl_nav_graph_changes *c = look->changes;
+    uint64_t count = 0;
+    for (uint32_t slot = 0; slot < c->graph->slot_count; slot++) {
+        const bool is_there = slot < c->navmesh->slot_count && c->navmesh->slots[slot].tile != NULL;
+        look->first_polygon[slot] = (uint32_t)count;
+        count += is_there ? c->navmesh->slots[slot].rings.polygon_count : 0;
+        if (count > UINT32_MAX) {
+            return TL_ERR_LIMIT;
+        }
+    }
+    look->first_polygon[c->graph->slot_count] = (uint32_t)count;
+    look->is_new = tl_allocate_array(c->allocator, count, sizeof *look->is_new);
+    look->last_anew = tl_allocate_array(c->allocator, count, sizeof *look->last_anew);
+    if (look->is_new == NULL || look->last_anew == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(look->is_new, 0, count * sizeof *look->is_new);
+    memset(look->last_anew, 0, count * sizeof *look->last_anew);
+    for (uint64_t i = 0; i < c->slots.count; i++) {
+        const uint32_t slot = c->slots.numbers[i], first = look->first_polygon[slot];
+        if ((c->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0) {
+            memset(look->is_new + first, true, (look->first_polygon[slot + 1] - first) * sizeof *look->is_new);
+        }
+    }
+    for (uint64_t i = 0; i < c->polygons.count; i++) {
+        const uint64_t key = c->polygons.items[i].key;
+        look->is_new[look->first_polygon[key >> 32] + (uint32_t)key] = true;
+    }
+    return TL_OK;
+}
+
 tl_result tl_nav_begin_looks(tl_nav_change_sectors *sectors, tl_nav_corner_look *look_out)
 {
     const tl_nav_graph_changes *changes = sectors->changes;
@@ -37,23 +71,30 @@ tl_result tl_nav_begin_looks(tl_nav_change_sectors *sectors, tl_nav_corner_look 
     look_out->changes = changes;
     look_out->cones.allocator = changes->allocator;
     look_out->last_looks = tl_allocate_array(changes->allocator, slots, sizeof *look_out->last_looks);
-    if (look_out->last_looks == NULL) {
+    look_out->first_polygon =
+        tl_allocate_array(changes->allocator, (uint64_t)slots + 1, sizeof *look_out->first_polygon);
+    if (look_out->last_looks == NULL || look_out->first_polygon == NULL) {
         return TL_ERR_MEMORY;
     }
     memset(look_out->last_looks, 0, slots * sizeof *look_out->last_looks);
+    TL_TRY(list_new_polygons(look_out));
     return make_look_query(look_out, FIRST_WEDGES);
 }
 
 void tl_nav_end_looks(tl_nav_corner_look *look)
 {
     const tl_allocator *allocator = look->changes->allocator;
+    const uint32_t slots = look->changes->graph->slot_count;
+    const uint64_t polygons = look->first_polygon != NULL ? look->first_polygon[slots] : 0;
     tl_nav_query_release(look->query);
     tl_nav_free_pairs(allocator, &look->seen.edges);
     tl_nav_free_pairs(allocator, &look->seen.reaches);
-    tl_nav_free_pairs(allocator, &look->polygons);
     tl_nav_free_numbers(allocator, &look->is_changed);
     tl_release_array(allocator, look->cones.cones, look->cones.capacity, sizeof *look->cones.cones);
-    tl_release_array(allocator, look->last_looks, look->changes->graph->slot_count, sizeof *look->last_looks);
+    tl_release_array(allocator, look->last_looks, slots, sizeof *look->last_looks);
+    tl_release_array(allocator, look->is_new, polygons, sizeof *look->is_new);
+    tl_release_array(allocator, look->last_anew, polygons, sizeof *look->last_anew);
+    tl_release_array(allocator, look->first_polygon, (uint64_t)slots + 1, sizeof *look->first_polygon);
 }
 
 // Whether a corner vertex has an edge to another, and keeps it.
@@ -88,21 +129,20 @@ static void note_sight(void *user, uint32_t turn)
     }
 }
 
-// Whether a wedge shows any direction of the view.
+// Whether a wedge may show any direction of the view. Both are less than half a turn wide where that is asked.
 static bool looks_through(void *user, const tl_nav_wedge *wedge)
 {
     const tl_nav_corner_look *look = (const tl_nav_corner_look *)user;
     const tl_nav_direction right = wedge->right, left = wedge->left;
-    if ((right.x == 0.0 && right.z == 0.0) || (left.x == 0.0 && left.z == 0.0)) {
-        return true;
+    bool any = is_open_direction(right) || is_open_direction(left);
+    for (uint32_t i = 0; i < look->view.count && !any; i++) {
+        const tl_nav_sector_rays *rays = &look->view.rays[i];
+        const tl_nav_direction begin = { rays->right_x, rays->right_z }, end = { rays->left_x, rays->left_z };
+        const bool is_left = wedge_cross(end, right) < 0.0 && wedge_cross(end, left) < 0.0;
+        const bool is_right = wedge_cross(begin, right) > 0.0 && wedge_cross(begin, left) > 0.0;
+        any = look->view.sectors[i].width >= 0.5 * TL_NAV_FULL_TURN || !(is_left || is_right);
     }
-    const tl_nav_sector sector = tl_nav_sector_between(right.x, right.z, left.x, left.z, 0.0);
-    for (uint32_t i = 0; i < look->view.count; i++) {
-        if (tl_nav_sectors_overlap(&look->view.sectors[i], &sector)) {
-            return true;
-        }
-    }
-    return false;
+    return any;
 }
 
 static tl_result see_from(tl_nav_corner_look *look, bool all_around)
@@ -114,6 +154,9 @@ static tl_result see_from(tl_nav_corner_look *look, bool all_around)
     start.start_slot = from->place.slot;
     start.start_polygon = from->place.polygon;
     start.start = tl_vec3_make(from->x, from->y, from->z);
+    for (uint32_t i = 0; i < look->view.count; i++) {
+        look->view.rays[i] = tl_nav_rays_of_sector(&look->view.sectors[i]);
+    }
     const tl_nav_sight sight = { note_sight, all_around ? NULL : looks_through, look, &from->walls };
     start.query = look->query;
     while (!tl_nav_see(&start, &sight)) {
@@ -178,12 +221,17 @@ static bool is_in_view(const tl_nav_view *view, const tl_nav_sector *sector)
     return false;
 }
 
+// The last look that finds its cones in a polygon anew.
+static uint32_t *anew_in(const tl_nav_corner_look *look, uint32_t slot, uint32_t polygon)
+{
+    return &look->last_anew[look->first_polygon[slot] + polygon];
+}
+
 // The sectors of changes, and of the cones that are found anew.
-static tl_result begin_view(tl_nav_corner_look *look, uint32_t order)
+static void begin_view(tl_nav_corner_look *look, uint32_t order)
 {
     const tl_nav_change_sectors *s = look->sectors;
     look->view.count = 0;
-    look->polygons.count = 0;
     for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
         widen_view(&look->view, s->sectors[i].sector);
     }
@@ -191,10 +239,12 @@ static tl_result begin_view(tl_nav_corner_look *look, uint32_t order)
          i++) {
         const tl_sort_item *item = &s->beyond.items[i];
         const uint32_t slot = (uint32_t)item->key;
-        widen_view(&look->view, tl_nav_sector_of_cone(&look->changes->graph->tiles[slot].cones, item->value));
-        TL_TRY(tl_nav_add_pair(look->changes->allocator, &look->polygons, slot, item->extra));
+        const tl_nav_sector sector = tl_nav_sector_of_cone(&look->changes->graph->tiles[slot].cones, item->value);
+        if (!is_in_view(&look->view, &sector)) {
+            widen_view(&look->view, sector);
+        }
+        *anew_in(look, slot, item->extra) = look->look_count;
     }
-    return tl_nav_unite_pairs(look->changes->allocator, &look->polygons, NULL);
 }
 
 // A polygon that is seen beyond a change now, and was not before: the cones there go, and what they showed is looked
@@ -222,31 +272,24 @@ static tl_result drop_cones_in(tl_nav_corner_look *look, uint32_t slot, uint32_t
 static tl_result find_changed_sight(tl_nav_corner_look *look, bool *widens)
 {
     const tl_nav_query *query = look->query;
-    const tl_allocator *allocator = look->changes->allocator;
-    const uint64_t known = look->polygons.count;
     look->is_changed.count = 0;
     for (uint32_t i = 0; i < query->wedge_count; i++) {
         const tl_nav_wedge *wedge = &query->wedges[i];
+        uint32_t *anew = anew_in(look, wedge->slot, wedge->polygon);
         const bool by_parent = wedge->parent < i && look->is_changed.numbers[wedge->parent] != 0;
-        const bool is_changed = by_parent || tl_nav_is_polygon_new(look->changes, wedge->slot, wedge->polygon);
-        TL_TRY(tl_nav_add_number(allocator, &look->is_changed, is_changed ? 1 : 0));
-        const tl_nav_pair_list sorted = { look->polygons.items, known, known };
-        if (is_changed && !tl_nav_has_pair(&sorted, wedge->slot, wedge->polygon)) {
-            TL_TRY(tl_nav_add_pair(allocator, &look->polygons, wedge->slot, wedge->polygon));
+        const bool is_changed = by_parent || look->is_new[anew - look->last_anew];
+        TL_TRY(tl_nav_add_number(look->changes->allocator, &look->is_changed, is_changed ? 1 : 0));
+        if (is_changed && *anew != look->look_count) {
+            *anew = look->look_count;
+            TL_TRY(drop_cones_in(look, wedge->slot, wedge->polygon, widens));
         }
     }
-    const uint64_t added = look->polygons.count - known;
-    tl_nav_pair_list fresh = { look->polygons.items + known, added, added };
-    TL_TRY(tl_nav_unite_pairs(allocator, &fresh, NULL));
-    for (uint64_t i = 0; i < fresh.count; i++) {
-        TL_TRY(drop_cones_in(look, (uint32_t)(fresh.items[i].key >> 32), (uint32_t)fresh.items[i].key, widens));
-    }
-    return tl_nav_unite_pairs(allocator, &look->polygons, NULL);
+    return TL_OK;
 }
 
 static tl_result look_towards_changes(tl_nav_corner_look *look, uint32_t order)
 {
-    TL_TRY(begin_view(look, order));
+    begin_view(look, order);
     for (bool widens = true; widens;) {
         widens = false;
         TL_TRY(see_from(look, false));
@@ -254,7 +297,7 @@ static tl_result look_towards_changes(tl_nav_corner_look *look, uint32_t order)
     }
     for (uint32_t i = 0; i < look->query->wedge_count; i++) {
         const tl_nav_wedge *wedge = &look->query->wedges[i];
-        if (tl_nav_has_pair(&look->polygons, wedge->slot, wedge->polygon)) {
+        if (*anew_in(look, wedge->slot, wedge->polygon) == look->look_count) {
             TL_TRY(take_wedge(look, wedge));
         }
     }

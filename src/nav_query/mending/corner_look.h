@@ -12,6 +12,7 @@ enum { TL_NAV_MAX_VIEW = 32 };
 /// The sectors in which a corner vertex looks, apart from one another.
 typedef struct tl_nav_view {
     tl_nav_sector sectors[TL_NAV_MAX_VIEW];
+    tl_nav_sector_rays rays[TL_NAV_MAX_VIEW]; ///< theirs, while it looks
     uint32_t count;
 } tl_nav_view;
 
@@ -28,8 +29,11 @@ typedef struct tl_nav_corner_look {
     tl_result result; ///< of `seen`
     // Of one look towards changes.
     tl_nav_view view;
-    tl_nav_pair_list polygons;     ///< slot and polygon of which cones are found anew
     tl_nav_number_list is_changed; ///< by wedge: whether its sight leads through a change
+    // Of all polygons, those of slot s from first_polygon[s] on.
+    uint32_t *first_polygon; ///< [graph->slot_count + 1]
+    bool *is_new;            ///< it came, or may have changed
+    uint32_t *last_anew;     ///< the last look that finds its cones there anew
 } tl_nav_corner_look;
 
 /// TL_ERR_MEMORY. tl_nav_end_looks frees what it keeps, after an error too.

@@ -56,6 +56,19 @@ static inline tl_nav_sector tl_nav_sector_between(double right_x, double right_z
     return sector;
 }
 
+/// The directions where a sector begins and ends.
+typedef struct tl_nav_sector_rays {
+    double right_x, right_z, left_x, left_z;
+} tl_nav_sector_rays;
+
+static inline tl_nav_sector_rays tl_nav_rays_of_sector(const tl_nav_sector *sector)
+{
+    tl_nav_sector_rays rays;
+    tl_nav_diamond_direction(sector->from, &rays.right_x, &rays.right_z);
+    tl_nav_diamond_direction(tl_nav_wrap_turn(sector->from + sector->width), &rays.left_x, &rays.left_z);
+    return rays;
+}
+
 static inline bool tl_nav_sectors_overlap(const tl_nav_sector *a, const tl_nav_sector *b)
 {
     const double on = tl_nav_wrap_turn(b->from - a->from);
