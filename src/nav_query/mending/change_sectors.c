@@ -22,6 +22,9 @@
 // Roundings of the graph by which what lies at one place, or side by side, may be taken for apart or for overlapping.
 #define PLACE_MARGIN 8.0
 
+// Slacks of a cone by which it is taken to be wider than it is kept.
+#define CONE_MARGIN 4.0
+
 // Of all directions, in which one does not look all around.
 #define MOST_DIRECTIONS (TL_NAV_FULL_TURN / 3.0)
 
@@ -38,7 +41,7 @@ tl_nav_sector tl_nav_sector_of_cone(const tl_nav_corner_cones *cones, uint32_t c
     if ((right_x == 0.0 && right_z == 0.0) || (left_x == 0.0 && left_z == 0.0)) {
         return all;
     }
-    const double margin = 4.0 * (double)tl_nav_cone_slack(cones->vertex[cone]) / TL_NAV_CONE_STEPS;
+    const double margin = CONE_MARGIN * (double)tl_nav_cone_slack(cones->vertex[cone]) / TL_NAV_CONE_STEPS;
     return tl_nav_sector_between(right_x, right_z, left_x, left_z, margin);
 }
 
@@ -326,14 +329,31 @@ static bool lies_before(const tl_nav_graph_changes *c, uint32_t v, double angle,
 // Where all polygons of a slot lie to a change that a corner vertex sees: as its box does, if that tells.
 typedef enum slot_place { SLOT_APART, SLOT_BEYOND, SLOT_UNCLEAR } slot_place;
 
+// Whether a cone surely lies beside a sector, wherever it is rounded to.
+static bool is_cone_beside(const tl_nav_sector_rays *rays, const tl_nav_corner_cones *cones, uint32_t cone)
+{
+    const double right_x = -(double)cones->right_x[cone], right_z = -(double)cones->right_z[cone];
+    const double left_x = (double)cones->left_x[cone], left_z = (double)cones->left_z[cone];
+    const double margin = CONE_MARGIN * (double)tl_nav_cone_slack(cones->vertex[cone]);
+    const bool is_left = rays->left_x * right_z - rays->left_z * right_x < -margin &&
+                         rays->left_x * left_z - rays->left_z * left_x < -margin;
+    const bool is_right = rays->right_x * right_z - rays->right_z * right_x > margin &&
+                          rays->right_x * left_z - rays->right_z * left_x > margin;
+    return is_left || is_right;
+}
+
 static bool is_beyond(const tl_nav_change_sectors *s, uint32_t v, uint32_t slot, uint32_t polygon, uint32_t cone,
                       slot_place place)
 {
     const tl_nav_graph_changes *c = s->changes;
-    const tl_nav_sector sector = tl_nav_sector_of_cone(&c->graph->tiles[slot].cones, cone);
+    const tl_nav_corner_cones *cones = &c->graph->tiles[slot].cones;
     const uint32_t order = c->graph->orders[v];
     for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
         const tl_nav_change_sector *change = &s->sectors[i];
+        if (is_cone_beside(&change->rays, cones, cone)) {
+            continue;
+        }
+        const tl_nav_sector sector = tl_nav_sector_of_cone(cones, cone);
         if (tl_nav_sectors_overlap(&change->sector, &sector) &&
             (place == SLOT_BEYOND ||
              !lies_before(c, v, tl_nav_middle_of_both(&change->sector, &sector), slot, polygon, change))) {
@@ -344,8 +364,8 @@ static bool is_beyond(const tl_nav_change_sectors *s, uint32_t v, uint32_t slot,
 }
 
 // Whether a box surely lies beside a sector: all of it left of where that ends, or right of where it begins.
-static bool lies_beside(const tl_nav_sector_rays *rays, const tl_nav_corner_vertex *vertex,
-                        const tl_nav_plan_box *box, double rounding)
+static bool lies_beside(const tl_nav_sector_rays *rays, const tl_nav_corner_vertex *vertex, const tl_nav_plan_box *box,
+                        double rounding)
 {
     const double x = 0.5 * ((double)box->low_x + (double)box->high_x) - (double)vertex->x;
     const double z = 0.5 * ((double)box->low_z + (double)box->high_z) - (double)vertex->z;

@@ -105,10 +105,13 @@ static bool has_edge(const tl_nav_corner_look *look, uint32_t from, uint32_t to)
     return k < vertex->edge_count && vertex->edges[k].to == to && tl_nav_edge_stays(look->sectors, from, to);
 }
 
+// Adds an edge at both ends: each may have missed the other by rounding. Where it stood and stays, it does at both.
 static void add_edge_seen(tl_nav_corner_look *look, uint32_t from, uint32_t to)
 {
     if (look->result == TL_OK && !has_edge(look, from, to)) {
         look->result = tl_nav_add_pair(look->changes->allocator, &look->seen.edges, from, to);
+        look->result = look->result == TL_OK ? tl_nav_add_pair(look->changes->allocator, &look->seen.edges, to, from)
+                                             : look->result;
     }
 }
 
@@ -123,9 +126,7 @@ static void note_sight(void *user, uint32_t turn)
     const double x = (double)to->x - (double)from->x, z = (double)to->z - (double)from->z;
     if (seen != look->vertex && (x != 0.0 || z != 0.0) && tl_nav_turns_at(from, -x, -z, graph->rounding) != 0 &&
         tl_nav_turns_at(to, x, z, graph->rounding) != 0) {
-        // Each end may have missed the other by rounding.
         add_edge_seen(look, look->vertex, seen);
-        add_edge_seen(look, seen, look->vertex);
     }
 }
 

@@ -129,28 +129,44 @@ static uint32_t find_known(const tl_nav_graph_changes *c, const tl_nav_pair_list
     return TL_NAV_NO_VERTEX;
 }
 
-static tl_result find_vertices(tl_nav_graph_changes *c, uint32_t slot, const tl_nav_pair_list *known)
+// Where the fan begins around the vertex where an edge starts; and how high it is there, whichever tile asked.
+static tl_vec3 begin_of_fan(const tl_navmesh *navmesh, tl_nav_ring_place *place)
+{
+    tl_nav_find_fan(navmesh, NULL, place);
+    return tl_nav_ring_at(navmesh, place->slot, place->polygon).points[place->edge];
+}
+
+static tl_result find_vertex(tl_nav_graph_changes *c, tl_nav_ring_place place, tl_nav_ring_edge edge,
+                             const tl_nav_pair_list *known)
 {
     tl_nav_visibility_graph *graph = c->graph;
+    const tl_nav_rings *rings = &c->navmesh->slots[place.slot].rings;
+    const uint32_t turn = tl_nav_turn_of(rings, edge);
+    const tl_vec3 at = begin_of_fan(c->navmesh, &place);
+    const uint32_t v = find_known(c, known, turn, at, tl_nav_walls_of(rings, edge));
+    if (v == TL_NAV_NO_VERTEX || place.slot != graph->vertices[v].place.slot) {
+        return TL_OK;
+    }
+    tl_nav_corner_vertex *vertex = &graph->vertices[v];
+    vertex->place = place;
+    graph->marks[v] = TL_NAV_MARK_NONE;
+    if (vertex->turn != turn) {
+        tl_nav_drop_name(&graph->names, vertex->turn);
+        vertex->turn = turn;
+        return tl_nav_set_name(c->allocator, &graph->names, turn, v);
+    }
+    return TL_OK;
+}
+
+static tl_result find_vertices(tl_nav_graph_changes *c, uint32_t slot, const tl_nav_pair_list *known)
+{
     const tl_nav_rings *rings = &c->navmesh->slots[slot].rings;
     for (uint32_t p = 0; p < rings->polygon_count; p++) {
         const tl_nav_ring ring = tl_nav_ring_of(rings, p);
         for (uint32_t i = 0; i < ring.count; i++) {
+            const tl_nav_ring_place place = { slot, p, i };
             const tl_nav_ring_edge edge = tl_nav_ring_edge_at(&ring, i);
-            const uint32_t turn = tl_nav_turn_of(rings, edge);
-            const uint32_t v =
-                turn != 0 ? find_known(c, known, turn, ring.points[i], tl_nav_walls_of(rings, edge)) : TL_NAV_NO_VERTEX;
-            tl_nav_ring_place place = { slot, p, i };
-            if (v != TL_NAV_NO_VERTEX && (tl_nav_find_fan(c->navmesh, NULL, &place), true) &&
-                place.slot == graph->vertices[v].place.slot) {
-                graph->vertices[v].place = place;
-                graph->marks[v] = TL_NAV_MARK_NONE;
-                if (graph->vertices[v].turn != turn) {
-                    tl_nav_drop_name(&graph->names, graph->vertices[v].turn);
-                    graph->vertices[v].turn = turn;
-                    TL_TRY(tl_nav_set_name(c->allocator, &graph->names, turn, v));
-                }
-            }
+            TL_TRY(tl_nav_turn_of(rings, edge) != 0 ? find_vertex(c, place, edge, known) : TL_OK);
         }
     }
     return TL_OK;
@@ -379,14 +395,12 @@ static tl_result add_corner_vertex_at(tl_nav_graph_changes *c, tl_nav_ring_place
     const tl_nav_rings *rings = &c->navmesh->slots[place.slot].rings;
     const tl_nav_ring ring = tl_nav_ring_of(rings, place.polygon);
     const tl_nav_ring_edge edge = tl_nav_ring_edge_at(&ring, place.edge);
-    const tl_vec3 at = ring.points[place.edge];
+    const uint32_t turn = tl_nav_turn_of(rings, edge);
+    const tl_nav_ring_walls walls = *tl_nav_walls_of(rings, edge);
+    const tl_vec3 at = begin_of_fan(c->navmesh, &place);
     const uint32_t v = tl_nav_take_corner_vertex(graph);
-    tl_nav_corner_vertex vertex = {
-        at.x, at.y, at.z, tl_nav_turn_of(rings, edge), *tl_nav_walls_of(rings, edge), place, 0, 0, 0, NULL
-    };
-    tl_nav_find_fan(c->navmesh, NULL, &vertex.place);
-    tl_nav_graph_tile *tile = &graph->tiles[vertex.place.slot];
-    vertex.next = tile->first_vertex;
+    tl_nav_graph_tile *tile = &graph->tiles[place.slot];
+    const tl_nav_corner_vertex vertex = { at.x, at.y, at.z, turn, walls, place, tile->first_vertex, 0, 0, NULL };
     tile->first_vertex = v;
     graph->vertices[v] = vertex;
     graph->marks[v] = TL_NAV_MARK_FRESH;

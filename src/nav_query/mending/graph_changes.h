@@ -59,8 +59,9 @@ void tl_nav_free_changes(tl_nav_graph_changes *changes);
 /// The number now of a polygon that an edited slot had, or TL_NO_POLYGON.
 static inline uint32_t tl_nav_new_polygon(const tl_nav_graph_changes *changes, uint32_t slot, uint32_t polygon)
 {
-    return (changes->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0 ? changes->map.numbers[changes->first_map[slot] + polygon]
-                                                                : polygon;
+    return (changes->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0
+               ? changes->map.numbers[changes->first_map[slot] + polygon]
+               : polygon;
 }
 
 /// Whether a polygon came, or may have changed.

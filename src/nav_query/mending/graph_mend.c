@@ -128,7 +128,7 @@ static tl_result mend(graph_mend *m, const tl_navmesh *navmesh, tl_nav_visibilit
     TL_TRY(tl_stage_end(&m->stage));
     graph->looked = (uint32_t)lookers->count;
     graph->last_fan = navmesh->last_fan;
-    TL_TRY(tl_nav_mend_landmarks(&m->changes, m->stage.host));
+    TL_TRY(tl_nav_mend_landmarks(&m->changes, &m->look.seen.edges, m->stage.host));
     return tl_nav_settle_changes(&m->changes);
 }
 

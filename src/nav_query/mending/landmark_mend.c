@@ -29,8 +29,8 @@ enum { LOWERING_ROUNDS = 8 };
 typedef struct landmark_mend {
     const tl_allocator *allocator;
     tl_nav_visibility_graph *graph;
-    const tl_nav_number_list *lookers; // with new edges
-    uint32_t *asked;                   // by those: for which landmarks their distance asks for a lower one, a bit each
+    tl_nav_number_list renewed; // with new edges
+    uint32_t *asked;            // by those: for which landmarks their distance asks for a lower one, a bit each
     tl_nav_open_vertex *heap;
     uint64_t heap_capacity;
     uint32_t heap_count;
@@ -154,16 +154,16 @@ static tl_result lower_all(const tl_nav_graph_changes *changes, landmark_mend *m
     tl_nav_visibility_graph *graph = m->graph;
     forget_fresh(changes);
     lower_fresh(changes);
-    for (uint64_t i = 0; i < m->lookers->count; i++) {
-        lower_by_edges(graph, m->lookers->numbers[i], 1.0);
+    for (uint64_t i = 0; i < m->renewed.count; i++) {
+        lower_by_edges(graph, m->renewed.numbers[i], 1.0);
     }
-    for (uint64_t i = 0; i < m->lookers->count; i++) {
-        m->asked[i] = landmarks_to_lower(graph, m->lookers->numbers[i]);
+    for (uint64_t i = 0; i < m->renewed.count; i++) {
+        m->asked[i] = landmarks_to_lower(graph, m->renewed.numbers[i]);
     }
     for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
-        for (uint64_t i = 0; i < m->lookers->count; i++) {
+        for (uint64_t i = 0; i < m->renewed.count; i++) {
             if ((m->asked[i] >> k & 1) != 0) {
-                TL_TRY(open_lowered(m, m->lookers->numbers[i], k));
+                TL_TRY(open_lowered(m, m->renewed.numbers[i], k));
             }
         }
         TL_TRY(spread_lowered(m, k));
@@ -173,18 +173,29 @@ static tl_result lower_all(const tl_nav_graph_changes *changes, landmark_mend *m
     return tl_stage_end(stage);
 }
 
-static tl_result mend_in_memory(const tl_nav_graph_changes *changes, tl_stage *stage)
+static tl_result list_renewed(landmark_mend *m, const tl_nav_pair_list *seen)
 {
-    const tl_nav_number_list *lookers = &changes->lookers;
-    landmark_mend m = { changes->allocator, changes->graph, lookers, NULL, NULL, 0, 0 };
-    m.asked = tl_allocate_array(changes->allocator, lookers->count, sizeof *m.asked);
-    const tl_result result = m.asked != NULL ? lower_all(changes, &m, stage) : TL_ERR_MEMORY;
-    tl_release_array(changes->allocator, m.asked, lookers->count, sizeof *m.asked);
+    for (uint64_t i = 0; i < seen->count; i++) {
+        const uint32_t v = (uint32_t)(seen->items[i].key >> 32);
+        const bool is_known = m->renewed.count > 0 && m->renewed.numbers[m->renewed.count - 1] == v;
+        TL_TRY(is_known ? TL_OK : tl_nav_add_number(m->allocator, &m->renewed, v));
+    }
+    m->asked = tl_allocate_array(m->allocator, m->renewed.count, sizeof *m->asked);
+    return m->asked != NULL ? TL_OK : TL_ERR_MEMORY;
+}
+
+static tl_result mend_in_memory(const tl_nav_graph_changes *changes, const tl_nav_pair_list *seen, tl_stage *stage)
+{
+    landmark_mend m = { changes->allocator, changes->graph, { NULL, 0, 0 }, NULL, NULL, 0, 0 };
+    tl_result result = list_renewed(&m, seen);
+    result = result == TL_OK ? lower_all(changes, &m, stage) : result;
+    tl_release_array(changes->allocator, m.asked, m.renewed.count, sizeof *m.asked);
+    tl_nav_free_numbers(changes->allocator, &m.renewed);
     tl_release_array(changes->allocator, m.heap, m.heap_capacity, sizeof *m.heap);
     return result;
 }
 
-tl_result tl_nav_mend_landmarks(const tl_nav_graph_changes *changes, const tl_host *host)
+tl_result tl_nav_mend_landmarks(const tl_nav_graph_changes *changes, const tl_nav_pair_list *seen, const tl_host *host)
 {
     tl_nav_visibility_graph *graph = changes->graph;
     tl_stage stage;
@@ -192,5 +203,5 @@ tl_result tl_nav_mend_landmarks(const tl_nav_graph_changes *changes, const tl_ho
     const bool is_fresh = changes->lookers.count - changes->first_fresh == graph->vertex_count;
     return is_fresh || graph->lowered >= (uint64_t)TL_NAV_LANDMARKS * graph->vertex_count
                ? tl_nav_measure_landmarks(changes->allocator, graph, &stage)
-               : mend_in_memory(changes, &stage);
+               : mend_in_memory(changes, seen, &stage);
 }

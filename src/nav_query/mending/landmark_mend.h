@@ -7,8 +7,8 @@
 
 #include "nav_query/mending/graph_changes.h"
 
-/// Mends the graph's distances from landmarks; or chooses landmarks, and measures them. TL_ERR_MEMORY,
-/// TL_ERR_CANCELLED.
-tl_result tl_nav_mend_landmarks(const tl_nav_graph_changes *changes, const tl_host *host);
+/// Mends the graph's distances from landmarks; or chooses landmarks, and measures them. `seen`: all edges that are new,
+/// sorted. TL_ERR_MEMORY, TL_ERR_CANCELLED.
+tl_result tl_nav_mend_landmarks(const tl_nav_graph_changes *changes, const tl_nav_pair_list *seen, const tl_host *host);
 
 #endif
