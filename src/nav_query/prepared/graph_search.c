@@ -10,6 +10,7 @@
 
 #include "nav_query/prepared/graph_search.h"
 
+#include "base/compiler.h"
 #include "nav_query/exact/wedge_sight.h"
 #include "nav_query/prepared/graph_path.h"
 #include "nav_query/prepared/landmarks.h"
@@ -18,6 +19,9 @@
 #include "nav_query/search/straight_line.h"
 
 #define GOAL_VERTEX UINT32_MAX
+
+// Bytes that are fetched at once.
+enum { CACHE_LINE = 64 };
 
 typedef struct graph_search {
     tl_nav_shortest_search *in;
@@ -104,6 +108,9 @@ static uint32_t relax_stop(graph_search *s, uint32_t vertex, float x, float z, d
     stop->cost = cost;
     stop->parent = parent;
     stop->total = (float)(cost + (double)stop->estimate);
+    // What is asked of it when it is its turn.
+    tl_prefetch(&s->graph->landmarks[vertex]);
+    tl_prefetch(&s->graph->vertices[vertex]);
     return index;
 }
 
@@ -222,6 +229,13 @@ static bool departs(graph_search *s, const tl_nav_stop *stop)
     return sees_end(s, &line, s->in->start_slot, s->in->start_polygon);
 }
 
+static void prefetch_edges(const tl_nav_corner_vertex *vertex)
+{
+    for (uint32_t k = 0; k < vertex->edge_count; k += CACHE_LINE / sizeof *vertex->edges) {
+        tl_prefetch(&vertex->edges[k]);
+    }
+}
+
 // Raises a stop's estimate by landmarks, which are asked when it comes to the top. Whether it was raised.
 static bool raise_estimate(graph_search *s, uint32_t index)
 {
@@ -236,6 +250,7 @@ static bool raise_estimate(graph_search *s, uint32_t index)
     }
     stop->estimate = better;
     stop->total = (float)(stop->cost + (double)better);
+    prefetch_edges(&s->graph->vertices[stop->vertex]);
     return true;
 }
 
