@@ -391,7 +391,7 @@ static graph_content content_of(const tl_navmesh *navmesh)
     for (uint32_t v = 0; v < graph->vertex_room; v++) {
         const tl_nav_corner_vertex *vertex = &graph->vertices[v];
         for (uint32_t e = 0; e < vertex->edge_count; e++) {
-            const uint64_t ends[3] = { names[v], names[vertex->edges[e].to], vertex->edges[e].turns };
+            const uint64_t ends[2] = { names[v], names[vertex->edges[e].to] };
             TEST_CHECK(e == 0 || vertex->edges[e - 1].to < vertex->edges[e].to);
             content.edges += tl_hash_bytes(ends, sizeof ends, 1);
         }

@@ -39,11 +39,9 @@ static tl_result list_edge(sight_lists *l, tl_nav_visibility_edge edge)
     return TL_OK;
 }
 
-static tl_nav_visibility_edge edge_between(const tl_nav_visibility_graph *graph, uint32_t from, uint32_t to)
+static tl_nav_visibility_edge edge_to(const tl_nav_visibility_graph *graph, uint32_t to)
 {
-    const tl_nav_corner_vertex *begin = &graph->vertices[from], *end = &graph->vertices[to];
-    const double x = (double)end->x - (double)begin->x, z = (double)end->z - (double)begin->z;
-    const tl_nav_visibility_edge edge = { to, end->x, end->z, tl_nav_turns_at(end, x, z, graph->rounding) };
+    const tl_nav_visibility_edge edge = { to, graph->vertices[to].x, graph->vertices[to].z };
     return edge;
 }
 
@@ -69,13 +67,13 @@ static tl_result list_edges(sight_lists *l, uint32_t v)
             continue;
         }
         for (; i < seen->count && seen->items[i].key < ((uint64_t)v << 32 | edge->to); i++) {
-            TL_TRY(list_edge(l, edge_between(graph, v, (uint32_t)seen->items[i].key)));
+            TL_TRY(list_edge(l, edge_to(graph, (uint32_t)seen->items[i].key)));
         }
         i += i < seen->count && seen->items[i].key == ((uint64_t)v << 32 | edge->to) ? 1 : 0;
         TL_TRY(list_edge(l, *edge));
     }
     for (; i < seen->count && seen->items[i].key >> 32 == v; i++) {
-        TL_TRY(list_edge(l, edge_between(graph, v, (uint32_t)seen->items[i].key)));
+        TL_TRY(list_edge(l, edge_to(graph, (uint32_t)seen->items[i].key)));
     }
     return TL_OK;
 }

@@ -30,9 +30,8 @@ enum { TL_NAV_LANDMARKS = 16 };
 
 /// From one corner vertex to another along which a shortest path may come and go.
 typedef struct tl_nav_visibility_edge {
-    uint32_t to;    ///< corner vertex
-    float x, z;     ///< where that is
-    uint32_t turns; ///< TL_NAV_TURN_...: of a path that comes along the edge, at its end
+    uint32_t to; ///< corner vertex
+    float x, z;  ///< where that is
 } tl_nav_visibility_edge;
 
 /// A corner vertex keeps its number as long as its name in rings stays. Then the number is free, and the next new
