@@ -30,7 +30,7 @@ typedef struct landmark_mend {
     const tl_allocator *allocator;
     tl_nav_visibility_graph *graph;
     tl_nav_number_list renewed; // with new edges
-    uint32_t *asked;            // by those: for which landmarks their distance asks for a lower one, a bit each
+    uint64_t *asked;            // by those: for which landmarks their distance asks for a lower one, a bit each
     tl_nav_open_vertex *heap;
     uint64_t heap_capacity;
     uint32_t heap_count;
@@ -52,6 +52,17 @@ static void forget_fresh(const tl_nav_graph_changes *changes)
     }
 }
 
+// Whether any of a vertex's distances may be larger than another's by more than a length: as floats, which are rounded.
+static bool may_exceed(const float *distances, const float *others, double length)
+{
+    const float least = (float)(length * (1.0 - (double)TL_FLOAT_GAMMA(2)));
+    uint32_t any = 0;
+    for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
+        any |= distances[k] * (1.0f + TL_FLOAT_GAMMA(4)) > others[k] + least ? 1u : 0u;
+    }
+    return any != 0;
+}
+
 // Lowers a vertex's distances where one of its edges leads to a shorter one. `scale`: of the edges' lengths. Whether it
 // lowered any.
 static bool lower_by_edges(tl_nav_visibility_graph *graph, uint32_t i, double scale)
@@ -61,7 +72,8 @@ static bool lower_by_edges(tl_nav_visibility_graph *graph, uint32_t i, double sc
     for (uint32_t e = 0; e < vertex->edge_count; e++) {
         const double length = scale * tl_nav_visibility_edge_length(vertex, &vertex->edges[e]);
         const float *to = graph->landmarks[vertex->edges[e].to];
-        for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
+        const bool may = may_exceed(graph->landmarks[i], to, length);
+        for (uint32_t k = 0; may && k < TL_NAV_LANDMARKS; k++) {
             if ((double)graph->landmarks[i][k] > (double)to[k] + length) {
                 graph->landmarks[i][k] = round_down((double)to[k] + length);
                 any = true;
@@ -84,15 +96,16 @@ static void lower_fresh(const tl_nav_graph_changes *changes)
 }
 
 // For which landmarks a vertex's distance asks for a lower one at the end of an edge: a bit each.
-static uint32_t landmarks_to_lower(const tl_nav_visibility_graph *graph, uint32_t i)
+static uint64_t landmarks_to_lower(const tl_nav_visibility_graph *graph, uint32_t i)
 {
     const tl_nav_corner_vertex *vertex = &graph->vertices[i];
-    uint32_t asked = 0;
+    uint64_t asked = 0;
     for (uint32_t e = 0; e < vertex->edge_count; e++) {
         const double length = tl_nav_visibility_edge_length(vertex, &vertex->edges[e]);
         const float *to = graph->landmarks[vertex->edges[e].to];
-        for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
-            asked |= (uint32_t)((double)to[k] > (double)graph->landmarks[i][k] + length) << k;
+        const bool may = may_exceed(to, graph->landmarks[i], length);
+        for (uint32_t k = 0; may && k < TL_NAV_LANDMARKS; k++) {
+            asked |= (uint64_t)((double)to[k] > (double)graph->landmarks[i][k] + length) << k;
         }
     }
     return asked;

@@ -109,7 +109,9 @@ static uint32_t relax_stop(graph_search *s, uint32_t vertex, float x, float z, d
     stop->parent = parent;
     stop->total = (float)(cost + (double)stop->estimate);
     // What is asked of it when it is its turn.
-    tl_prefetch(&s->graph->landmarks[vertex]);
+    for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k += CACHE_LINE / sizeof **s->graph->landmarks) {
+        tl_prefetch(&s->graph->landmarks[vertex][k]);
+    }
     tl_prefetch(&s->graph->vertices[vertex]);
     return index;
 }

@@ -19,7 +19,7 @@
 #include <talus/nav_prepare.h>
 
 /// Landmarks of the graph: distances that are kept for each corner vertex (landmarks.c). 16 floats are a cache line.
-enum { TL_NAV_LANDMARKS = 16 };
+enum { TL_NAV_LANDMARKS = 48 };
 
 // To which sides a path may turn at a corner vertex.
 #define TL_NAV_TURN_LEFT  1u
