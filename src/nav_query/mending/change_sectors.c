@@ -81,12 +81,18 @@ static bool is_in_box(const tl_nav_plan_box *box, const tl_nav_corner_vertex *ve
     return vertex->x >= box->low_x && vertex->x <= box->high_x && vertex->z >= box->low_z && vertex->z <= box->high_z;
 }
 
+static tl_nav_plan_box box_of_polygon(const tl_nav_known_rings *known, uint32_t polygon)
+{
+    const uint32_t first = known->first[polygon];
+    return tl_nav_box_of_edges(known->edges + first, known->first[polygon + 1] - first);
+}
+
 // `polygon`, by its old number, is one of a region, which is all of the slot if it is of another tile.
 static tl_result add_polygon_sectors(sector_finder *f, uint32_t slot, uint32_t polygon, bool is_other)
 {
     const tl_nav_visibility_graph *graph = f->s->changes->graph;
     const tl_nav_graph_tile *tile = &graph->tiles[slot];
-    const tl_nav_plan_box box = is_other ? tile->box : tl_nav_box_of_known(&tile->rings, polygon);
+    const tl_nav_plan_box box = is_other ? tile->box : box_of_polygon(&tile->rings, polygon);
     for (uint32_t i = tile->cones.first[polygon]; i < tile->cones.first[polygon + 1]; i++) {
         const uint32_t v = tl_nav_cone_vertex(&tile->cones, i);
         if (graph->marks[v] == TL_NAV_MARK_LOOKS && is_in_box(&box, &graph->vertices[v])) {
@@ -187,37 +193,6 @@ static tl_result sort_sectors(sector_finder *f)
 // ---------------------------------------------------------------------------------------------------------
 // Where the cones are that may go.
 
-// The directions in which a box lies.
-static tl_nav_sector sector_of_box(const tl_nav_plan_box *box, const tl_nav_corner_vertex *vertex)
-{
-    tl_nav_sector sector = { 0.0, TL_NAV_FULL_TURN };
-    if (is_in_box(box, vertex)) {
-        return sector;
-    }
-    for (int i = 0; i < 4; i++) {
-        const double x = (double)(i % 2 == 0 ? box->low_x : box->high_x) - (double)vertex->x;
-        const double z = (double)(i < 2 ? box->low_z : box->high_z) - (double)vertex->z;
-        const double angle = tl_nav_diamond_angle(x, z);
-        if (i == 0) {
-            sector.from = angle < TL_NAV_FULL_TURN ? angle : 0.0;
-            sector.width = 0.0;
-            continue;
-        }
-        // All lie within half a turn: a corner extends the sector on the side where it is nearer.
-        const double on = tl_nav_wrap_turn(angle - sector.from);
-        if (on <= sector.width) {
-            continue;
-        }
-        if (on - sector.width <= TL_NAV_FULL_TURN - on) {
-            sector.width = on;
-        } else {
-            sector.width += TL_NAV_FULL_TURN - on;
-            sector.from = tl_nav_wrap_turn(sector.from - (TL_NAV_FULL_TURN - on));
-        }
-    }
-    return sector;
-}
-
 static bool sees_change_at(const tl_nav_change_sectors *s, uint64_t order, const tl_nav_sector *sector)
 {
     for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
@@ -240,10 +215,12 @@ typedef struct sight_ray {
     double from_x, from_z, x, z;
 } sight_ray;
 
-static sight_ray ray_at(const tl_nav_corner_vertex *vertex, double angle)
+// In a direction within two sectors that overlap.
+static sight_ray shared_ray(const tl_nav_corner_vertex *vertex, const tl_nav_sector_rays *a,
+                            const tl_nav_sector_rays *b)
 {
     sight_ray ray = { (double)vertex->x, (double)vertex->z, 0.0, 0.0 };
-    tl_nav_diamond_direction(angle, &ray.x, &ray.z);
+    tl_nav_shared_direction(a, b, &ray.x, &ray.z);
     return ray;
 }
 
@@ -264,21 +241,8 @@ static void cut_chord(const sight_ray *ray, double a_x, double a_z, double b_x, 
     chord->leaves = length > chord->leaves ? length : chord->leaves;
 }
 
-static ray_chord chord_of_polygon(const tl_navmesh *navmesh, const sight_ray *ray, uint32_t slot, uint32_t polygon)
+static ray_chord chord_of_ring(const sight_ray *ray, const tl_nav_known_edge *edges, uint32_t count)
 {
-    const tl_nav_ring ring = tl_nav_ring_at(navmesh, slot, polygon);
-    ray_chord chord = { (double)INFINITY, -(double)INFINITY };
-    for (uint32_t i = 0; i < ring.count; i++) {
-        const tl_vec3 *a = &ring.points[i], *b = &ring.points[i + 1 < ring.count ? i + 1 : 0];
-        cut_chord(ray, (double)a->x, (double)a->z, (double)b->x, (double)b->z, &chord);
-    }
-    return chord;
-}
-
-static ray_chord chord_of_known(const tl_nav_known_rings *known, const sight_ray *ray, uint32_t polygon)
-{
-    const tl_nav_known_edge *edges = known->edges + known->first[polygon];
-    const uint32_t count = known->first[polygon + 1] - known->first[polygon];
     ray_chord chord = { (double)INFINITY, -(double)INFINITY };
     for (uint32_t i = 0; i < count; i++) {
         const tl_nav_known_edge *a = &edges[i], *b = &edges[i + 1 < count ? i + 1 : 0];
@@ -287,16 +251,26 @@ static ray_chord chord_of_known(const tl_nav_known_rings *known, const sight_ray
     return chord;
 }
 
+static ray_chord chord_of_polygon(const tl_nav_known_rings *known, const sight_ray *ray, uint32_t polygon)
+{
+    return chord_of_ring(ray, known->edges + known->first[polygon], known->first[polygon + 1] - known->first[polygon]);
+}
+
+// The corners of a box, turning the same way around.
+static void corners_of_box(const tl_nav_plan_box *box, tl_nav_known_edge corners_out[4])
+{
+    const tl_nav_known_edge corners[4] = { { box->low_x, box->low_z, 0, 0 },
+                                           { box->high_x, box->low_z, 0, 0 },
+                                           { box->high_x, box->high_z, 0, 0 },
+                                           { box->low_x, box->high_z, 0, 0 } };
+    memcpy(corners_out, corners, sizeof corners);
+}
+
 static ray_chord chord_of_box(const tl_nav_plan_box *box, const sight_ray *ray)
 {
-    ray_chord chord = { (double)INFINITY, -(double)INFINITY };
-    const double low_x = (double)box->low_x, high_x = (double)box->high_x;
-    const double low_z = (double)box->low_z, high_z = (double)box->high_z;
-    cut_chord(ray, low_x, low_z, high_x, low_z, &chord);
-    cut_chord(ray, high_x, low_z, high_x, high_z, &chord);
-    cut_chord(ray, high_x, high_z, low_x, high_z, &chord);
-    cut_chord(ray, low_x, high_z, low_x, low_z, &chord);
-    return chord;
+    tl_nav_known_edge corners[4];
+    corners_of_box(box, corners);
+    return chord_of_ring(ray, corners, 4);
 }
 
 static ray_chord chord_of_region(const tl_nav_graph_changes *c, const sight_ray *ray,
@@ -310,36 +284,22 @@ static ray_chord chord_of_region(const tl_nav_graph_changes *c, const sight_ray 
         return chord;
     }
     if (sector->polygon != TL_NO_POLYGON) {
-        return chord_of_known(&c->graph->tiles[sector->slot].rings, ray, sector->polygon);
+        return chord_of_polygon(&c->graph->tiles[sector->slot].rings, ray, sector->polygon);
     }
     return chord_of_box(&c->graph->tiles[sector->slot].box, ray);
-}
-
-// Whether a polygon surely lies before a region, as a corner vertex sees them in a common direction.
-static bool lies_before(const tl_nav_graph_changes *c, uint32_t v, double angle, uint32_t slot, uint32_t polygon,
-                        const tl_nav_change_sector *sector)
-{
-    const sight_ray ray = ray_at(&c->graph->vertices[v], angle);
-    const ray_chord own = chord_of_polygon(c->navmesh, &ray, slot, polygon);
-    const ray_chord region = chord_of_region(c, &ray, sector);
-    return own.enters <= own.leaves && region.enters <= region.leaves &&
-           own.leaves <= region.enters + PLACE_MARGIN * c->graph->rounding;
 }
 
 // Where all polygons of a slot lie to a change that a corner vertex sees: as its box does, if that tells.
 typedef enum slot_place { SLOT_APART, SLOT_BEYOND, SLOT_UNCLEAR } slot_place;
 
-// Whether a cone surely lies beside a sector, wherever it is rounded to.
-static bool is_cone_beside(const tl_nav_sector_rays *rays, const tl_nav_corner_cones *cones, uint32_t cone)
+// Whether a polygon, by its old number, surely lies before a region, as a ray meets them both.
+static bool lies_before(const tl_nav_graph_changes *c, const sight_ray *ray, uint32_t slot, uint32_t polygon,
+                        const tl_nav_change_sector *change)
 {
-    const double right_x = -(double)cones->right_x[cone], right_z = -(double)cones->right_z[cone];
-    const double left_x = (double)cones->left_x[cone], left_z = (double)cones->left_z[cone];
-    const double margin = CONE_MARGIN * (double)tl_nav_cone_slack(cones->vertex[cone]);
-    const bool is_left = rays->left_x * right_z - rays->left_z * right_x < -margin &&
-                         rays->left_x * left_z - rays->left_z * left_x < -margin;
-    const bool is_right = rays->right_x * right_z - rays->right_z * right_x > margin &&
-                          rays->right_x * left_z - rays->right_z * left_x > margin;
-    return is_left || is_right;
+    const ray_chord own = chord_of_polygon(&c->graph->tiles[slot].rings, ray, polygon);
+    const ray_chord region = chord_of_region(c, ray, change);
+    return own.enters <= own.leaves && region.enters <= region.leaves &&
+           own.leaves <= region.enters + PLACE_MARGIN * c->graph->rounding;
 }
 
 static bool is_beyond(const tl_nav_change_sectors *s, uint32_t v, uint32_t slot, uint32_t polygon, uint32_t cone,
@@ -348,22 +308,46 @@ static bool is_beyond(const tl_nav_change_sectors *s, uint32_t v, uint32_t slot,
     const tl_nav_graph_changes *c = s->changes;
     const tl_nav_corner_cones *cones = &c->graph->tiles[slot].cones;
     const uint32_t order = c->graph->orders[v];
+    const tl_nav_sector_rays rays = { -(double)cones->right_x[cone], -(double)cones->right_z[cone],
+                                      (double)cones->left_x[cone], (double)cones->left_z[cone] };
+    const double margin = CONE_MARGIN * (double)tl_nav_cone_slack(cones->vertex[cone]);
     for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
         const tl_nav_change_sector *change = &s->sectors[i];
-        if (is_cone_beside(&change->rays, cones, cone)) {
+        if (tl_nav_are_rays_apart(&change->rays, &rays, margin)) {
             continue;
         }
         const tl_nav_sector sector = tl_nav_sector_of_cone(cones, cone);
+        sight_ray ray = { (double)c->graph->vertices[v].x, (double)c->graph->vertices[v].z, 0.0, 0.0 };
+        tl_nav_diamond_direction(tl_nav_middle_of_both(&change->sector, &sector), &ray.x, &ray.z);
         if (tl_nav_sectors_overlap(&change->sector, &sector) &&
-            (place == SLOT_BEYOND ||
-             !lies_before(c, v, tl_nav_middle_of_both(&change->sector, &sector), slot, polygon, change))) {
+            (place == SLOT_BEYOND || !lies_before(c, &ray, slot, polygon, change))) {
             return true;
         }
     }
     return false;
 }
 
-// Whether a box surely lies beside a sector: all of it left of where that ends, or right of where it begins.
+// From a place outside of it.
+static tl_nav_sector_rays rays_of_box(const tl_nav_plan_box *box, const tl_nav_corner_vertex *vertex)
+{
+    tl_nav_known_edge corners[4];
+    corners_of_box(box, corners);
+    tl_nav_sector_rays rays = { 0.0, 0.0, 0.0, 0.0 };
+    for (int i = 0; i < 4; i++) {
+        const double x = (double)corners[i].x - (double)vertex->x, z = (double)corners[i].z - (double)vertex->z;
+        if (i == 0 || rays.left_x * z - rays.left_z * x < 0.0) {
+            rays.left_x = x;
+            rays.left_z = z;
+        }
+        if (i == 0 || rays.right_x * z - rays.right_z * x > 0.0) {
+            rays.right_x = x;
+            rays.right_z = z;
+        }
+    }
+    return rays;
+}
+
+// The same as tl_nav_are_rays_apart for all rays to a box, at less cost.
 static bool lies_beside(const tl_nav_sector_rays *rays, const tl_nav_corner_vertex *vertex, const tl_nav_plan_box *box,
                         double rounding)
 {
@@ -380,24 +364,21 @@ static slot_place place_of_slot(const tl_nav_change_sectors *s, uint32_t order, 
     const tl_nav_graph_changes *c = s->changes;
     const tl_nav_corner_vertex *vertex = &c->graph->vertices[c->lookers.numbers[order]];
     const tl_nav_plan_box *box = &c->graph->tiles[slot].box;
-    tl_nav_sector sector = { 0.0, -1.0 }; // not asked for yet
+    const double margin = PLACE_MARGIN * c->graph->rounding;
     bool any_before = false, any_beyond = false;
     for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
         const tl_nav_change_sector *change = &s->sectors[i];
         if (lies_beside(&change->rays, vertex, box, c->graph->rounding)) {
             continue;
         }
-        sector = sector.width < 0.0 ? sector_of_box(box, vertex) : sector;
-        if (!tl_nav_sectors_overlap(&change->sector, &sector)) {
-            continue;
-        }
-        const sight_ray ray = ray_at(vertex, tl_nav_middle_of_both(&change->sector, &sector));
+        const tl_nav_sector_rays rays = is_in_box(box, vertex) ? change->rays : rays_of_box(box, vertex);
+        const sight_ray ray = shared_ray(vertex, &change->rays, &rays);
         const ray_chord own = chord_of_box(box, &ray), region = chord_of_region(c, &ray, change);
         if (own.enters > own.leaves || region.enters > region.leaves || change->slot == slot) {
             return SLOT_UNCLEAR;
         }
-        const bool before = own.leaves <= region.enters + PLACE_MARGIN * c->graph->rounding;
-        if (!before && own.enters < region.leaves - PLACE_MARGIN * c->graph->rounding) {
+        const bool before = own.leaves <= region.enters + margin;
+        if (!before && own.enters < region.leaves - margin) {
             return SLOT_UNCLEAR;
         }
         any_before = any_before || before;
@@ -434,8 +415,8 @@ typedef struct slot_pass {
     bool keeps; // some of them
 } slot_pass;
 
-// Drops the cones of a corner vertex from `i` on, of a polygon whose cones end at `last`, if it sees any beyond a
-// change. Returns where they end.
+// Drops the cones of a corner vertex from `i` on, of a polygon, by its old number, whose cones end at `last`, if it sees
+// any beyond a change. Returns where they end.
 static tl_result drop_beyond(tl_nav_change_sectors *s, uint32_t slot, uint32_t polygon, uint32_t i, uint32_t last,
                              slot_pass *pass, uint32_t *end_out)
 {
@@ -449,7 +430,8 @@ static tl_result drop_beyond(tl_nav_change_sectors *s, uint32_t slot, uint32_t p
     }
     pass->keeps = pass->keeps || !any;
     for (uint32_t k = i; any && k < end; k++) {
-        const tl_sort_item item = { (uint64_t)c->graph->orders[v] << 32 | slot, k, polygon };
+        const tl_sort_item item = { (uint64_t)c->graph->orders[v] << 32 | slot, k,
+                                    tl_nav_new_polygon(c, slot, polygon) };
         TL_TRY(tl_nav_add_item(c->allocator, &s->beyond, item));
         TL_TRY(tl_nav_add_pair(c->allocator, &s->dropped, slot, k));
     }
@@ -469,7 +451,8 @@ static tl_result find_beyond(tl_nav_change_sectors *s, uint32_t slot, const tl_s
         passes[(uint32_t)places[i].key] = pass;
     }
     for (uint32_t p = 0; p < cones->polygon_count; p++) {
-        for (uint32_t i = cones->first[p], end; i < cones->first[p + 1]; i = end) {
+        const bool stays = tl_nav_new_polygon(c, slot, p) != TL_NO_POLYGON;
+        for (uint32_t i = cones->first[p], end; stays && i < cones->first[p + 1]; i = end) {
             const uint32_t v = tl_nav_cone_vertex(cones, i);
             slot_pass *pass = c->graph->marks[v] == TL_NAV_MARK_LOOKS ? &passes[c->graph->orders[v]] : NULL;
             end = i + 1;
@@ -528,19 +511,6 @@ static tl_result note_lost_tiles(tl_nav_change_sectors *s)
     return TL_OK;
 }
 
-// Cones in polygons that stay go to their new numbers. From here on the slots are as if they had always had these.
-static tl_result renumber_cones(const tl_nav_graph_changes *c)
-{
-    for (uint64_t i = 0; i < c->slots.count; i++) {
-        const uint32_t slot = c->slots.numbers[i];
-        if ((c->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0) {
-            TL_TRY(tl_nav_renumber_cones(c->allocator, c->graph, slot, c->navmesh->slots[slot].rings.polygon_count,
-                                         c->map.numbers + c->first_map[slot]));
-        }
-    }
-    return TL_OK;
-}
-
 tl_result tl_nav_find_change_sectors(tl_nav_graph_changes *changes, tl_nav_change_sectors *sectors_out)
 {
     memset(sectors_out, 0, sizeof *sectors_out);
@@ -554,7 +524,6 @@ tl_result tl_nav_find_change_sectors(tl_nav_graph_changes *changes, tl_nav_chang
     result = result == TL_OK ? sort_sectors(&finder) : result;
     tl_nav_free_pairs(changes->allocator, &finder.found);
     TL_TRY(result);
-    TL_TRY(renumber_cones(changes));
     tl_nav_pair_list places = { NULL, 0, 0 };
     result = note_slots(sectors_out, &places);
     result = result == TL_OK ? find_all_beyond(sectors_out, &places) : result;

@@ -23,7 +23,7 @@ typedef struct tl_nav_change_sectors {
     uint64_t *first; ///< [changes->first_fresh + 1], by looker: where its sectors begin
     uint64_t count, capacity;
     /// Cones that were seen in a polygon beyond a change, or on one: place of the looker and slot; as value the cone,
-    /// as extra its polygon. Sorted.
+    /// as extra its polygon's new number. Sorted.
     tl_nav_pair_list beyond;
     tl_nav_pair_list dropped; ///< slot and cone: those, and others that looks have found
     tl_nav_pair_list lost;    ///< corner vertex and slot, in which all of its cones are dropped

@@ -134,14 +134,11 @@ static void note_sight(void *user, uint32_t turn)
 static bool looks_through(void *user, const tl_nav_wedge *wedge)
 {
     const tl_nav_corner_look *look = (const tl_nav_corner_look *)user;
-    const tl_nav_direction right = wedge->right, left = wedge->left;
-    bool any = is_open_direction(right) || is_open_direction(left);
+    const tl_nav_sector_rays rays = { wedge->right.x, wedge->right.z, wedge->left.x, wedge->left.z };
+    bool any = is_open_direction(wedge->right) || is_open_direction(wedge->left);
     for (uint32_t i = 0; i < look->view.count && !any; i++) {
-        const tl_nav_sector_rays *rays = &look->view.rays[i];
-        const tl_nav_direction begin = { rays->right_x, rays->right_z }, end = { rays->left_x, rays->left_z };
-        const bool is_left = wedge_cross(end, right) < 0.0 && wedge_cross(end, left) < 0.0;
-        const bool is_right = wedge_cross(begin, right) > 0.0 && wedge_cross(begin, left) > 0.0;
-        any = look->view.sectors[i].width >= 0.5 * TL_NAV_FULL_TURN || !(is_left || is_right);
+        any = look->view.sectors[i].width >= 0.5 * TL_NAV_FULL_TURN ||
+              !tl_nav_are_rays_apart(&look->view.rays[i], &rays, 0.0);
     }
     return any;
 }
@@ -253,10 +250,8 @@ static void begin_view(tl_nav_corner_look *look, uint32_t order)
 static tl_result drop_cones_in(tl_nav_corner_look *look, uint32_t slot, uint32_t polygon, bool *widens)
 {
     const tl_nav_corner_cones *cones = &look->changes->graph->tiles[slot].cones;
-    if ((look->changes->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0) {
-        return TL_OK;
-    }
-    for (uint32_t i = cones->first[polygon]; i < cones->first[polygon + 1]; i++) {
+    const uint32_t old = tl_nav_old_polygon(look->changes, slot, polygon);
+    for (uint32_t i = old != TL_NO_POLYGON ? cones->first[old] : 1; old != TL_NO_POLYGON && i < cones->first[old + 1]; i++) {
         if (tl_nav_cone_vertex(cones, i) == look->vertex) {
             const tl_nav_sector sector = tl_nav_sector_of_cone(cones, i);
             TL_TRY(tl_nav_add_pair(look->changes->allocator, &look->sectors->dropped, slot, i));

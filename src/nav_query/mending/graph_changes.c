@@ -252,15 +252,6 @@ static tl_result drop_gone(tl_nav_graph_changes *c)
 // ---------------------------------------------------------------------------------------------------------
 // Polygons that are what they were.
 
-// Whether a polygon is none of those that were there.
-static bool is_polygon_fresh(const tl_nav_graph_changes *c, uint32_t slot, uint32_t polygon)
-{
-    const uint32_t bits = c->slot_bits[slot];
-    return (bits & TL_NAV_SLOT_OTHER) != 0 ||
-           ((bits & TL_NAV_SLOT_MAPPED) != 0 &&
-            c->map.numbers[c->first_map[slot] + c->graph->tiles[slot].rings.polygon_count + polygon] == TL_NO_POLYGON);
-}
-
 // Whether what lies across an edge is what lay there. Of two polygons that have no match none is that of another.
 static bool leads_on_alike(const tl_nav_graph_changes *c, uint32_t slot, const tl_nav_known_edge *before, uint32_t to)
 {
@@ -278,7 +269,7 @@ static bool leads_on_alike(const tl_nav_graph_changes *c, uint32_t slot, const t
     if (now != TL_NO_POLYGON) {
         return is.slot == was.slot && is.polygon == now;
     }
-    return is_polygon_fresh(c, is.slot, is.polygon);
+    return tl_nav_old_polygon(c, is.slot, is.polygon) == TL_NO_POLYGON;
 }
 
 static bool is_edge_alike(const tl_nav_graph_changes *c, uint32_t slot, const tl_nav_known_edge *before,
@@ -322,7 +313,8 @@ static tl_result compare_slot(tl_nav_graph_changes *c, uint32_t slot)
         }
     }
     for (uint32_t p = 0; p < c->navmesh->slots[slot].rings.polygon_count; p++) {
-        TL_TRY(is_polygon_fresh(c, slot, p) ? tl_nav_add_pair(c->allocator, &c->polygons, slot, p) : TL_OK);
+        const bool is_fresh = tl_nav_old_polygon(c, slot, p) == TL_NO_POLYGON;
+        TL_TRY(is_fresh ? tl_nav_add_pair(c->allocator, &c->polygons, slot, p) : TL_OK);
     }
     if (c->old_polygons.count - old_count == known->polygon_count) {
         c->old_polygons.count = old_count;
@@ -348,7 +340,6 @@ static tl_result find_onlookers(tl_nav_graph_changes *c)
         const uint32_t slot = c->slots.numbers[i];
         TL_TRY((c->slot_bits[slot] & TL_NAV_SLOT_EDITED) != 0 ? compare_slot(c, slot) : TL_OK);
     }
-    TL_TRY(tl_nav_sort_pairs(c->allocator, &c->polygons, NULL));
     for (uint64_t i = 0; i < c->slots.count; i++) {
         const uint32_t slot = c->slots.numbers[i];
         const bool is_other = (c->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0;
@@ -464,18 +455,6 @@ tl_result tl_nav_find_changes(const tl_navmesh *navmesh, tl_nav_visibility_graph
     return compare_graph(changes_out);
 }
 
-static tl_nav_plan_box box_of_known(const tl_nav_known_rings *known)
-{
-    tl_nav_plan_box box = { INFINITY, INFINITY, -INFINITY, -INFINITY };
-    for (uint32_t i = 0; i < known->edge_count; i++) {
-        box.low_x = tl_min_f32(box.low_x, known->edges[i].x);
-        box.low_z = tl_min_f32(box.low_z, known->edges[i].z);
-        box.high_x = tl_max_f32(box.high_x, known->edges[i].x);
-        box.high_z = tl_max_f32(box.high_z, known->edges[i].z);
-    }
-    return box;
-}
-
 tl_result tl_nav_settle_changes(const tl_nav_graph_changes *c)
 {
     for (uint64_t i = 0; i < c->gone.count; i++) {
@@ -491,7 +470,7 @@ tl_result tl_nav_settle_changes(const tl_nav_graph_changes *c)
         tile->salt = salt_of(c->navmesh, slot);
         if (is_edited && tile->salt != 0) {
             TL_TRY(tl_nav_keep_rings(c->navmesh, c->graph, slot));
-            tile->box = box_of_known(&tile->rings);
+            tile->box = tl_nav_box_of_edges(tile->rings.edges, tile->rings.edge_count);
         } else if (is_edited) {
             c->graph->tile_bytes -= tl_nav_known_rings_size(&tile->rings);
             tl_nav_free_known_rings(c->allocator, &tile->rings);

@@ -40,8 +40,8 @@ typedef struct tl_nav_graph_changes {
     tl_nav_number_list gone;
     tl_nav_gone_spot *gone_spots; ///< by place in `gone`: where they were
     tl_nav_pair_list gone_sights; ///< corner vertex that looks, and one in `gone`, by its place there, that it saw
-    /// Slot that was edited, and polygon there that came or may have changed; sorted. The same of polygons that were
-    /// there before, by their old numbers.
+    /// Slot that was edited, and polygon there that came or may have changed. The same of polygons that were there
+    /// before, by their old numbers.
     tl_nav_pair_list polygons, old_polygons;
     tl_nav_number_list map; ///< of mapped slots one after another: by old polygon the new one, or TL_NO_POLYGON
     uint32_t *first_map;    ///< [graph->slot_count], by mapped slot: where its part begins
@@ -56,19 +56,26 @@ tl_result tl_nav_find_changes(const tl_navmesh *navmesh, tl_nav_visibility_graph
 tl_result tl_nav_settle_changes(const tl_nav_graph_changes *changes);
 void tl_nav_free_changes(tl_nav_graph_changes *changes);
 
-/// The number now of a polygon that an edited slot had, or TL_NO_POLYGON.
+/// The number now of a polygon that a slot had, or TL_NO_POLYGON. The slot is not of another tile.
 static inline uint32_t tl_nav_new_polygon(const tl_nav_graph_changes *changes, uint32_t slot, uint32_t polygon)
 {
-    return (changes->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0
-               ? changes->map.numbers[changes->first_map[slot] + polygon]
-               : polygon;
+    return (changes->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0 ? changes->map.numbers[changes->first_map[slot] + polygon]
+                                                                : polygon;
 }
 
-/// Whether a polygon came, or may have changed.
-static inline bool tl_nav_is_polygon_new(const tl_nav_graph_changes *changes, uint32_t slot, uint32_t polygon)
+/// By polygon of a slot the number that it had, or TL_NO_POLYGON; NULL: as now.
+static inline const uint32_t *tl_nav_old_polygons(const tl_nav_graph_changes *changes, uint32_t slot)
 {
-    return (changes->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0 ||
-           ((changes->slot_bits[slot] & TL_NAV_SLOT_EDITED) != 0 && tl_nav_has_pair(&changes->polygons, slot, polygon));
+    return (changes->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0 ? changes->map.numbers + changes->first_map[slot] +
+                                                                      changes->graph->tiles[slot].rings.polygon_count
+                                                                : NULL;
+}
+
+/// The number that a polygon had, or TL_NO_POLYGON: it came.
+static inline uint32_t tl_nav_old_polygon(const tl_nav_graph_changes *changes, uint32_t slot, uint32_t polygon)
+{
+    const uint32_t *old = tl_nav_old_polygons(changes, slot);
+    return (changes->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0 ? TL_NO_POLYGON : old != NULL ? old[polygon] : polygon;
 }
 
 /// Sets bits of a slot. TL_ERR_MEMORY.

@@ -80,11 +80,12 @@ static tl_result remake_tile_cones(graph_mend *m, uint32_t slot)
         return TL_OK;
     }
     TL_TRY(find_dropped(m, slot, &drops));
-    if (!is_other && !drops && count == 0) {
+    const uint32_t *old_polygons = tl_nav_old_polygons(&m->changes, slot);
+    if (!is_other && !drops && count == 0 && old_polygons == NULL) {
         return TL_OK;
     }
     return tl_nav_remake_cones(m->changes.allocator, m->changes.graph, slot, navmesh->slots[slot].rings.polygon_count,
-                               m->is_dropped, m->look.cones.cones + first, count);
+                               old_polygons, m->is_dropped, m->look.cones.cones + first, count);
 }
 
 static tl_result remake_cones(graph_mend *m)

@@ -150,14 +150,14 @@ tl_result tl_nav_map_polygons(const tl_navmesh *navmesh, const tl_nav_known_ring
     return result;
 }
 
-tl_nav_plan_box tl_nav_box_of_known(const tl_nav_known_rings *known, uint32_t polygon)
+tl_nav_plan_box tl_nav_box_of_edges(const tl_nav_known_edge *edges, uint32_t count)
 {
     tl_nav_plan_box box = { INFINITY, INFINITY, -INFINITY, -INFINITY };
-    for (uint32_t i = known->first[polygon]; i < known->first[polygon + 1]; i++) {
-        box.low_x = tl_min_f32(box.low_x, known->edges[i].x);
-        box.low_z = tl_min_f32(box.low_z, known->edges[i].z);
-        box.high_x = tl_max_f32(box.high_x, known->edges[i].x);
-        box.high_z = tl_max_f32(box.high_z, known->edges[i].z);
+    for (uint32_t i = 0; i < count; i++) {
+        box.low_x = tl_min_f32(box.low_x, edges[i].x);
+        box.low_z = tl_min_f32(box.low_z, edges[i].z);
+        box.high_x = tl_max_f32(box.high_x, edges[i].x);
+        box.high_z = tl_max_f32(box.high_z, edges[i].z);
     }
     return box;
 }

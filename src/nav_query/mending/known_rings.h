@@ -21,6 +21,6 @@ tl_result tl_nav_map_polygons(const tl_navmesh *navmesh, const tl_nav_known_ring
 /// the same points.
 uint32_t tl_nav_turn_of_rings(const tl_nav_known_rings *known, uint32_t polygon, const tl_nav_ring *ring);
 
-tl_nav_plan_box tl_nav_box_of_known(const tl_nav_known_rings *known, uint32_t polygon);
+tl_nav_plan_box tl_nav_box_of_edges(const tl_nav_known_edge *edges, uint32_t count);
 
 #endif

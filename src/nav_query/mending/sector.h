@@ -56,7 +56,7 @@ static inline tl_nav_sector tl_nav_sector_between(double right_x, double right_z
     return sector;
 }
 
-/// The directions where a sector begins and ends.
+/// The directions where a sector of less than half a turn begins and ends, of any length.
 typedef struct tl_nav_sector_rays {
     double right_x, right_z, left_x, left_z;
 } tl_nav_sector_rays;
@@ -67,6 +67,29 @@ static inline tl_nav_sector_rays tl_nav_rays_of_sector(const tl_nav_sector *sect
     tl_nav_diamond_direction(sector->from, &rays.right_x, &rays.right_z);
     tl_nav_diamond_direction(tl_nav_wrap_turn(sector->from + sector->width), &rays.left_x, &rays.left_z);
     return rays;
+}
+
+/// Whether the second sector surely lies beside the first: all of it left of where that ends, or right of where it
+/// begins, by more than `margin` (a cross product).
+static inline bool tl_nav_are_rays_apart(const tl_nav_sector_rays *a, const tl_nav_sector_rays *b, double margin)
+{
+    return (a->left_x * b->right_z - a->left_z * b->right_x < -margin &&
+            a->left_x * b->left_z - a->left_z * b->left_x < -margin) ||
+           (a->right_x * b->right_z - a->right_z * b->right_x > margin &&
+            a->right_x * b->left_z - a->right_z * b->left_x > margin);
+}
+
+/// Of two sectors that overlap: a direction within both.
+static inline void tl_nav_shared_direction(const tl_nav_sector_rays *a, const tl_nav_sector_rays *b, double *x_out,
+                                           double *z_out)
+{
+    const bool begins_in_a = a->right_x * b->right_z - a->right_z * b->right_x < 0.0;
+    const bool ends_in_a = a->left_x * b->left_z - a->left_z * b->left_x > 0.0;
+    const double right_x = begins_in_a ? b->right_x : a->right_x, right_z = begins_in_a ? b->right_z : a->right_z;
+    const double left_x = ends_in_a ? b->left_x : a->left_x, left_z = ends_in_a ? b->left_z : a->left_z;
+    const double right = fabs(right_x) + fabs(right_z), left = fabs(left_x) + fabs(left_z);
+    *x_out = right_x / right + left_x / left;
+    *z_out = right_z / right + left_z / left;
 }
 
 static inline bool tl_nav_sectors_overlap(const tl_nav_sector *a, const tl_nav_sector *b)

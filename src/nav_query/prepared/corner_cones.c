@@ -276,21 +276,41 @@ static uint32_t copy_kept(const tl_nav_corner_cones *from, uint32_t begin, uint3
     return count;
 }
 
-static uint32_t count_kept(const tl_nav_corner_cones *cones, const bool *is_dropped)
+// The cones of a polygon before, as [begin, end).
+typedef struct cone_range {
+    uint32_t begin, end;
+} cone_range;
+
+static cone_range cones_before(const tl_nav_corner_cones *old, const uint32_t *old_polygons, uint32_t polygon)
 {
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < cones->count; i++) {
-        kept += is_dropped[i] ? 0 : 1;
+    const uint32_t before = old_polygons != NULL ? old_polygons[polygon] : polygon;
+    cone_range range = { 0, 0 };
+    if (old->count > 0 && before != TL_NO_POLYGON) {
+        range.begin = old->first[before];
+        range.end = old->first[before + 1];
+    }
+    return range;
+}
+
+static uint64_t count_kept(const tl_nav_corner_cones *old, uint32_t polygon_count, const uint32_t *old_polygons,
+                           const bool *is_dropped)
+{
+    uint64_t kept = 0;
+    for (uint32_t p = 0; p < polygon_count; p++) {
+        const cone_range range = cones_before(old, old_polygons, p);
+        for (uint32_t i = range.begin; i < range.end; i++) {
+            kept += is_dropped[i] ? 0 : 1;
+        }
     }
     return kept;
 }
 
 static tl_result lay_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint32_t slot,
-                           uint32_t polygon_count, const bool *is_dropped, const uint32_t *first,
-                           const tl_nav_corner_cone *sorted)
+                           uint32_t polygon_count, const uint32_t *old_polygons, const bool *is_dropped,
+                           const uint32_t *first, const tl_nav_corner_cone *sorted)
 {
     tl_nav_corner_cones *old = &graph->tiles[slot].cones, made;
-    const uint64_t count = (uint64_t)count_kept(old, is_dropped) + first[polygon_count];
+    const uint64_t count = count_kept(old, polygon_count, old_polygons, is_dropped) + first[polygon_count];
     if (count > UINT32_MAX - TL_NAV_CONES_AT_ONCE) {
         return TL_ERR_LIMIT;
     }
@@ -299,8 +319,9 @@ static tl_result lay_cones(const tl_allocator *allocator, tl_nav_visibility_grap
     }
     uint32_t at = 0;
     for (uint32_t p = 0; p < polygon_count; p++) {
+        const cone_range range = cones_before(old, old_polygons, p);
         made.first[p] = at;
-        at += old->count > 0 ? copy_kept(old, old->first[p], old->first[p + 1], is_dropped, &made, at) : 0;
+        at += copy_kept(old, range.begin, range.end, is_dropped, &made, at);
         for (uint32_t i = first[p]; i < first[p + 1]; i++) {
             write_cone(&made, graph->rounding, &sorted[i], at++);
         }
@@ -314,8 +335,8 @@ static tl_result lay_cones(const tl_allocator *allocator, tl_nav_visibility_grap
 }
 
 tl_result tl_nav_remake_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint32_t slot,
-                              uint32_t polygon_count, const bool *is_dropped, const tl_nav_corner_cone *fresh,
-                              uint64_t count)
+                              uint32_t polygon_count, const uint32_t *old_polygons, const bool *is_dropped,
+                              const tl_nav_corner_cone *fresh, uint64_t count)
 {
     const uint64_t places = (uint64_t)polygon_count + 1;
     uint32_t *first = tl_allocate_array(allocator, places, sizeof *first);
@@ -323,40 +344,9 @@ tl_result tl_nav_remake_cones(const tl_allocator *allocator, tl_nav_visibility_g
     tl_result result = first != NULL && sorted != NULL ? TL_OK : TL_ERR_MEMORY;
     if (result == TL_OK) {
         sort_cones(fresh, count, polygon_count, first, sorted);
-        result = lay_cones(allocator, graph, slot, polygon_count, is_dropped, first, sorted);
+        result = lay_cones(allocator, graph, slot, polygon_count, old_polygons, is_dropped, first, sorted);
     }
     tl_release_array(allocator, first, places, sizeof *first);
     tl_release_array(allocator, sorted, count, sizeof *sorted);
     return result;
-}
-
-tl_result tl_nav_renumber_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint32_t slot,
-                                uint32_t polygon_count, const uint32_t *new_polygons)
-{
-    tl_nav_corner_cones *old = &graph->tiles[slot].cones, made;
-    uint32_t count = 0;
-    for (uint32_t p = 0; p < old->polygon_count; p++) {
-        count += new_polygons[p] != TL_NO_POLYGON ? old->first[p + 1] - old->first[p] : 0;
-    }
-    if (!allocate_cones(allocator, polygon_count, count, &made)) {
-        return TL_ERR_MEMORY;
-    }
-    memset(made.first, 0, ((size_t)polygon_count + 1) * sizeof *made.first);
-    for (uint32_t p = 0; p < old->polygon_count; p++) {
-        if (new_polygons[p] != TL_NO_POLYGON) {
-            made.first[new_polygons[p] + 1] = old->first[p + 1] - old->first[p];
-        }
-    }
-    for (uint32_t p = 0; p < polygon_count; p++) {
-        made.first[p + 1] += made.first[p];
-    }
-    for (uint32_t p = 0; p < old->polygon_count; p++) {
-        if (new_polygons[p] != TL_NO_POLYGON) {
-            copy_run(old, old->first[p], old->first[p + 1] - old->first[p], &made, made.first[new_polygons[p]]);
-        }
-    }
-    graph->tile_bytes += tl_nav_cones_size(&made) - tl_nav_cones_size(old);
-    tl_nav_free_cones(allocator, old);
-    *old = made;
-    return TL_OK;
 }

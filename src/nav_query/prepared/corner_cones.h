@@ -69,14 +69,11 @@ tl_result tl_nav_add_cones(tl_nav_cone_list *list, const tl_nav_visibility_graph
 /// TL_ERR_MEMORY.
 tl_result tl_nav_group_cones(tl_nav_cone_list *list, uint32_t slot_count, uint32_t *first);
 /// Makes a tile's cones: those before that are not dropped, and `count` new ones, in any order. `is_dropped`, by cone,
-/// may be NULL where there were none. TL_ERR_MEMORY: they are as they were. TL_ERR_LIMIT.
+/// may be NULL where there were none. `old_polygons`: by polygon the number that it had before, or TL_NO_POLYGON; NULL:
+/// the same. TL_ERR_MEMORY: they are as they were. TL_ERR_LIMIT.
 tl_result tl_nav_remake_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint32_t slot,
-                              uint32_t polygon_count, const bool *is_dropped, const tl_nav_corner_cone *fresh,
-                              uint64_t count);
-/// Moves a tile's cones to the polygons of a tile that has come in its place: `new_polygons`, by old one, or
-/// TL_NO_POLYGON, of which the cones go. TL_ERR_MEMORY: they are as they were.
-tl_result tl_nav_renumber_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint32_t slot,
-                                uint32_t polygon_count, const uint32_t *new_polygons);
+                              uint32_t polygon_count, const uint32_t *old_polygons, const bool *is_dropped,
+                              const tl_nav_corner_cone *fresh, uint64_t count);
 /// Releases the block; there is no tile then.
 void tl_nav_free_cones(const tl_allocator *allocator, tl_nav_corner_cones *cones);
 /// Bytes of the block.
