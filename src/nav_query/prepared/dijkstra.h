@@ -24,9 +24,19 @@ static inline bool tl_nav_opens_before(tl_nav_open_vertex a, tl_nav_open_vertex 
 #define TL_HEAP_BEFORE(context, a, b) tl_nav_opens_before(a, b)
 #include "base/heap.inl"
 
+/// An edge, with its length.
+typedef struct tl_nav_dijkstra_edge {
+    double length;
+    uint32_t to;
+    uint32_t padding; ///< 0
+} tl_nav_dijkstra_edge;
+
 typedef struct tl_nav_dijkstra {
     const tl_nav_visibility_graph *graph;
-    tl_stage *stage;          ///< NULL: silent
+    uint32_t edge_count;
+    tl_stage *stage;             ///< NULL: silent
+    uint32_t *first_edge;        ///< [vertex_room + 1], by corner vertex
+    tl_nav_dijkstra_edge *edges; ///< [edge_count] of the graph, measured once
     double *length;           ///< by corner vertex: metres; INFINITY: no way
     uint32_t *before;         ///< by corner vertex: the one before it on the way there; itself for a source
     tl_nav_open_vertex *heap; ///< [edge_count + vertex_room]: an entry each time a length falls

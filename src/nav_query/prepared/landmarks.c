@@ -133,7 +133,7 @@ void tl_nav_bound_by_landmarks(const tl_nav_visibility_graph *graph, const tl_na
 
 float tl_nav_min_by_landmarks(const tl_nav_visibility_graph *graph, const tl_nav_landmark_bounds *end, uint32_t vertex)
 {
-    enum { LANES = 16 };
+    enum { LANES = 8 };
     const float *landmarks = graph->landmarks[vertex];
     float bounds[LANES];
     for (uint32_t k = 0; k < LANES; k++) {

@@ -18,8 +18,8 @@
 #include <math.h>
 #include <talus/nav_prepare.h>
 
-/// Landmarks of the graph: distances that are kept for each corner vertex (landmarks.c). 16 floats are a cache line.
-enum { TL_NAV_LANDMARKS = 48 };
+/// Landmarks of the graph: distances that are kept for each corner vertex (landmarks.c). A multiple of 8.
+enum { TL_NAV_LANDMARKS = 40 };
 
 // To which sides a path may turn at a corner vertex.
 #define TL_NAV_TURN_LEFT  1u
