@@ -16,8 +16,8 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "math/tolerance.h"
+#include "nav_query/mending/landmark_measure.h"
 #include "nav_query/prepared/dijkstra.h"
-#include "nav_query/prepared/landmarks.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,6 +2,7 @@
 //
 // Preparing a navmesh for shortest paths: its visibility graph, and a table of distances if it fits.
 
+#include "nav_query/mending/distance_table.h"
 #include "nav_query/mending/graph_mend.h"
 #include "nav_query/prepared/corner_distances.h"
 

@@ -9,9 +9,8 @@
 #include "nav_query/prepared/corner_distances.h"
 
 #include "base/arena.h"
-#include "base/assert.h"
 #include "math/tolerance.h"
-#include "nav_query/prepared/dijkstra.h"
+#include "nav_query/prepared/visibility_graph.h"
 
 #include <math.h>
 
@@ -20,30 +19,6 @@ uint64_t tl_nav_corner_distances_size(const tl_nav_visibility_graph *graph)
     uint64_t pairs = (uint64_t)graph->vertex_room * graph->vertex_room;
     // A corner vertex has 16 bits in it.
     return graph->vertex_room <= UINT16_MAX ? pairs * (sizeof *graph->table + sizeof *graph->table_next) : UINT64_MAX;
-}
-
-tl_result tl_nav_bake_corner_distances(const tl_allocator *allocator, const tl_host *host,
-                                       tl_nav_visibility_graph *graph)
-{
-    uint32_t n = graph->vertex_room;
-    uint64_t pairs = (uint64_t)n * n;
-    tl_nav_dijkstra lengths;
-    tl_stage stage;
-    TL_TRY(tl_stage_begin(&stage, host, "distances", n));
-    TL_TRY(tl_nav_dijkstra_init(allocator, graph, &stage, &lengths));
-    graph->table = tl_allocate_array(allocator, pairs, sizeof *graph->table);
-    graph->table_next = tl_allocate_array(allocator, pairs, sizeof *graph->table_next);
-    tl_result result = graph->table != NULL && graph->table_next != NULL ? TL_OK : TL_ERR_MEMORY;
-    for (uint32_t i = 0; i < n && result == TL_OK; i++) {
-        result = tl_nav_dijkstra_run(&lengths, &i, 1);
-        for (uint32_t k = 0; k < n; k++) {
-            graph->table[(uint64_t)i * n + k] = (float)lengths.length[k];
-            graph->table_next[(uint64_t)i * n + k] = (uint16_t)lengths.before[k];
-        }
-        result = result == TL_OK ? tl_stage_add(&stage, 1) : result;
-    }
-    tl_nav_dijkstra_free(allocator, &lengths);
-    return result == TL_OK ? tl_stage_end(&stage) : result;
 }
 
 void tl_nav_free_corner_distances(const tl_allocator *allocator, tl_nav_visibility_graph *graph)

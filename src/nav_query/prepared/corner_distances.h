@@ -9,9 +9,7 @@
 
 /// Bytes that the table takes; UINT64_MAX: there are more corner vertices than it can hold.
 uint64_t tl_nav_corner_distances_size(const tl_nav_visibility_graph *graph);
-/// Fills in the graph's table. TL_ERR_MEMORY.
-tl_result tl_nav_bake_corner_distances(const tl_allocator *allocator, const tl_host *host,
-                                       tl_nav_visibility_graph *graph);
+/// Releases the table.
 void tl_nav_free_corner_distances(const tl_allocator *allocator, tl_nav_visibility_graph *graph);
 
 /// The best pair of legs by the table. Reorders the legs.

@@ -5,16 +5,8 @@
 #ifndef TALUS_SRC_NAV_QUERY_LANDMARKS_H
 #define TALUS_SRC_NAV_QUERY_LANDMARKS_H
 
-#include "base/stage.h"
-#include "math/tolerance.h"
 #include "nav_query/prepared/path_ends.h"
 #include "nav_query/prepared/visibility_graph.h"
-
-/// Distances are kept so much shorter than they are.
-#define TL_NAV_LANDMARK_SCALE (1.0 - TL_BOUND_SLACK)
-
-/// Chooses landmarks and fills in the distances from them. TL_ERR_MEMORY, TL_ERR_CANCELLED.
-tl_result tl_nav_measure_landmarks(const tl_allocator *allocator, tl_nav_visibility_graph *graph, tl_stage *stage);
 
 /// Bounds of the distances from an end of a path to the landmarks, by its legs.
 typedef struct tl_nav_landmark_bounds {
