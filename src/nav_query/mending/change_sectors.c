@@ -193,16 +193,6 @@ static tl_result sort_sectors(sector_finder *f)
 // ---------------------------------------------------------------------------------------------------------
 // Where the cones are that may go.
 
-static bool sees_change_at(const tl_nav_change_sectors *s, uint64_t order, const tl_nav_sector *sector)
-{
-    for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
-        if (tl_nav_sectors_overlap(&s->sectors[i].sector, sector)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // ---------------------------------------------------------------------------------------------------------
 // Cones beyond a change.
 
@@ -548,13 +538,15 @@ void tl_nav_free_change_sectors(tl_nav_change_sectors *s)
 static bool sees_change_towards(const tl_nav_change_sectors *s, uint32_t from, uint32_t to)
 {
     const tl_nav_visibility_graph *graph = s->changes->graph;
-    if (graph->marks[from] != TL_NAV_MARK_LOOKS) {
-        return true;
-    }
+    const uint32_t order = graph->orders[from];
     const double x = (double)graph->vertices[to].x - (double)graph->vertices[from].x;
     const double z = (double)graph->vertices[to].z - (double)graph->vertices[from].z;
-    const tl_nav_sector sector = sector_towards(graph, x, z);
-    return sees_change_at(s, graph->orders[from], &sector);
+    const tl_nav_sector_rays rays = { x, z, x, z };
+    bool any = graph->marks[from] != TL_NAV_MARK_LOOKS;
+    for (uint64_t i = any ? 0 : s->first[order]; !any && i < s->first[order + 1]; i++) {
+        any = !tl_nav_are_rays_apart(&s->sectors[i].rays, &rays, 0.0);
+    }
+    return any;
 }
 
 bool tl_nav_is_edge_kept(const tl_nav_change_sectors *s, uint32_t from, uint32_t to)

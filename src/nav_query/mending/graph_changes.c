@@ -287,17 +287,11 @@ static bool is_polygon_alike(const tl_nav_graph_changes *c, uint32_t slot, uint3
     const tl_nav_known_rings *known = &c->graph->tiles[slot].rings;
     const tl_nav_ring ring = tl_nav_ring_at(c->navmesh, slot, polygon);
     const tl_nav_known_edge *edges = known->edges + known->first[before];
-    const uint32_t turn = tl_nav_turn_of_rings(known, before, &ring);
-    if (turn == UINT32_MAX) {
-        return false;
+    bool alike = tl_nav_has_known_points(known, before, &ring);
+    for (uint32_t i = 0; i < ring.count && alike; i++) {
+        alike = is_edge_alike(c, slot, &edges[i], tl_nav_ring_edge_at(&ring, i));
     }
-    for (uint32_t i = 0; i < ring.count; i++) {
-        const uint32_t k = turn + i < ring.count ? turn + i : turn + i - ring.count;
-        if (!is_edge_alike(c, slot, &edges[k], tl_nav_ring_edge_at(&ring, i))) {
-            return false;
-        }
-    }
-    return true;
+    return alike;
 }
 
 // Lists the polygons of a slot that came, went or may have changed. Where none is what it was the tile is another.

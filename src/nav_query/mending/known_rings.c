@@ -2,9 +2,9 @@
 //
 // Which polygons of a tile are those of the tile that was in its place.
 //
-// Where a door closes or a crate comes a tile is baked anew, and most of its polygons are what they were: the same
-// corners, maybe under another number, and beginning at another corner. They are looked for by a hash of their corners
-// in any order, and compared corner by corner.
+// Where a door closes or a crate comes a tile is baked anew, and many of its polygons are what they were: the same
+// corners, maybe under another number. They are looked for by a hash, and compared corner by corner. One of a hundred
+// begins at another corner than before: it counts as another.
 
 #include "nav_query/mending/known_rings.h"
 
@@ -15,8 +15,8 @@
 
 #include <string.h>
 
-// Rings of the same hash, and places in a ring of the same point, that are compared: more are only met in tiles made to
-// be slow, whose polygons are then taken for others.
+// Rings of the same hash that are compared: more are only met in tiles made to be slow, whose polygons are then taken
+// for others.
 enum { MOST_TRIES = 8 };
 
 tl_result tl_nav_keep_rings(const tl_navmesh *navmesh, tl_nav_visibility_graph *graph, uint32_t slot)
@@ -81,32 +81,14 @@ static uint64_t hash_of_known(const tl_nav_known_rings *known, uint32_t polygon)
     return sum;
 }
 
-static bool same_points(const tl_nav_known_edge *edges, const tl_nav_ring *ring, uint32_t turn)
-{
-    for (uint32_t i = 0; i < ring->count; i++) {
-        const tl_nav_known_edge *edge = &edges[turn + i < ring->count ? turn + i : turn + i - ring->count];
-        if (edge->x != ring->points[i].x || edge->z != ring->points[i].z) {
-            return false;
-        }
-    }
-    return true;
-}
-
-uint32_t tl_nav_turn_of_rings(const tl_nav_known_rings *known, uint32_t polygon, const tl_nav_ring *ring)
+bool tl_nav_has_known_points(const tl_nav_known_rings *known, uint32_t polygon, const tl_nav_ring *ring)
 {
     const tl_nav_known_edge *edges = known->edges + known->first[polygon];
-    if (ring->count != known->first[polygon + 1] - known->first[polygon]) {
-        return UINT32_MAX;
+    bool same = ring->count == known->first[polygon + 1] - known->first[polygon];
+    for (uint32_t i = 0; i < ring->count && same; i++) {
+        same = edges[i].x == ring->points[i].x && edges[i].z == ring->points[i].z;
     }
-    for (uint32_t turn = 0, tries = 0; turn < ring->count && tries < MOST_TRIES; turn++) {
-        if (edges[turn].x == ring->points[0].x && edges[turn].z == ring->points[0].z) {
-            tries++;
-            if (same_points(edges, ring, turn)) {
-                return turn;
-            }
-        }
-    }
-    return UINT32_MAX;
+    return same;
 }
 
 // Of the polygons of a tile by their hashes, sorted: the one of this hash with the same points, which is taken off.
@@ -117,7 +99,7 @@ static uint32_t take_same(const tl_nav_rings *rings, const tl_nav_known_rings *k
     uint64_t i = tl_nav_find_key(sorted, hash);
     for (uint32_t tries = 0; i < sorted->count && sorted->items[i].key == hash && tries < MOST_TRIES; i++, tries++) {
         const tl_nav_ring ring = tl_nav_ring_of(rings, sorted->items[i].value);
-        if (sorted->items[i].extra == 0 && tl_nav_turn_of_rings(known, polygon, &ring) != UINT32_MAX) {
+        if (sorted->items[i].extra == 0 && tl_nav_has_known_points(known, polygon, &ring)) {
             sorted->items[i].extra = 1;
             return sorted->items[i].value;
         }

@@ -17,9 +17,8 @@ tl_result tl_nav_keep_rings(const tl_navmesh *navmesh, tl_nav_visibility_graph *
 tl_result tl_nav_map_polygons(const tl_navmesh *navmesh, const tl_nav_known_rings *known, uint32_t slot,
                               tl_nav_number_list *map);
 
-/// So many edges on from an edge of a polygon's ring stands the same one in its known ring; UINT32_MAX: they have not
-/// the same points.
-uint32_t tl_nav_turn_of_rings(const tl_nav_known_rings *known, uint32_t polygon, const tl_nav_ring *ring);
+/// Whether a polygon's ring has the points of a known one.
+bool tl_nav_has_known_points(const tl_nav_known_rings *known, uint32_t polygon, const tl_nav_ring *ring);
 
 tl_nav_plan_box tl_nav_box_of_edges(const tl_nav_known_edge *edges, uint32_t count);
 
