@@ -303,6 +303,9 @@ static bool is_beyond(const tl_nav_change_sectors *s, uint32_t v, uint32_t slot,
     const double margin = CONE_MARGIN * (double)tl_nav_cone_slack(cones->vertex[cone]);
     for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
         const tl_nav_change_sector *change = &s->sectors[i];
+        if (change->slot == slot && change->polygon == polygon) {
+            return true; // it is what has changed, even if it is only touched
+        }
         if (tl_nav_are_rays_apart(&change->rays, &rays, margin)) {
             continue;
         }
@@ -358,13 +361,16 @@ static slot_place place_of_slot(const tl_nav_change_sectors *s, uint32_t order, 
     bool any_before = false, any_beyond = false;
     for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
         const tl_nav_change_sector *change = &s->sectors[i];
+        if (change->slot == slot) {
+            return SLOT_UNCLEAR;
+        }
         if (lies_beside(&change->rays, vertex, box, c->graph->rounding)) {
             continue;
         }
         const tl_nav_sector_rays rays = is_in_box(box, vertex) ? change->rays : rays_of_box(box, vertex);
         const sight_ray ray = shared_ray(vertex, &change->rays, &rays);
         const ray_chord own = chord_of_box(box, &ray), region = chord_of_region(c, &ray, change);
-        if (own.enters > own.leaves || region.enters > region.leaves || change->slot == slot) {
+        if (own.enters > own.leaves || region.enters > region.leaves) {
             return SLOT_UNCLEAR;
         }
         const bool before = own.leaves <= region.enters + margin;
@@ -405,8 +411,8 @@ typedef struct slot_pass {
     bool keeps; // some of them
 } slot_pass;
 
-// Drops the cones of a corner vertex from `i` on, of a polygon, by its old number, whose cones end at `last`, if it sees
-// any beyond a change. Returns where they end.
+// Drops the cones of a corner vertex from `i` on, of a polygon, by its old number, whose cones end at `last`, if it
+// sees any beyond a change. Returns where they end.
 static tl_result drop_beyond(tl_nav_change_sectors *s, uint32_t slot, uint32_t polygon, uint32_t i, uint32_t last,
                              slot_pass *pass, uint32_t *end_out)
 {

@@ -251,7 +251,8 @@ static tl_result drop_cones_in(tl_nav_corner_look *look, uint32_t slot, uint32_t
 {
     const tl_nav_corner_cones *cones = &look->changes->graph->tiles[slot].cones;
     const uint32_t old = tl_nav_old_polygon(look->changes, slot, polygon);
-    for (uint32_t i = old != TL_NO_POLYGON ? cones->first[old] : 1; old != TL_NO_POLYGON && i < cones->first[old + 1]; i++) {
+    for (uint32_t i = old != TL_NO_POLYGON ? cones->first[old] : 1; old != TL_NO_POLYGON && i < cones->first[old + 1];
+         i++) {
         if (tl_nav_cone_vertex(cones, i) == look->vertex) {
             const tl_nav_sector sector = tl_nav_sector_of_cone(cones, i);
             TL_TRY(tl_nav_add_pair(look->changes->allocator, &look->sectors->dropped, slot, i));

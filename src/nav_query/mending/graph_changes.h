@@ -59,16 +59,17 @@ void tl_nav_free_changes(tl_nav_graph_changes *changes);
 /// The number now of a polygon that a slot had, or TL_NO_POLYGON. The slot is not of another tile.
 static inline uint32_t tl_nav_new_polygon(const tl_nav_graph_changes *changes, uint32_t slot, uint32_t polygon)
 {
-    return (changes->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0 ? changes->map.numbers[changes->first_map[slot] + polygon]
-                                                                : polygon;
+    return (changes->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0
+               ? changes->map.numbers[changes->first_map[slot] + polygon]
+               : polygon;
 }
 
 /// By polygon of a slot the number that it had, or TL_NO_POLYGON; NULL: as now.
 static inline const uint32_t *tl_nav_old_polygons(const tl_nav_graph_changes *changes, uint32_t slot)
 {
-    return (changes->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0 ? changes->map.numbers + changes->first_map[slot] +
-                                                                      changes->graph->tiles[slot].rings.polygon_count
-                                                                : NULL;
+    return (changes->slot_bits[slot] & TL_NAV_SLOT_MAPPED) != 0
+               ? changes->map.numbers + changes->first_map[slot] + changes->graph->tiles[slot].rings.polygon_count
+               : NULL;
 }
 
 /// The number that a polygon had, or TL_NO_POLYGON: it came.

@@ -62,7 +62,8 @@ void tl_nav_dijkstra_free(const tl_allocator *allocator, tl_nav_dijkstra *length
     tl_release_array(allocator, lengths->edges, lengths->edge_count, sizeof *lengths->edges);
     tl_release_array(allocator, lengths->length, graph->vertex_room, sizeof *lengths->length);
     tl_release_array(allocator, lengths->before, graph->vertex_room, sizeof *lengths->before);
-    tl_release_array(allocator, lengths->heap, (uint64_t)graph->vertex_room + lengths->edge_count, sizeof *lengths->heap);
+    tl_release_array(allocator, lengths->heap, (uint64_t)graph->vertex_room + lengths->edge_count,
+                     sizeof *lengths->heap);
 }
 
 static void open_vertex(tl_nav_dijkstra *lengths, uint32_t vertex)

@@ -37,9 +37,9 @@ typedef struct tl_nav_dijkstra {
     tl_stage *stage;             ///< NULL: silent
     uint32_t *first_edge;        ///< [vertex_room + 1], by corner vertex
     tl_nav_dijkstra_edge *edges; ///< [edge_count] of the graph, measured once
-    double *length;           ///< by corner vertex: metres; INFINITY: no way
-    uint32_t *before;         ///< by corner vertex: the one before it on the way there; itself for a source
-    tl_nav_open_vertex *heap; ///< [edge_count + vertex_room]: an entry each time a length falls
+    double *length;              ///< by corner vertex: metres; INFINITY: no way
+    uint32_t *before;            ///< by corner vertex: the one before it on the way there; itself for a source
+    tl_nav_open_vertex *heap;    ///< [edge_count + vertex_room]: an entry each time a length falls
     uint32_t heap_count;
 } tl_nav_dijkstra;
 
