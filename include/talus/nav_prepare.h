@@ -55,7 +55,7 @@ typedef struct tl_nav_prepared {
 /// there is no graph. NULL def: the default one. `prepared_out` (may be NULL) says what was baked. A navmesh that is
 /// prepared already keeps its graph, and gets or loses the table as the def says. O(what all corner vertices
 /// see), and a Dijkstra search from each of them for the table: 1 to 3 ms for levels of 100 to 200 polygons, 28 ms for
-/// 300 corner vertices in the open; the graph alone 0.7 s and 26 MB for a city of 26,000 polygons. Changes the navmesh:
+/// 300 corner vertices in the open; the graph alone 1 s and 29 MB for a city of 26,000 polygons. Changes the navmesh:
 /// no query may run meanwhile. On failure the navmesh is not prepared: TL_ERR_MEMORY, TL_ERR_LIMIT, TL_ERR_CANCELLED;
 /// or nothing is changed: TL_ERR_ARGUMENT.
 TL_API tl_result tl_navmesh_prepare(tl_navmesh *navmesh, const tl_nav_prepare_def *def, tl_nav_prepared *prepared_out);

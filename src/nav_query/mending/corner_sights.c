@@ -39,7 +39,7 @@ static tl_result list_edge(sight_lists *l, tl_nav_visibility_edge edge)
     return TL_OK;
 }
 
-static tl_nav_visibility_edge edge_to(const tl_nav_visibility_graph *graph, uint32_t to)
+static tl_nav_visibility_edge edge_seen_to(const tl_nav_visibility_graph *graph, uint32_t to)
 {
     const tl_nav_visibility_edge edge = { to, graph->vertices[to].x, graph->vertices[to].z };
     return edge;
@@ -67,13 +67,13 @@ static tl_result list_edges(sight_lists *l, uint32_t v)
             continue;
         }
         for (; i < seen->count && seen->items[i].key < ((uint64_t)v << 32 | edge->to); i++) {
-            TL_TRY(list_edge(l, edge_to(graph, (uint32_t)seen->items[i].key)));
+            TL_TRY(list_edge(l, edge_seen_to(graph, (uint32_t)seen->items[i].key)));
         }
         i += i < seen->count && seen->items[i].key == ((uint64_t)v << 32 | edge->to) ? 1 : 0;
         TL_TRY(list_edge(l, *edge));
     }
     for (; i < seen->count && seen->items[i].key >> 32 == v; i++) {
-        TL_TRY(list_edge(l, edge_to(graph, (uint32_t)seen->items[i].key)));
+        TL_TRY(list_edge(l, edge_seen_to(graph, (uint32_t)seen->items[i].key)));
     }
     return TL_OK;
 }

@@ -86,7 +86,7 @@ static uint32_t key_of_vertex(tl_vec3 at, const tl_nav_ring_walls *walls)
     return (uint32_t)tl_hash_bytes(values, sizeof values, 0);
 }
 
-static bool is_at(const tl_nav_corner_vertex *vertex, tl_vec3 at, const tl_nav_ring_walls *walls)
+static bool stands_at(const tl_nav_corner_vertex *vertex, tl_vec3 at, const tl_nav_ring_walls *walls)
 {
     return vertex->x == at.x && vertex->y == at.y && vertex->z == at.z && vertex->walls.first_x == walls->first_x &&
            vertex->walls.first_z == walls->first_z && vertex->walls.last_x == walls->last_x &&
@@ -122,7 +122,7 @@ static uint32_t find_known(const tl_nav_graph_changes *c, const tl_nav_pair_list
     const uint32_t key = key_of_vertex(at, walls);
     for (uint64_t i = tl_nav_find_pair(known, key); i < known->count && known->items[i].key >> 32 == key; i++) {
         const uint32_t v = (uint32_t)known->items[i].key;
-        if (graph->marks[v] == TL_NAV_MARK_GONE && is_at(&graph->vertices[v], at, walls)) {
+        if (graph->marks[v] == TL_NAV_MARK_GONE && stands_at(&graph->vertices[v], at, walls)) {
             return v;
         }
     }
@@ -272,13 +272,15 @@ static bool leads_on_alike(const tl_nav_graph_changes *c, uint32_t slot, const t
     return tl_nav_old_polygon(c, is.slot, is.polygon) == TL_NO_POLYGON;
 }
 
+// A corner vertex that is gone is none of the polygon's concern: who saw it looks there.
 static bool is_edge_alike(const tl_nav_graph_changes *c, uint32_t slot, const tl_nav_known_edge *before,
                           tl_nav_ring_edge edge)
 {
     const uint32_t turn = tl_nav_turn_of(&c->navmesh->slots[slot].rings, edge);
     const uint32_t v = turn != 0 ? tl_nav_find_name(&c->graph->names, turn) : TL_NAV_NO_VERTEX;
-    return v == before->vertex && (v == TL_NAV_NO_VERTEX ? turn == 0 : c->graph->marks[v] != TL_NAV_MARK_GONE) &&
-           leads_on_alike(c, slot, before, edge.to);
+    const bool same_vertex =
+        turn == 0 || (v != TL_NAV_NO_VERTEX && v == before->vertex && c->graph->marks[v] != TL_NAV_MARK_GONE);
+    return same_vertex && leads_on_alike(c, slot, before, edge.to);
 }
 
 // Whether nothing that can be seen in a polygon, or through it, is another for what has changed of itself.

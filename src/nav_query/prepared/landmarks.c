@@ -34,21 +34,21 @@ void tl_nav_bound_by_landmarks(const tl_nav_visibility_graph *graph, const tl_na
 
 float tl_nav_min_by_landmarks(const tl_nav_visibility_graph *graph, const tl_nav_landmark_bounds *end, uint32_t vertex)
 {
-    enum { LANES = 8 };
+    enum { LANDMARK_LANES = 8 };
     const float *landmarks = graph->landmarks[vertex];
-    float bounds[LANES];
-    for (uint32_t k = 0; k < LANES; k++) {
+    float bounds[LANDMARK_LANES];
+    for (uint32_t k = 0; k < LANDMARK_LANES; k++) {
         bounds[k] = -INFINITY;
     }
-    for (uint32_t first = 0; first < TL_NAV_LANDMARKS; first += LANES) {
-        for (uint32_t k = 0; k < LANES; k++) {
+    for (uint32_t first = 0; first < TL_NAV_LANDMARKS; first += LANDMARK_LANES) {
+        for (uint32_t k = 0; k < LANDMARK_LANES; k++) {
             float down = landmarks[first + k] - end->lower[first + k];
             float up = end->upper[first + k] - landmarks[first + k];
             down = down > up ? down : up;
             bounds[k] = bounds[k] > down ? bounds[k] : down;
         }
     }
-    for (uint32_t half = LANES / 2; half > 0; half /= 2) {
+    for (uint32_t half = LANDMARK_LANES / 2; half > 0; half /= 2) {
         for (uint32_t k = 0; k < half; k++) {
             bounds[k] = bounds[k] > bounds[k + half] ? bounds[k] : bounds[k + half];
         }
