@@ -128,7 +128,7 @@ static TL_ALWAYS_INLINE tl_f32x16 cross_corners(packet_corner a, packet_corner b
     return tl_f32x16_sub(tl_f32x16_mul(a.x, b.y), tl_f32x16_mul(a.y, b.x));
 }
 
-static TL_ALWAYS_INLINE tl_f32x16 across(packet_corner a)
+static TL_ALWAYS_INLINE tl_f32x16 corner_across(packet_corner a)
 {
     return tl_f32x16_max(tl_f32x16_abs(a.x), tl_f32x16_abs(a.y));
 }
@@ -170,7 +170,7 @@ static TL_ALWAYS_INLINE void settle_rays(ray_packet *p, const packet_leaf *leaf,
     tl_f32x16 depth = tl_f32x16_abs(v->a.z);
     tl_f32x16 corner_error = tl_f32x16_mul_add(depth, tl_f32x16_all(TL_RAY_CORNER_ERROR),
                                                tl_f32x16_all(2.0f * TL_RAY_CORNER_ERROR * leaf->extent + FLT_MIN));
-    tl_f32x16 farthest = tl_f32x16_max(tl_f32x16_max(across(v->a), across(v->c)), across(v->e));
+    tl_f32x16 farthest = tl_f32x16_max(tl_f32x16_max(corner_across(v->a), corner_across(v->c)), corner_across(v->e));
     tl_f32x16 error = tl_f32x16_mul_add(corner_error, tl_f32x16_all(LANE_ERROR_TERM),
                                         tl_f32x16_mul(farthest, tl_f32x16_all(LANE_SIZE_TERM)));
     error = tl_f32x16_mul_add(error, corner_error, tl_f32x16_all(LANE_UNDERFLOW));
