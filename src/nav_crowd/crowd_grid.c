@@ -38,11 +38,8 @@ static uint32_t kind_of(const crowd_fields *a, uint32_t i)
     uint32_t kind = tl_crowd_stands(status) ? CROWD_SEEN_STILL : 0;
     kind |= (a->flags[i] & CROWD_YIELDS) != 0 ? CROWD_SEEN_YIELDS : 0;
     kind |= status == TL_NAV_AGENT_WALKING && a->stalled[i] > SEEN_STALLED_AFTER ? CROWD_SEEN_STALLED : 0;
-    // Those who are shut off from their goals press on at a shut door for as long as it is shut: whoever wants to get
-    // out from among them goes before them.
-    const bool is_cut_off = (a->flags[i] & CROWD_PARTIAL) != 0;
-    kind |= is_cut_off ? CROWD_SEEN_CUT_OFF : 0;
-    kind |= status == TL_NAV_AGENT_WALKING && !is_cut_off && a->stalled[i] > CLAIM_AFTER ? CROWD_SEEN_CLAIMS : 0;
+    kind |= status == TL_NAV_AGENT_WALKING && a->stalled[i] > CLAIM_AFTER ? CROWD_SEEN_CLAIMS : 0;
+    kind |= (a->flags[i] & CROWD_PARTIAL) != 0 ? CROWD_SEEN_CUT_OFF : 0;
     return kind;
 }
 

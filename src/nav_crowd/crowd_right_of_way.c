@@ -93,19 +93,26 @@ static bool goes_past(const tl_nav_crowd *crowd, const crowd_seen_agent *one, fl
     return x * x + z * z > apart_sq;
 }
 
-// Whether one that comes the other way has the right of way: both unit directions. Who has been held up for long goes
-// before who has not; else who gets on, and where neither does, by the common direction.
+// Who has been held up for long goes before who has not, and who is shut off from its goal after all others: it has
+// nowhere to go, and presses on before a shut door for as long as that is shut.
+static uint32_t rank_of(const crowd_seen_agent *one)
+{
+    return (one->kind & CROWD_SEEN_CUT_OFF) != 0 ? 0 : (one->kind & CROWD_SEEN_CLAIMS) != 0 ? 2 : 1;
+}
+
+// Whether one that comes the other way has the right of way: both unit directions. By rank; else who gets on, and where
+// neither does, by the common direction.
 static bool loses_to(const crowd_step *step, const crowd_seen_agent *own, const crowd_seen_agent *other,
                      const float mine[2], const float its[2])
 {
     const float x = other->x - own->x, z = other->z - own->z;
     const float apart_sq = x * x + z * z;
-    const uint32_t claims = own->kind & CROWD_SEEN_CLAIMS, its_claims = other->kind & CROWD_SEEN_CLAIMS;
+    const uint32_t rank = rank_of(own), its_rank = rank_of(other);
     const float *preferred = step->preferred;
-    const bool loses = claims != its_claims ? its_claims != 0
-                                            : (other->kind & CROWD_SEEN_STALLED) == 0 ||
-                                                  its[0] * preferred[0] + its[1] * preferred[1] >
-                                                      mine[0] * preferred[0] + mine[1] * preferred[1];
+    const bool loses = rank != its_rank ? its_rank > rank
+                                        : (other->kind & CROWD_SEEN_STALLED) == 0 ||
+                                              its[0] * preferred[0] + its[1] * preferred[1] >
+                                                  mine[0] * preferred[0] + mine[1] * preferred[1];
     return loses && goes_past(step->crowd, own, apart_sq) && goes_past(step->crowd, other, apart_sq);
 }
 
@@ -126,11 +133,10 @@ static bool walks_back_before(const crowd_view *view, uint32_t n, const float ah
            view->wanted_x[n] * ahead[0] + view->wanted_z[n] * ahead[1] < 0.0f;
 }
 
-// Those who are shut off go back and forth before a shut door for as long as it is shut: who claims the right of way
-// among them does not go with them, by which it would lose its claim.
+// Who is not shut off does not go back with those who are.
 static bool takes_along(const crowd_seen_agent *own, const crowd_seen_agent *other)
 {
-    return (own->kind & CROWD_SEEN_CLAIMS) == 0 || (other->kind & CROWD_SEEN_CUT_OFF) == 0;
+    return (own->kind & CROWD_SEEN_CUT_OFF) != 0 || (other->kind & CROWD_SEEN_CUT_OFF) == 0;
 }
 
 static crowd_traffic look_at_traffic(const crowd_step *step, uint32_t k, const crowd_outlook *look,
