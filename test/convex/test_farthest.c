@@ -18,26 +18,20 @@ typedef struct cloud {
     tl_frame map;
 } cloud;
 
-static tl_vec3 random_place(test_random *random, bool on_lattice)
-{
-    tl_vec3 p = test_random_point(random, tl_vec3_make(-3, -3, -3), tl_vec3_make(3, 3, 3));
-    return on_lattice ? tl_vec3_make(truncf(p.x), truncf(p.y), truncf(p.z)) : p;
-}
-
 static void make_cloud(test_random *random, cloud *c)
 {
     const bool on_lattice = test_random_below(random, 2) == 0;
     c->count = 1 + test_random_below(random, MAX_POINTS);
     for (uint32_t i = 0; i < c->count; i++) {
-        c->points[i] = random_place(random, on_lattice);
+        c->points[i] = test_random_place(random, on_lattice);
     }
     for (int k = 0; k < 2; k++) {
-        c->directions[k] = tl_vec3d_from(random_place(random, on_lattice));
+        c->directions[k] = tl_vec3d_from(test_random_place(random, on_lattice));
     }
     for (int k = 0; k < 3; k++) {
-        c->map.rows[k] = tl_vec3d_from(random_place(random, on_lattice));
+        c->map.rows[k] = tl_vec3d_from(test_random_place(random, on_lattice));
     }
-    c->map.origin = tl_vec3d_from(random_place(random, on_lattice));
+    c->map.origin = tl_vec3d_from(test_random_place(random, on_lattice));
 }
 
 static double plain_reach(const cloud *c, tl_vec3d direction)
@@ -171,11 +165,11 @@ static void test_planes(void **state)
         double blocks[4 * TL_SCAN_PLANES + 8] = { 0.0 };
         const uint32_t count = 4 + test_random_below(&random, TL_SCAN_PLANES - 3),
                        lanes = count > 6 ? 8 : (count + 1) / 2 * 2;
-        const tl_vec3d d = tl_vec3d_from(random_place(&random, true));
+        const tl_vec3d d = tl_vec3d_from(test_random_place(&random, true));
         uint32_t best = 0;
         double most = -2.0;
         for (uint32_t k = 0; k < count; k++) {
-            tl_vec3d n = tl_vec3d_from(random_place(&random, true));
+            tl_vec3d n = tl_vec3d_from(test_random_place(&random, true));
             n = tl_vec3d_scale(n, k == count / 2 && tl_vec3d_dot(n, d) < 0.0 ? -1.0 : 1.0);
             double *at = blocks + 32 * (size_t)(k / 8) + k % 8;
             at[0] = n.x;

@@ -15,24 +15,18 @@ typedef struct two_rows {
     tl_frame b_to_a;
 } two_rows;
 
-static tl_vec3 random_place(test_random *random, bool on_lattice)
-{
-    tl_vec3 p = test_random_point(random, tl_vec3_make(-3, -3, -3), tl_vec3_make(3, 3, 3));
-    return on_lattice ? tl_vec3_make(truncf(p.x), truncf(p.y), truncf(p.z)) : p;
-}
-
 static void make_rows(test_random *random, bool on_lattice, two_rows *r)
 {
     for (int side = 0; side < 2; side++) {
         r->count[side] = 4 + test_random_below(random, 5);
         for (uint32_t i = 0; i < 8; i++) {
-            r->points[side][i] = random_place(random, on_lattice);
+            r->points[side][i] = test_random_place(random, on_lattice);
         }
     }
     for (int k = 0; k < 3; k++) {
-        r->b_to_a.rows[k] = tl_vec3d_from(random_place(random, on_lattice));
+        r->b_to_a.rows[k] = tl_vec3d_from(test_random_place(random, on_lattice));
     }
-    r->b_to_a.origin = tl_vec3d_from(random_place(random, on_lattice));
+    r->b_to_a.origin = tl_vec3d_from(test_random_place(random, on_lattice));
 }
 
 static tl_vec3d placed(const two_rows *r, int side, uint32_t vertex)
@@ -79,7 +73,7 @@ static void test_placed_hulls(void **state)
     for (int i = 0; i < 100000; i++) {
         two_rows r;
         make_rows(&random, i % 2 == 0, &r);
-        check_rows(&r, tl_vec3d_from(random_place(&random, i % 2 == 0)));
+        check_rows(&r, tl_vec3d_from(test_random_place(&random, i % 2 == 0)));
     }
 }
 

@@ -71,6 +71,13 @@ static inline tl_vec3 test_random_point(test_random *random, tl_vec3 low, tl_vec
     return tl_vec3_make(x, y, z);
 }
 
+/// A point between -3 and 3; on the lattice, where distances are often equal.
+static inline tl_vec3 test_random_place(test_random *random, bool on_lattice)
+{
+    tl_vec3 p = test_random_point(random, tl_vec3_make(-3, -3, -3), tl_vec3_make(3, 3, 3));
+    return on_lattice ? tl_vec3_make(truncf(p.x), truncf(p.y), truncf(p.z)) : p;
+}
+
 /// A direction uniform on the sphere, by rejection.
 static inline tl_vec3 test_random_direction(test_random *random)
 {

@@ -22,6 +22,7 @@
 #include "convex/contact/contact_axis.h"
 
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "convex/contact/face_patch.h"
 #include "convex/depth/epa.h"
 #include "math/tolerance.h"
@@ -41,17 +42,6 @@ typedef struct contact_search {
     tl_contact_manifold *out;
     tl_patch patch;
 } contact_search;
-
-// Of numbers; fmin and fmax are calls, around which nothing stays in a register.
-static inline double least_of(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static inline double most_of(double a, double b)
-{
-    return a > b ? a : b;
-}
 
 static void add_deepest(tl_patch *patch, const tl_deepest *deepest)
 {
@@ -83,15 +73,15 @@ static bool find_common_patch(contact_search *s, const tl_deepest *deepest)
         !tl_face_along(s->pair.b, &s->pair.b_to_a, &back, &face_b)) {
         return deepest->has_points;
     }
-    const double limit = least_of(deepest->separation + s->tolerance, s->margin + s->radii);
-    tl_patch_find(&face_a, &face_b, most_of(limit, deepest->separation + gap), s->cache, &s->patch);
-    double slack = deepest->has_points ? gap : most_of(gap, s->slack);
+    const double limit = tl_min_f64(deepest->separation + s->tolerance, s->margin + s->radii);
+    tl_patch_find(&face_a, &face_b, tl_max_f64(limit, deepest->separation + gap), s->cache, &s->patch);
+    double slack = deepest->has_points ? gap : tl_max_f64(gap, s->slack);
     const uint32_t lowest = s->patch.count > 0 ? tl_patch_lowest(&s->patch) : 0;
     if (s->patch.count > 0 && tl_patch_separation(&s->patch.points[lowest]) < deepest->separation - gap) {
         raise_points(&s->patch, deepest->separation);
     }
     if (s->patch.count > 0 && tl_patch_separation(&s->patch.points[lowest]) <= deepest->separation + slack) {
-        tl_patch_choose(&s->patch, lowest, most_of(gap, s->slack));
+        tl_patch_choose(&s->patch, lowest, tl_max_f64(gap, s->slack));
         return true;
     }
     if (!deepest->has_points) {
@@ -103,7 +93,7 @@ static bool find_common_patch(contact_search *s, const tl_deepest *deepest)
     }
     if (s->patch.count > 0) {
         add_deepest(&s->patch, deepest);
-        tl_patch_choose(&s->patch, s->patch.count - 1, most_of(gap, s->slack));
+        tl_patch_choose(&s->patch, s->patch.count - 1, tl_max_f64(gap, s->slack));
     }
     return true;
 }

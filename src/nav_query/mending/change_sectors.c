@@ -191,9 +191,6 @@ static tl_result sort_sectors(sector_finder *f)
 }
 
 // ---------------------------------------------------------------------------------------------------------
-// Where the cones are that may go.
-
-// ---------------------------------------------------------------------------------------------------------
 // Cones beyond a change.
 
 // Where a ray enters a convex polygon and leaves it, in lengths of its direction.

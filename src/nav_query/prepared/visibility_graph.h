@@ -34,8 +34,8 @@ typedef struct tl_nav_visibility_edge {
     float x, z;  ///< where that is
 } tl_nav_visibility_edge;
 
-/// A corner vertex keeps its number as long as its name in rings stays. Then the number is free, and the next new
-/// corner vertex takes it.
+/// A corner vertex keeps its number as long as its name in rings stays, or another one stands where it stood between
+/// the same walls. Then the number is free, and the next new corner vertex takes it.
 typedef struct tl_nav_corner_vertex {
     float x, y, z;
     uint32_t turn;           ///< its name in rings; 0: the number is free

@@ -107,18 +107,6 @@ static bool coincide(const tl_mesh *mesh, uint32_t a, uint32_t b)
     return has_corner(w, v[0]) && has_corner(w, v[1]) && has_corner(w, v[2]);
 }
 
-// The row of tl_soup_corner_slots by whose slots the first two corners lie in `first` and `second`.
-static uint32_t order_of_slots(uint32_t first, uint32_t second)
-{
-    static const uint8_t rows[3][3] = { { 0, 1, 4 }, { 6, 0, 2 }, { 3, 5, 0 } };
-    return rows[first][second];
-}
-
-static uint32_t slot_of_corner(const uint32_t *slots, uint32_t corner)
-{
-    return slots[0] == corner ? 0 : slots[1] == corner ? 1 : 2;
-}
-
 // Lets triangles that coincide, items [first, end), take the lane of the first of them. Orders are relative to it.
 static void share_lane(coincident_merge *m, uint32_t first, uint32_t end)
 {
@@ -126,7 +114,7 @@ static void share_lane(coincident_merge *m, uint32_t first, uint32_t end)
     const uint32_t lane = m->items[first].value, *slots = m->mesh->indices + 3 * (size_t)lane;
     for (uint32_t i = first; i < end; i++) {
         const uint32_t *v = m->mesh->indices + 3 * (size_t)m->items[i].value;
-        const uint32_t order = order_of_slots(slot_of_corner(slots, v[0]), slot_of_corner(slots, v[1]));
+        const uint32_t order = tl_corner_order(v, slots[0], slots[1], slots[2]);
         *word++ = sources[m->items[i].value] | order << 29 | (i + 1 == end ? TL_ID_LAST : 0);
         sources[m->items[i].value] = DROPPED;
     }
@@ -233,8 +221,9 @@ void tl_order_coincident(const tl_coincident *coincident, uint32_t source_count,
             uint32_t *word = coincident->words + ((id & TL_ID_INDEX) - source_count);
             for (bool last = false; !last; word++) {
                 const uint8_t *own = tl_soup_corner_slots[tl_id_order(*word)];
+                const uint32_t corners[3] = { lane[own[0]], lane[own[1]], lane[own[2]] };
                 last = (*word & TL_ID_LAST) != 0;
-                *word = (*word & (TL_ID_INDEX | TL_ID_LAST)) | order_of_slots(lane[own[0]], lane[own[1]]) << 29;
+                *word = (*word & (TL_ID_INDEX | TL_ID_LAST)) | tl_corner_order(corners, 0, 1, 2) << 29;
             }
         }
     }

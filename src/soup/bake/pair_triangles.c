@@ -132,16 +132,15 @@ static tl_result match_mesh(pairing *p)
     return over_borders > p->mesh->triangle_count / BORDER_SHARE ? match_at_once(p) : TL_OK;
 }
 
-// The row of tl_soup_corner_slots by which a triangle's corners lie in slots a, e, c.
-static uint32_t corner_order(const uint32_t *indices, uint32_t a, uint32_t e, uint32_t c)
+uint32_t tl_corner_order(const uint32_t *corners, uint32_t a, uint32_t e, uint32_t c)
 {
     // By the slot of the first corner, and whether the second lies in the slot behind it.
     static const uint8_t rows[3][2] = { { 4, 1 }, { 6, 2 }, { 5, 3 } };
     const uint32_t slot[4] = { a, e, c, a };
-    const uint32_t first = indices[0] == a ? 0 : indices[0] == e ? 1 : 2;
-    const uint32_t row = rows[first][indices[1] == slot[first + 1]];
-    TL_ASSERT(slot[tl_soup_corner_slots[row][0]] == indices[0] && slot[tl_soup_corner_slots[row][1]] == indices[1] &&
-              slot[tl_soup_corner_slots[row][2]] == indices[2]);
+    const uint32_t first = corners[0] == a ? 0 : corners[0] == e ? 1 : 2;
+    const uint32_t row = rows[first][corners[1] == slot[first + 1]];
+    TL_ASSERT(slot[tl_soup_corner_slots[row][0]] == corners[0] && slot[tl_soup_corner_slots[row][1]] == corners[1] &&
+              slot[tl_soup_corner_slots[row][2]] == corners[2]);
     return row;
 }
 
@@ -164,8 +163,8 @@ static tl_triangle_pair make_pair(const tl_mesh *mesh, uint32_t edge, uint32_t o
     uint32_t b = v[(k + 2) % 3];
     uint32_t d = w[(other_edge + 2) % 3];
     tl_triangle_pair pair = { { a, b, c, d },
-                              { mesh->source_triangles[triangles[0]] | corner_order(v, a, b, c) << 29,
-                                mesh->source_triangles[triangles[1]] | corner_order(w, a, d, c) << 29 } };
+                              { mesh->source_triangles[triangles[0]] | tl_corner_order(v, a, b, c) << 29,
+                                mesh->source_triangles[triangles[1]] | tl_corner_order(w, a, d, c) << 29 } };
     return pair;
 }
 

@@ -34,6 +34,9 @@ tl_result tl_merge_coincident(tl_mesh *mesh, uint32_t source_count, tl_stage *st
 void tl_order_coincident(const tl_coincident *coincident, uint32_t source_count, const tl_triangle_pair *pairs,
                          uint32_t pair_count);
 
+/// The row of tl_soup_corner_slots by which a triangle's three corners lie in the slots of vertices a, e and c.
+uint32_t tl_corner_order(const uint32_t *corners, uint32_t a, uint32_t e, uint32_t c);
+
 /// Matches triangles over shared edges, on the tasks of the stage's host; NULL stage: silent, one thread. Pairs are the
 /// arena's. Adds as much as the mesh has triangles to the stage.
 tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, tl_stage *stage, tl_arena *arena,
