@@ -41,10 +41,16 @@ typedef struct tl_detail_floors {
     int64_t anchor_x, anchor_z;
 } tl_detail_floors;
 
-/// The floors of a polygon of `region` within bounds of columns, border included. For a polygon of several regions (0)
-/// the region of the floor nearest to `height` at the column (x, z) is taken.
-tl_detail_floors tl_detail_floors_make(const tl_nav_compact *compact, uint32_t region, uint32_t reach, int64_t x,
-                                       int64_t z, int32_t height);
+/// The region of a polygon of several: of those on which its corners stand, the one of the floor nearest to `height` at
+/// its middle, the column (x, z), border included; or near it, within `reach` columns. 0: no corner stands on a floor.
+/// Corners are as high as the floors they were found on. A floor nearer to `height` that no corner stands on is another
+/// storey's: under a roof the mean of the corners is often nearer to the attic's.
+uint32_t tl_detail_choose_region(const tl_nav_compact *compact, const tl_polygon_mesh *polygons, uint32_t polygon,
+                                 uint32_t reach, int64_t x, int64_t z, int32_t height);
+
+/// The floors of a polygon whose middle is the column (x, z), border included. `region` 0: there are none.
+tl_detail_floors tl_detail_floors_make(const tl_nav_compact *compact, uint32_t region, bool several, uint32_t reach,
+                                       int64_t x, int64_t z);
 
 /// The floor's height in a column: that of the region, or of what one walks on from there to the column. `inner`: the
 /// column lies well inside the polygon, so that a floor of its region is one of its storey. `expected`: the answer

@@ -37,8 +37,12 @@ tl_detail_floors tl_detail_polygon_floors(const tl_detail_work *work, uint32_t p
     int64_t corners = (int64_t)polygons->first[polygon + 1] - polygons->first[polygon];
     int64_t border = work->compact->border_size, width = (int64_t)e.max_x - e.min_x, depth = (int64_t)e.max_z - e.min_z;
     uint32_t reach = (uint32_t)((width > depth ? width : depth) + 2);
-    return tl_detail_floors_make(work->compact, polygons->regions[polygon], reach, e.sum_x / corners + border,
-                                 e.sum_z / corners + border, (int32_t)(e.sum_y / corners));
+    const int64_t x = e.sum_x / corners + border, z = e.sum_z / corners + border;
+    const bool several = polygons->regions[polygon] == TL_SEVERAL_REGIONS;
+    const uint32_t region =
+        several ? tl_detail_choose_region(work->compact, polygons, polygon, reach, x, z, (int32_t)(e.sum_y / corners))
+                : polygons->regions[polygon];
+    return tl_detail_floors_make(work->compact, region, several, reach, x, z);
 }
 
 // Steps so that their length is at most the spacing, as far as TL_DETAIL_MAX_EDGE_BITS allow.

@@ -16,6 +16,8 @@
 
 #include "nav_bake/detail/detail.h"
 
+#include <stdlib.h>
+
 // Columns, squared: as far as an outline is moved from its region by the usual edge_max_error, rounded up.
 #define BESIDE_SQ 8
 
@@ -23,18 +25,19 @@ typedef struct height_window {
     uint32_t begin, end;
 } height_window;
 
+// A column's floors; none beyond the field.
 static height_window column_at(const tl_nav_compact *compact, int64_t x, int64_t z)
 {
-    size_t column = (size_t)z * compact->width + (size_t)x;
+    if (x < 0 || z < 0 || x >= (int64_t)compact->width || z >= (int64_t)compact->height) {
+        return (height_window){ 0, 0 };
+    }
+    const size_t column = (size_t)z * compact->width + (size_t)x;
     return (height_window){ compact->first_span[column], compact->first_span[column + 1] };
 }
 
 static uint32_t floor_of_region(const tl_nav_compact *compact, uint32_t region, int64_t x, int64_t z)
 {
-    if (x < 0 || z < 0 || x >= (int64_t)compact->width || z >= (int64_t)compact->height) {
-        return TL_NAV_NO_SPAN;
-    }
-    height_window range = column_at(compact, x, z);
+    const height_window range = column_at(compact, x, z);
     for (uint32_t i = range.begin; i < range.end; i++) {
         if (compact->region[i] == region) {
             return i;
@@ -167,9 +170,6 @@ static void walk_straight(const tl_nav_compact *compact, found_floor *at, int64_
 // Whether a column holds this floor and no other.
 static bool is_only_floor(const tl_nav_compact *compact, int64_t x, int64_t z, uint32_t span)
 {
-    if (x < 0 || z < 0 || x >= (int64_t)compact->width || z >= (int64_t)compact->height) {
-        return false;
-    }
     const height_window range = column_at(compact, x, z);
     return range.end - range.begin == 1 && range.begin == span;
 }
@@ -217,38 +217,117 @@ int32_t tl_detail_floor_at(const tl_detail_floors *floors, int64_t x, int64_t z,
     return compact->floor[span];
 }
 
-static uint32_t region_near(const tl_nav_compact *compact, int64_t x, int64_t z, int32_t height)
+// ---------------------------------------------------------------------------------------------------------
+// Polygons of several regions.
+
+typedef struct polygon_stand {
+    const tl_nav_compact *compact;
+    const tl_polygon_mesh *polygons;
+    uint32_t polygon;
+} polygon_stand;
+
+// Whether a column's centre lies in the polygon or on its edges. Twice the lattice, so that centres are whole.
+static bool covers_column(const polygon_stand *s, int64_t x, int64_t z)
 {
-    if (x < 0 || z < 0 || x >= (int64_t)compact->width || z >= (int64_t)compact->height) {
-        return 0;
-    }
-    height_window range = column_at(compact, x, z);
-    uint32_t region = 0;
-    int32_t nearest = INT32_MAX;
-    for (uint32_t i = range.begin; i < range.end; i++) {
-        int32_t away = compact->floor[i] > height ? compact->floor[i] - height : height - compact->floor[i];
-        bool interior = compact->region[i] != 0 && (compact->region[i] & TL_NAV_BORDER_REGION) == 0;
-        if (interior && away < nearest) {
-            nearest = away;
-            region = compact->region[i];
+    const uint32_t begin = s->polygons->first[s->polygon], end = s->polygons->first[s->polygon + 1];
+    for (uint32_t k = begin; k < end; k++) {
+        const int32_t *a = s->polygons->vertices + 3 * (size_t)s->polygons->indices[k];
+        const int32_t *b = s->polygons->vertices + 3 * (size_t)s->polygons->indices[k + 1 < end ? k + 1 : begin];
+        const int64_t dx = (int64_t)b[0] - a[0], dz = (int64_t)b[2] - a[2];
+        if ((2 * x + 1 - 2 * (int64_t)a[0]) * dz - dx * (2 * z + 1 - 2 * (int64_t)a[2]) < 0) {
+            return false;
         }
     }
-    return region;
+    return true;
 }
 
-tl_detail_floors tl_detail_floors_make(const tl_nav_compact *compact, uint32_t region, uint32_t reach, int64_t x,
-                                       int64_t z, int32_t height)
+typedef struct region_choice {
+    uint32_t region; // 0: none yet
+    int32_t away;    // voxels from the height looked for
+} region_choice;
+
+static bool is_better_region(const tl_nav_compact *compact, uint32_t span, int32_t height, const region_choice *best)
 {
-    tl_detail_floors floors = { compact, region, reach, region == TL_SEVERAL_REGIONS, TL_NAV_NO_SPAN, x, z };
-    for (int64_t r = 0; floors.region == TL_SEVERAL_REGIONS && r <= (int64_t)reach; r++) {
-        for (int64_t dz = -r; floors.region == TL_SEVERAL_REGIONS && dz <= r; dz++) {
-            int64_t step = dz == -r || dz == r ? 1 : 2 * r; // the ring only
-            for (int64_t dx = -r; floors.region == TL_SEVERAL_REGIONS && dx <= r; dx += step) {
-                floors.region = region_near(compact, x + dx, z + dz, height);
+    const uint32_t region = compact->region[span];
+    const bool interior = region != 0 && (region & TL_NAV_BORDER_REGION) == 0;
+    return interior && (best->region == 0 || abs((int32_t)compact->floor[span] - height) < best->away);
+}
+
+static void choose_region_of(const tl_nav_compact *compact, uint32_t span, int32_t height, region_choice *best)
+{
+    *best = (region_choice){ compact->region[span], abs((int32_t)compact->floor[span] - height) };
+}
+
+// The region on which the polygon stands at a corner: that of the floor nearest in height, in the columns around the
+// corner that the polygon covers, or, at the tip of a sliver, in all four. 0: there is no floor.
+static uint32_t region_at_corner(const polygon_stand *s, const int32_t *corner)
+{
+    region_choice covered = { 0, 0 }, beside = { 0, 0 };
+    for (int around = 0; around < 4; around++) {
+        const int64_t x = (int64_t)corner[0] - (around & 1), z = (int64_t)corner[2] - (around >> 1);
+        const int64_t border = s->compact->border_size;
+        region_choice *best = covers_column(s, x, z) ? &covered : &beside;
+        const height_window range = column_at(s->compact, x + border, z + border);
+        for (uint32_t i = range.begin; i < range.end; i++) {
+            if (is_better_region(s->compact, i, corner[1], best)) {
+                choose_region_of(s->compact, i, corner[1], best);
             }
         }
     }
-    floors.anchor = floor_of_region(compact, floors.region, x, z);
+    return covered.region != 0 ? covered.region : beside.region;
+}
+
+static bool stands_on_region(const polygon_stand *s, uint32_t region)
+{
+    for (uint32_t k = s->polygons->first[s->polygon]; k < s->polygons->first[s->polygon + 1]; k++) {
+        if (region_at_corner(s, s->polygons->vertices + 3 * (size_t)s->polygons->indices[k]) == region) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Considers a column's floors. `refused`: the region that was last refused; columns side by side are mostly of one.
+static void consider_regions(const polygon_stand *s, height_window range, int32_t height, uint32_t *refused,
+                             region_choice *best)
+{
+    for (uint32_t i = range.begin; i < range.end; i++) {
+        const uint32_t region = s->compact->region[i];
+        if (region == *refused || !is_better_region(s->compact, i, height, best)) {
+            continue;
+        }
+        if (stands_on_region(s, region)) {
+            choose_region_of(s->compact, i, height, best);
+        } else {
+            *refused = region;
+        }
+    }
+}
+
+uint32_t tl_detail_choose_region(const tl_nav_compact *compact, const tl_polygon_mesh *polygons, uint32_t polygon,
+                                 uint32_t reach, int64_t x, int64_t z, int32_t height)
+{
+    const polygon_stand s = { compact, polygons, polygon };
+    region_choice best = { 0, 0 };
+    uint32_t refused = 0;
+    for (int64_t r = 0; best.region == 0 && r <= (int64_t)reach; r++) {
+        for (int64_t dz = -r; best.region == 0 && dz <= r; dz++) {
+            const int64_t step = dz == -r || dz == r ? 1 : 2 * r; // the ring only
+            for (int64_t dx = -r; best.region == 0 && dx <= r; dx += step) {
+                consider_regions(&s, column_at(compact, x + dx, z + dz), height, &refused, &best);
+            }
+        }
+    }
+    return best.region;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+
+tl_detail_floors tl_detail_floors_make(const tl_nav_compact *compact, uint32_t region, bool several, uint32_t reach,
+                                       int64_t x, int64_t z)
+{
+    tl_detail_floors floors = { compact, region, reach, several, TL_NAV_NO_SPAN, x, z };
+    floors.anchor = floor_of_region(compact, region, x, z);
     if (floors.anchor == TL_NAV_NO_SPAN) {
         const found_floor nearest = find_nearest(&floors, x, z);
         floors.anchor = nearest.span;
