@@ -114,6 +114,21 @@ static void add_corner(level *l, float x, float z)
     l->outline[l->outline_count++] = (tl_contour_vertex){ (int32_t)x, 0, (int32_t)z, 0 };
 }
 
+// Outer contours turn right.
+static void turn_outline_right(level *l)
+{
+    double area = 0.0;
+    for (uint32_t i = 0; i < l->outline_count; i++) {
+        const tl_contour_vertex a = l->outline[i], b = l->outline[i + 1 < l->outline_count ? i + 1 : 0];
+        area += (double)a.x * (double)b.z - (double)b.x * (double)a.z;
+    }
+    for (uint32_t i = 0, k = l->outline_count; area > 0.0 && i < k--; i++) {
+        const tl_contour_vertex swapped = l->outline[i];
+        l->outline[i] = l->outline[k];
+        l->outline[k] = swapped;
+    }
+}
+
 static bool make_outline(level *l, const char *family, uint32_t n)
 {
     if (strcmp(family, "teeth") == 0) {
@@ -127,6 +142,15 @@ static bool make_outline(level *l, const char *family, uint32_t n)
         for (uint32_t i = 0; i < n; i++) {
             const float turn = -6.2831853f * (float)i / (float)n, radius = i % 2 == 0 ? 500000.0f : 300000.0f;
             add_corner(l, radius * cosf(turn), radius * sinf(turn));
+        }
+    } else if (strcmp(family, "round") == 0 || strcmp(family, "fringed") == 0) {
+        // One convex polygon of as many corners, alone or with a small one on each edge.
+        for (uint32_t i = 0; i < n; i++) {
+            const bool is_out = i % 2 == 1 && strcmp(family, "fringed") == 0;
+            const double turn = -6.283185307179586 * (double)i / (double)n, radius = is_out ? 4.0001e8 : 4e8;
+            const tl_contour_vertex corner = { (int32_t)lround(radius * cos(turn)), 0,
+                                               (int32_t)lround(radius * sin(turn)), 0 };
+            l->outline[l->outline_count++] = corner;
         }
     } else if (strcmp(family, "spikes") == 0) {
         for (uint32_t i = 0; i < n; i++) {
@@ -159,6 +183,7 @@ static bool make_outline(level *l, const char *family, uint32_t n)
     } else {
         return false;
     }
+    turn_outline_right(l);
     return true;
 }
 
@@ -173,6 +198,7 @@ typedef struct work {
     tl_navmesh *navmesh;
     tl_nav_tile *tile;
     tl_nav_query *query;
+    tl_polygon_mesh polygons;
     uint32_t n;
     tl_result result;
 } work;
@@ -203,7 +229,7 @@ static tl_result bake_nav_of(const work *w)
     return result;
 }
 
-static tl_result bake_polygons_of(const work *w)
+static tl_result bake_polygons_of(work *w)
 {
     tl_contour contour = { .vertex_count = w->l.outline_count, .region = 1, .area = 1 };
     const tl_contour_set set = { .vertices = w->l.outline,
@@ -212,10 +238,9 @@ static tl_result bake_polygons_of(const work *w)
                                  .contour_count = 1,
                                  .cell_size = 1.0f,
                                  .cell_height = 1.0f };
-    tl_polygon_mesh mesh;
-    tl_result result = tl_polygon_mesh_bake(&set, NULL, &mesh, NULL);
-    tl_polygon_mesh_free(&mesh);
-    return result;
+    tl_polygon_def def = tl_default_polygon_def();
+    def.max_verts_per_poly = strcmp(w->operation, "polygon-check") == 0 ? 0 : def.max_verts_per_poly;
+    return tl_polygon_mesh_bake(&set, &def, &w->polygons, NULL);
 }
 
 // Strips beside one polygon as long as all of them: which of the two comes last is added.
@@ -277,6 +302,8 @@ ALONE void growth_measured(work *w)
         w->result = bake_nav_of(w);
     } else if (strcmp(w->operation, "polygons") == 0) {
         w->result = bake_polygons_of(w);
+    } else if (strcmp(w->operation, "polygon-check") == 0) {
+        w->result = tl_polygon_mesh_check(&w->polygons, NULL, NULL, NULL);
     } else if (strcmp(w->operation, "add-tile") == 0) {
         w->result = tl_navmesh_add_tile(w->navmesh, w->tile, TL_NAV_TILE_OWNED);
     } else if (strcmp(w->operation, "wide-place") == 0) {
@@ -288,10 +315,10 @@ ALONE void growth_measured(work *w)
 
 static bool make_input(work *w, const char *family, uint32_t n)
 {
-    return strcmp(w->operation, "add-tile") == 0     ? make_hub(w, family, n)
-           : strcmp(w->operation, "wide-place") == 0 ? make_wide(w, family, n)
-           : strcmp(w->operation, "polygons") == 0   ? make_outline(&w->l, family, n)
-                                                     : make_mesh(&w->l, family, n);
+    return strcmp(w->operation, "add-tile") == 0      ? make_hub(w, family, n)
+           : strcmp(w->operation, "wide-place") == 0  ? make_wide(w, family, n)
+           : strncmp(w->operation, "polygon", 7) == 0 ? make_outline(&w->l, family, n)
+                                                      : make_mesh(&w->l, family, n);
 }
 
 int main(int count, char **arguments)
@@ -313,9 +340,13 @@ int main(int count, char **arguments)
     if (strcmp(w.operation, "soup-check") == 0 && bake_soup_of(&w) != TL_OK) {
         return 1;
     }
+    if (strcmp(w.operation, "polygon-check") == 0 && bake_polygons_of(&w) != TL_OK) {
+        return 1;
+    }
     growth_measured(&w);
-    printf("%s\n", tl_result_name(w.result));
+    printf("%s%s\n", tl_result_name(w.result), w.polygons.note_count > 0 ? ", not divided as given" : "");
     tl_blob_free(w.soup);
+    tl_polygon_mesh_free(&w.polygons);
     tl_nav_query_destroy(w.query);
     tl_navmesh_destroy(w.navmesh);
     free(w.l.vertices);

@@ -216,6 +216,62 @@ static void names_broken_links(void **state)
     expect(&f, TL_POLYGON_FAULT_PORTAL, true);
 }
 
+// Triangles of the same few vertices, linked at random: counts as all edges looked through say.
+static void counts_broken_links_as_all_edges_say(void **state)
+{
+    (void)state;
+    enum { TRIANGLES = 12, VERTICES = 5, CORNERS = 3 * TRIANGLES };
+    test_random random = { 17 };
+    uint64_t broken = 0, whole = 0;
+    for (uint32_t round = 0; round < 3000; round++) {
+        int32_t vertices[3 * VERTICES] = { 0, 0, 0, 4, 0, 0, 8, 0, 2, 2, 0, 7, 5, 0, 9 };
+        uint32_t first[TRIANGLES + 1], indices[CORNERS], neighbours[CORNERS], contours[TRIANGLES] = { 0 };
+        tl_polygon_mesh mesh;
+        memset(&mesh, 0, sizeof mesh);
+        mesh.vertices = vertices;
+        mesh.vertex_count = VERTICES;
+        mesh.polygon_count = 2 + test_random_below(&random, TRIANGLES - 1);
+        mesh.index_count = 3 * mesh.polygon_count;
+        mesh.first = first;
+        mesh.indices = indices;
+        mesh.neighbours = neighbours;
+        mesh.contours = contours;
+        for (uint32_t p = 0; p <= mesh.polygon_count; p++) {
+            first[p] = 3 * p;
+        }
+        const uint32_t few = 2 + test_random_below(&random, VERTICES - 1), near = 1 + test_random_below(&random, 4);
+        for (uint32_t k = 0; k < mesh.index_count; k++) {
+            const uint32_t across = test_random_below(&random, near);
+            indices[k] = test_random_below(&random, few);
+            neighbours[k] = test_random_below(&random, 4) == 0 ? TL_NO_POLYGON : across % mesh.polygon_count;
+        }
+        uint64_t expected = 0;
+        bool is_open[VERTICES][VERTICES] = { { false } };
+        for (uint32_t k = 0; k < mesh.index_count; k++) {
+            const uint32_t from = indices[k], to = indices[k % 3 < 2 ? k + 1 : k - 2], across = neighbours[k];
+            bool is_returned = false;
+            for (uint32_t j = 0; j < mesh.index_count && across != k / 3; j++) {
+                is_returned = is_returned || (j / 3 == across && neighbours[j] == k / 3 && indices[j] == to &&
+                                              indices[j % 3 < 2 ? j + 1 : j - 2] == from);
+            }
+            expected += across != TL_NO_POLYGON && !is_returned;
+            whole += is_returned;
+            is_open[from][to] = is_open[from][to] || across == TL_NO_POLYGON;
+        }
+        for (uint32_t from = 0; from < VERTICES; from++) {
+            for (uint32_t to = from + 1; to < VERTICES; to++) {
+                expected += is_open[from][to] && is_open[to][from];
+            }
+        }
+        tl_polygon_check_report report;
+        (void)tl_polygon_mesh_check(&mesh, NULL, NULL, &report);
+        TEST_CHECK(report.counts[TL_POLYGON_FAULT_LINK] == expected);
+        broken += expected;
+    }
+    print_message("%u links broken, %u returned\n", (unsigned)broken, (unsigned)whole);
+    TEST_CHECK(broken > 10000 && whole > 500);
+}
+
 static void names_uncovered_floor(void **state)
 {
     (void)state;
@@ -346,6 +402,7 @@ int main(void)
         cmocka_unit_test(names_bad_shapes),
         cmocka_unit_test(names_overlaps_and_t_junctions),
         cmocka_unit_test(names_broken_links),
+        cmocka_unit_test(counts_broken_links_as_all_edges_say),
         cmocka_unit_test(names_uncovered_floor),
         cmocka_unit_test(passes_over_border_vertices),
         cmocka_unit_test(floors_that_hang_together_may_lie_over_each_other),

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The validator's second half on meshes that no build made: random triangles anywhere, against trying every pair.
+// The validator's second half on meshes that no build made: random convex polygons anywhere, against trying every pair.
 
 #include "polygon/check/polygon_check.h"
 #include "polygon_proof.h"
 #include "polygon_shapes.h"
 
-enum { MAX_POLYGONS = 24 };
+enum { MAX_POLYGONS = 24, MAX_CORNERS = 12 };
 
 typedef struct fixture {
     tl_polygon_mesh mesh;
-    int32_t vertices[3 * 3 * MAX_POLYGONS];
-    uint32_t first[MAX_POLYGONS + 1], indices[3 * MAX_POLYGONS], neighbours[3 * MAX_POLYGONS];
+    int32_t vertices[3 * MAX_CORNERS * MAX_POLYGONS];
+    uint32_t first[MAX_POLYGONS + 1], indices[MAX_CORNERS * MAX_POLYGONS], neighbours[MAX_CORNERS * MAX_POLYGONS];
     uint32_t regions[MAX_POLYGONS], areas[MAX_POLYGONS], contours[MAX_POLYGONS];
 } fixture;
 
@@ -28,17 +28,50 @@ static void begin(fixture *f)
     f->mesh.contours = f->contours;
 }
 
-// A triangle with vertices of its own.
-static void add_triangle(fixture *f, const oracle_point corners[3], uint32_t contour)
+// A polygon with vertices of its own.
+static void add_polygon(fixture *f, const oracle_point *corners, uint32_t count, uint32_t contour)
 {
     tl_polygon_mesh *m = &f->mesh;
-    for (uint32_t k = 0; k < 3; k++) {
+    for (uint32_t k = 0; k < count; k++) {
         m->vertices[3 * m->vertex_count] = (int32_t)corners[k].x;
         m->vertices[3 * m->vertex_count + 2] = (int32_t)corners[k].z;
         m->indices[m->index_count++] = m->vertex_count++;
     }
     m->contours[m->polygon_count++] = contour;
     m->first[m->polygon_count] = m->index_count;
+}
+
+static void add_triangle(fixture *f, const oracle_point corners[3], uint32_t contour)
+{
+    add_polygon(f, corners, 3, contour);
+}
+
+// The strictly convex hull of random points, in the polygons' winding. Returns its corners, fewer than 3 on a line.
+static uint32_t random_convex(test_random *random, uint32_t reach, oracle_point corners[MAX_CORNERS])
+{
+    oracle_point points[MAX_CORNERS];
+    const uint32_t count = 3 + (test_random_below(random, 2) != 0 ? test_random_below(random, MAX_CORNERS - 2) : 0);
+    shape_random_points(random, points, count, reach);
+    uint32_t at = 0, made = 0;
+    for (uint32_t i = 1; i < count; i++) {
+        at = points[i].x < points[at].x || (points[i].x == points[at].x && points[i].z < points[at].z) ? i : at;
+    }
+    const uint32_t lowest = at;
+    do { // wraps the points; of those in line the farthest counts
+        corners[made++] = points[at];
+        uint32_t next = at;
+        for (uint32_t i = 0; i < count; i++) {
+            const int64_t side = oracle_area2(points[at], points[next], points[i]);
+            const bool is_farther = side == 0 && oracle_between(points[at], points[i], points[next]);
+            if (oracle_same(points[next], points[at]) ||
+                (!oracle_same(points[i], points[at]) && (side > 0 || is_farther))) {
+                next = i;
+            }
+        }
+        at = next;
+    } while (!oracle_same(points[at], points[lowest]) && made < MAX_CORNERS);
+    shape_make_outer(corners, made);
+    return made;
 }
 
 static tl_polygon_check_report check(const fixture *f, const tl_contour_set *set)
@@ -62,21 +95,25 @@ static void overlaps_and_t_junctions_as_all_pairs_say(void **state)
     for (uint32_t round = 0; round < 4000; round++) {
         fixture f;
         begin(&f);
+        uint32_t contour_of[MAX_CORNERS * MAX_POLYGONS]; // each vertex
         uint32_t wanted = 2 + test_random_below(&random, MAX_POLYGONS - 2);
         uint32_t side = 6u << test_random_below(&random, 6), reach = 2 + test_random_below(&random, side);
         while (f.mesh.polygon_count < wanted) {
-            oracle_point corners[3];
-            shape_random_points(&random, corners, 3, reach);
-            shape_make_outer(corners, 3);
-            if (oracle_contour_area2(corners, 3) <= 0) {
+            oracle_point corners[MAX_CORNERS];
+            const uint32_t count = random_convex(&random, reach, corners);
+            if (count < 3) {
                 continue;
             }
             int64_t x = test_random_below(&random, side), z = test_random_below(&random, side);
-            for (uint32_t k = 0; k < 3; k++) {
+            for (uint32_t k = 0; k < count; k++) {
                 corners[k].x += x - side / 2;
                 corners[k].z += z - side / 2;
             }
-            add_triangle(&f, corners, test_random_below(&random, 3));
+            const uint32_t contour = test_random_below(&random, 3);
+            for (uint32_t k = 0; k < count; k++) {
+                contour_of[f.mesh.vertex_count + k] = contour;
+            }
+            add_polygon(&f, corners, count, contour);
         }
         uint64_t expected_overlaps = 0, expected_junctions = 0;
         const tl_polygon_mesh *m = &f.mesh;
@@ -88,10 +125,9 @@ static void overlaps_and_t_junctions_as_all_pairs_say(void **state)
             // A place counts once for a polygon, however many vertices are there.
             for (uint32_t v = 0; v < m->vertex_count; v++) {
                 oracle_point at = proof_corner(m, v);
-                bool is_first = m->contours[v / 3] == m->contours[p];
+                bool is_first = contour_of[v] == m->contours[p];
                 for (uint32_t w = 0; w < v; w++) {
-                    is_first =
-                        is_first && (m->contours[w / 3] != m->contours[p] || !oracle_same(at, proof_corner(m, w)));
+                    is_first = is_first && (contour_of[w] != m->contours[p] || !oracle_same(at, proof_corner(m, w)));
                 }
                 for (uint32_t k = m->first[p]; k < m->first[p + 1] && is_first; k++) {
                     oracle_point a = proof_corner(m, k), b = proof_corner(m, proof_next(m, p, k));

@@ -172,19 +172,6 @@ static tl_result check_shapes(tl_polygon_checker *c, bool *good)
     return TL_OK;
 }
 
-static bool links_back(const tl_polygon_mesh *mesh, uint32_t p, uint32_t place)
-{
-    uint32_t from = mesh->indices[place];
-    uint32_t to = mesh->indices[tl_mesh_next(mesh, p, place)];
-    uint32_t q = mesh->neighbours[place];
-    for (uint32_t k = mesh->first[q]; k < mesh->first[q + 1]; k++) {
-        if (mesh->neighbours[k] == p && mesh->indices[k] == to && mesh->indices[tl_mesh_next(mesh, q, k)] == from) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static void check_portal(tl_polygon_checker *c, uint32_t p, uint32_t place)
 {
     if (c->contours == NULL) {
@@ -235,17 +222,108 @@ static tl_result check_open_edges(tl_polygon_checker *c)
     return TL_OK;
 }
 
+// A linked edge: the polygon that has it, the one across, and whether it rises to the vertex of the larger number.
+typedef struct link_end {
+    uint32_t polygon, across;
+    bool rises;
+} link_end;
+
+static link_end link_end_of(const tl_polygon_mesh *mesh, const tl_sort_item *item)
+{
+    const uint32_t next = tl_mesh_next(mesh, item->extra, item->value);
+    const link_end end = { item->extra, mesh->neighbours[item->value],
+                           mesh->indices[item->value] < mesh->indices[next] };
+    return end;
+}
+
+static bool is_before(const link_end *a, const link_end *b)
+{
+    return a->polygon != b->polygon ? a->polygon < b->polygon
+                                    : (a->across != b->across ? a->across < b->across : a->rises < b->rises);
+}
+
+// Whether a run of links, sorted by is_before, has the one that leads back.
+static bool has_link_back(const tl_polygon_mesh *mesh, const tl_sort_item *run, uint32_t count, const link_end *end)
+{
+    const bool is_point = run->key >> 32 == (uint32_t)run->key; // an edge from a vertex to itself
+    const link_end back = { end->across, end->polygon, !end->rises && !is_point };
+    uint32_t low = 0;
+    for (uint32_t rest = count; rest > 0;) {
+        const uint32_t half = rest / 2;
+        const link_end at = link_end_of(mesh, &run[low + half]);
+        const bool below = is_before(&at, &back);
+        low = below ? low + half + 1 : low;
+        rest = below ? rest - half - 1 : half;
+    }
+    const link_end found = low < count ? link_end_of(mesh, &run[low]) : *end;
+    return low < count && !is_before(&back, &found);
+}
+
+// Sorts places of linked edges by edge, whichever way it runs, and of one edge by is_before. A polygon may have as many
+// links as corners, and a wrong mesh any number of links over one edge, so none is looked for one by one.
+static tl_result sort_links(tl_polygon_checker *c, tl_sort_item **items_out, uint32_t *count_out)
+{
+    const tl_polygon_mesh *mesh = c->mesh;
+    tl_sort_item *items = TL_PUSH(&c->arena, tl_sort_item, 2 * (uint64_t)mesh->index_count);
+    if (items == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t count = 0;
+    for (uint32_t p = 0; p < mesh->polygon_count; p++) {
+        for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
+            if (mesh->neighbours[k] < mesh->polygon_count) {
+                const tl_sort_item item = { 0, k, p };
+                items[count++] = item;
+            }
+        }
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const link_end end = link_end_of(mesh, &items[i]);
+        items[i].key = (uint64_t)end.across << 1 | end.rises; // polygons rise already
+    }
+    tl_radix_sort(items, items + count, count);
+    for (uint32_t i = 0; i < count; i++) {
+        items[i].key = items[i].extra;
+    }
+    tl_radix_sort(items, items + count, count);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t from = mesh->indices[items[i].value];
+        const uint32_t to = mesh->indices[tl_mesh_next(mesh, items[i].extra, items[i].value)];
+        items[i].key = from < to ? (uint64_t)from << 32 | to : (uint64_t)to << 32 | from;
+    }
+    tl_radix_sort(items, items + count, count);
+    *items_out = items;
+    *count_out = count;
+    return TL_OK;
+}
+
 static tl_result check_links(tl_polygon_checker *c)
 {
     const tl_polygon_mesh *mesh = c->mesh;
+    tl_sort_item *items = NULL;
+    uint32_t count = 0;
+    TL_TRY(sort_links(c, &items, &count));
+    uint8_t *is_returned = TL_PUSH_ZERO(&c->arena, uint8_t, mesh->index_count);
+    if (is_returned == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t first = 0, end = 0; first < count; first = end) {
+        while (end < count && items[end].key == items[first].key) {
+            end++;
+        }
+        for (uint32_t i = first; i < end; i++) {
+            const link_end link = link_end_of(mesh, &items[i]);
+            is_returned[items[i].value] =
+                link.across != link.polygon && has_link_back(mesh, items + first, end - first, &link);
+        }
+    }
     for (uint32_t p = 0; p < mesh->polygon_count; p++) {
         for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
-            uint32_t beyond = mesh->neighbours[k];
-            if (beyond < mesh->polygon_count) {
-                if (beyond == p || !links_back(mesh, p, k)) {
+            if (mesh->neighbours[k] < mesh->polygon_count) {
+                if (!is_returned[k]) {
                     tl_polygon_checker_note(c, TL_POLYGON_FAULT_LINK, "polygon", p);
                 }
-            } else if (beyond != TL_NO_POLYGON) {
+            } else if (mesh->neighbours[k] != TL_NO_POLYGON) {
                 check_portal(c, p, k);
             }
         }

@@ -15,8 +15,8 @@
 
 #include <string.h>
 
-// Below so many polygons pairs are quicker.
-enum { SMALLEST_SWEPT_GROUP = 64 };
+// Of all polygons of a group. Below so many pairs are quicker.
+enum { FEWEST_SWEPT_CORNERS = 256 };
 
 typedef struct lattice_box {
     int32_t min_x, max_x, min_z, max_z;
@@ -46,16 +46,24 @@ static lattice_box polygon_box(const tl_polygon_mesh *mesh, uint32_t p)
     return box;
 }
 
+// Whether an edge of p has all of q on its outer side. As the edges of p turn once around, the corner of q that is
+// farthest to their inner side goes around q once: O(corners) in all.
 static bool has_separating_edge(const tl_polygon_mesh *mesh, uint32_t p, uint32_t q)
 {
+    uint32_t inmost = mesh->first[q];
     for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
-        tl_lattice_point a = tl_mesh_corner(mesh, k);
-        tl_lattice_point b = tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k));
-        bool separates = true;
-        for (uint32_t j = mesh->first[q]; separates && j < mesh->first[q + 1]; j++) {
-            separates = tl_turn(a, b, tl_mesh_corner(mesh, j)) <= 0;
+        const tl_lattice_point a = tl_mesh_corner(mesh, k), b = tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k));
+        for (uint32_t j = mesh->first[q] + 1; k == mesh->first[p] && j < mesh->first[q + 1]; j++) {
+            const bool is_further =
+                tl_turn(a, b, tl_mesh_corner(mesh, j)) > tl_turn(a, b, tl_mesh_corner(mesh, inmost));
+            inmost = is_further ? j : inmost;
         }
-        if (separates) {
+        uint32_t next = tl_mesh_next(mesh, q, inmost);
+        while (tl_turn(a, b, tl_mesh_corner(mesh, next)) > tl_turn(a, b, tl_mesh_corner(mesh, inmost))) {
+            inmost = next;
+            next = tl_mesh_next(mesh, q, inmost);
+        }
+        if (tl_turn(a, b, tl_mesh_corner(mesh, inmost)) <= 0) {
             return true;
         }
     }
@@ -125,16 +133,24 @@ static void check_overlaps(cover *c)
     }
 }
 
+static bool lies_inside_edge(const tl_polygon_mesh *mesh, uint32_t p, uint32_t k, tl_lattice_point v)
+{
+    const tl_lattice_point a = tl_mesh_corner(mesh, k), b = tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k));
+    return tl_turn(a, b, v) == 0 && tl_within_span(a, b, v) && !tl_same_point(a, v) && !tl_same_point(b, v);
+}
+
+// Seen from a convex polygon's first corner the others turn left: a search finds the edge towards which a point lies.
 static bool lies_inside_an_edge(const tl_polygon_mesh *mesh, uint32_t p, tl_lattice_point v)
 {
-    for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
-        tl_lattice_point a = tl_mesh_corner(mesh, k);
-        tl_lattice_point b = tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k));
-        if (tl_turn(a, b, v) == 0 && tl_within_span(a, b, v) && !tl_same_point(a, v) && !tl_same_point(b, v)) {
-            return true;
-        }
+    const uint32_t first = mesh->first[p], last = mesh->first[p + 1] - 1;
+    uint32_t k = first + 1; // the last corner, but one, that does not lie left of the way to the point
+    for (uint32_t rest = last - first - 2; rest > 0;) {
+        const uint32_t half = (rest + 1) / 2;
+        const bool on = tl_turn(tl_mesh_corner(mesh, first), tl_mesh_corner(mesh, k + half), v) >= 0;
+        k = on ? k + half : k;
+        rest = on ? rest - half : half - 1;
     }
-    return false;
+    return lies_inside_edge(mesh, p, first, v) || lies_inside_edge(mesh, p, k, v) || lies_inside_edge(mesh, p, last, v);
 }
 
 // The contour's vertices, sorted by x, against its polygons' edges.
@@ -182,8 +198,13 @@ static void check_t_junctions(cover *c)
 // Pairs take the square of the time where many polygons are as wide as the contour: a comb's, a spiral's.
 static tl_result check_cover_of(cover *c)
 {
+    const tl_polygon_mesh *mesh = c->checker->mesh;
     bool is_proven = false;
-    if (c->end - c->first >= SMALLEST_SWEPT_GROUP) {
+    uint64_t corners = 0;
+    for (uint32_t i = c->first; i < c->end && corners < FEWEST_SWEPT_CORNERS; i++) {
+        corners += mesh->first[c->order[i].value + 1] - mesh->first[c->order[i].value];
+    }
+    if (corners >= FEWEST_SWEPT_CORNERS) {
         const tl_arena_mark mark = tl_arena_get_mark(&c->checker->arena);
         TL_TRY(tl_polygon_sweep_cover(c->checker, c->order + c->first, c->end - c->first, &is_proven));
         tl_arena_rollback(&c->checker->arena, mark);
