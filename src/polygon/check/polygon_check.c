@@ -187,81 +187,23 @@ static void check_portal(tl_polygon_checker *c, uint32_t p, uint32_t place)
     }
 }
 
-// Two open edges that run along each other in opposite directions should have been linked. Sorted by undirected edge,
-// they stand side by side.
-static tl_result check_open_edges(tl_polygon_checker *c)
-{
-    const tl_polygon_mesh *mesh = c->mesh;
-    tl_sort_item *items = TL_PUSH(&c->arena, tl_sort_item, 2 * (uint64_t)mesh->index_count);
-    if (items == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    uint32_t count = 0;
-    for (uint32_t p = 0; p < mesh->polygon_count; p++) {
-        for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
-            if (mesh->neighbours[k] == TL_NO_POLYGON) {
-                uint32_t from = mesh->indices[k];
-                uint32_t to = mesh->indices[tl_mesh_next(mesh, p, k)];
-                uint32_t low = from < to ? from : to;
-                tl_sort_item item = { (uint64_t)low << 32 | (from ^ to ^ low), p, from < to };
-                items[count++] = item;
-            }
-        }
-    }
-    tl_radix_sort(items, items + count, count);
-    for (uint32_t i = 0; i < count;) {
-        uint32_t directions[2] = { 0, 0 };
-        uint32_t first = i;
-        for (; i < count && items[i].key == items[first].key; i++) {
-            directions[items[i].extra]++;
-        }
-        if (directions[0] > 0 && directions[1] > 0) {
-            tl_polygon_checker_note(c, TL_POLYGON_FAULT_LINK, "polygon", items[first].value);
-        }
-    }
-    return TL_OK;
-}
-
-// A linked edge: the polygon that has it, the one across, and whether it rises to the vertex of the larger number.
-typedef struct link_end {
+// An edge: the polygon that has it, the one across, and whether it rises to the vertex of the larger number.
+typedef struct edge_end {
     uint32_t polygon, across;
     bool rises;
-} link_end;
+} edge_end;
 
-static link_end link_end_of(const tl_polygon_mesh *mesh, const tl_sort_item *item)
+static edge_end edge_end_of(const tl_polygon_mesh *mesh, const tl_sort_item *item)
 {
     const uint32_t next = tl_mesh_next(mesh, item->extra, item->value);
-    const link_end end = { item->extra, mesh->neighbours[item->value],
+    const edge_end end = { item->extra, mesh->neighbours[item->value],
                            mesh->indices[item->value] < mesh->indices[next] };
     return end;
 }
 
-static bool is_before(const link_end *a, const link_end *b)
-{
-    return a->polygon != b->polygon ? a->polygon < b->polygon
-                                    : (a->across != b->across ? a->across < b->across : a->rises < b->rises);
-}
-
-// Whether a run of links, sorted by is_before, has the one that leads back.
-static bool has_link_back(const tl_polygon_mesh *mesh, const tl_sort_item *run, uint32_t count, const link_end *end)
-{
-    const bool is_point = run->key >> 32 == (uint32_t)run->key; // an edge from a vertex to itself
-    const link_end back = { end->across, end->polygon, !end->rises && !is_point };
-    uint32_t low = 0;
-    for (uint32_t rest = count; rest > 0;) {
-        const uint32_t half = rest / 2;
-        const link_end at = link_end_of(mesh, &run[low + half]);
-        const bool below = is_before(&at, &back);
-        low = below ? low + half + 1 : low;
-        rest = below ? rest - half - 1 : half;
-    }
-    const link_end found = low < count ? link_end_of(mesh, &run[low]) : *end;
-    return low < count && !is_before(&back, &found);
-}
-
-// Sorts places of linked edges by edge, whichever way it runs, and of one edge by is_before. A polygon may have as many
-// links as corners, and a wrong mesh any number of links over one edge, so none is looked for one by one.
-static tl_result sort_links(tl_polygon_checker *c, tl_sort_item **items_out, uint32_t *count_out)
+// All edges that are open, or that are linked, as items: their places, and their polygons as `extra`. With room to
+// sort.
+static tl_result gather_mesh_edges(tl_polygon_checker *c, bool open, tl_sort_item **items_out, uint32_t *count_out)
 {
     const tl_polygon_mesh *mesh = c->mesh;
     tl_sort_item *items = TL_PUSH(&c->arena, tl_sort_item, 2 * (uint64_t)mesh->index_count);
@@ -271,30 +213,88 @@ static tl_result sort_links(tl_polygon_checker *c, tl_sort_item **items_out, uin
     uint32_t count = 0;
     for (uint32_t p = 0; p < mesh->polygon_count; p++) {
         for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
-            if (mesh->neighbours[k] < mesh->polygon_count) {
+            if (open ? mesh->neighbours[k] == TL_NO_POLYGON : mesh->neighbours[k] < mesh->polygon_count) {
                 const tl_sort_item item = { 0, k, p };
                 items[count++] = item;
             }
         }
     }
-    for (uint32_t i = 0; i < count; i++) {
-        const link_end end = link_end_of(mesh, &items[i]);
-        items[i].key = (uint64_t)end.across << 1 | end.rises; // polygons rise already
-    }
-    tl_radix_sort(items, items + count, count);
-    for (uint32_t i = 0; i < count; i++) {
-        items[i].key = items[i].extra;
-    }
-    tl_radix_sort(items, items + count, count);
+    *items_out = items;
+    *count_out = count;
+    return TL_OK;
+}
+
+// By the two vertices, whichever way an edge runs.
+static void sort_by_vertices(const tl_polygon_mesh *mesh, tl_sort_item *items, uint32_t count)
+{
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t from = mesh->indices[items[i].value];
         const uint32_t to = mesh->indices[tl_mesh_next(mesh, items[i].extra, items[i].value)];
         items[i].key = from < to ? (uint64_t)from << 32 | to : (uint64_t)to << 32 | from;
     }
     tl_radix_sort(items, items + count, count);
-    *items_out = items;
-    *count_out = count;
+}
+
+// Two open edges that run along each other in opposite directions should have been linked. Sorted by their vertices,
+// they stand side by side.
+static tl_result check_open_edges(tl_polygon_checker *c)
+{
+    tl_sort_item *items = NULL;
+    uint32_t count = 0;
+    TL_TRY(gather_mesh_edges(c, true, &items, &count));
+    sort_by_vertices(c->mesh, items, count);
+    for (uint32_t i = 0; i < count;) {
+        bool falls = false, rises = false;
+        const uint32_t first = i;
+        for (; i < count && items[i].key == items[first].key; i++) {
+            const bool up = edge_end_of(c->mesh, &items[i]).rises;
+            falls = falls || !up;
+            rises = rises || up;
+        }
+        if (falls && rises) {
+            tl_polygon_checker_note(c, TL_POLYGON_FAULT_LINK, "polygon", items[first].extra);
+        }
+    }
     return TL_OK;
+}
+
+static bool is_before(const edge_end *a, const edge_end *b)
+{
+    return a->polygon != b->polygon ? a->polygon < b->polygon
+                                    : (a->across != b->across ? a->across < b->across : a->rises < b->rises);
+}
+
+// Whether a run of links, sorted by is_before, has the one that leads back.
+static bool has_link_back(const tl_polygon_mesh *mesh, const tl_sort_item *run, uint32_t count, const edge_end *end)
+{
+    const bool is_point = run->key >> 32 == (uint32_t)run->key; // an edge from a vertex to itself
+    const edge_end back = { end->across, end->polygon, !end->rises && !is_point };
+    uint32_t low = 0;
+    for (uint32_t rest = count; rest > 0;) {
+        const uint32_t half = rest / 2;
+        const edge_end at = edge_end_of(mesh, &run[low + half]);
+        const bool below = is_before(&at, &back);
+        low = below ? low + half + 1 : low;
+        rest = below ? rest - half - 1 : half;
+    }
+    const edge_end found = low < count ? edge_end_of(mesh, &run[low]) : *end;
+    return low < count && !is_before(&back, &found);
+}
+
+// Sorts linked edges by their vertices, and those of the same by is_before. A polygon may have as many links as
+// corners, and a wrong mesh any number of links over one edge, so none is looked for one by one.
+static void sort_links(const tl_polygon_mesh *mesh, tl_sort_item *items, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const edge_end end = edge_end_of(mesh, &items[i]);
+        items[i].key = (uint64_t)end.across << 1 | end.rises;
+    }
+    tl_radix_sort(items, items + count, count);
+    for (uint32_t i = 0; i < count; i++) {
+        items[i].key = items[i].extra;
+    }
+    tl_radix_sort(items, items + count, count);
+    sort_by_vertices(mesh, items, count);
 }
 
 static tl_result check_links(tl_polygon_checker *c)
@@ -302,7 +302,8 @@ static tl_result check_links(tl_polygon_checker *c)
     const tl_polygon_mesh *mesh = c->mesh;
     tl_sort_item *items = NULL;
     uint32_t count = 0;
-    TL_TRY(sort_links(c, &items, &count));
+    TL_TRY(gather_mesh_edges(c, false, &items, &count));
+    sort_links(mesh, items, count);
     uint8_t *is_returned = TL_PUSH_ZERO(&c->arena, uint8_t, mesh->index_count);
     if (is_returned == NULL) {
         return TL_ERR_MEMORY;
@@ -312,7 +313,7 @@ static tl_result check_links(tl_polygon_checker *c)
             end++;
         }
         for (uint32_t i = first; i < end; i++) {
-            const link_end link = link_end_of(mesh, &items[i]);
+            const edge_end link = edge_end_of(mesh, &items[i]);
             is_returned[items[i].value] =
                 link.across != link.polygon && has_link_back(mesh, items + first, end - first, &link);
         }
