@@ -46,24 +46,29 @@ static lattice_box polygon_box(const tl_polygon_mesh *mesh, uint32_t p)
     return box;
 }
 
+// How far a corner lies to the inner side of the edge at k of polygon p, times the edge's length.
+static int64_t depth_of_corner(const tl_polygon_mesh *mesh, uint32_t p, uint32_t k, uint32_t corner)
+{
+    return tl_turn(tl_mesh_corner(mesh, k), tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k)),
+                   tl_mesh_corner(mesh, corner));
+}
+
 // Whether an edge of p has all of q on its outer side. As the edges of p turn once around, the corner of q that is
-// farthest to their inner side goes around q once: O(corners) in all.
+// deepest inside goes around q once: O(corners) in all.
 static bool has_separating_edge(const tl_polygon_mesh *mesh, uint32_t p, uint32_t q)
 {
-    uint32_t inmost = mesh->first[q];
-    for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
-        const tl_lattice_point a = tl_mesh_corner(mesh, k), b = tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k));
-        for (uint32_t j = mesh->first[q] + 1; k == mesh->first[p] && j < mesh->first[q + 1]; j++) {
-            const bool is_further =
-                tl_turn(a, b, tl_mesh_corner(mesh, j)) > tl_turn(a, b, tl_mesh_corner(mesh, inmost));
-            inmost = is_further ? j : inmost;
+    const uint32_t begin = mesh->first[p];
+    uint32_t deepest = mesh->first[q];
+    for (uint32_t j = deepest + 1; j < mesh->first[q + 1]; j++) {
+        deepest = depth_of_corner(mesh, p, begin, j) > depth_of_corner(mesh, p, begin, deepest) ? j : deepest;
+    }
+    for (uint32_t k = begin; k < mesh->first[p + 1]; k++) {
+        uint32_t next = tl_mesh_next(mesh, q, deepest);
+        while (depth_of_corner(mesh, p, k, next) > depth_of_corner(mesh, p, k, deepest)) {
+            deepest = next;
+            next = tl_mesh_next(mesh, q, deepest);
         }
-        uint32_t next = tl_mesh_next(mesh, q, inmost);
-        while (tl_turn(a, b, tl_mesh_corner(mesh, next)) > tl_turn(a, b, tl_mesh_corner(mesh, inmost))) {
-            inmost = next;
-            next = tl_mesh_next(mesh, q, inmost);
-        }
-        if (tl_turn(a, b, tl_mesh_corner(mesh, inmost)) <= 0) {
+        if (depth_of_corner(mesh, p, k, deepest) <= 0) {
             return true;
         }
     }
@@ -143,7 +148,7 @@ static bool lies_inside_edge(const tl_polygon_mesh *mesh, uint32_t p, uint32_t k
 static bool lies_inside_an_edge(const tl_polygon_mesh *mesh, uint32_t p, tl_lattice_point v)
 {
     const uint32_t first = mesh->first[p], last = mesh->first[p + 1] - 1;
-    uint32_t k = first + 1; // the last corner, but one, that does not lie left of the way to the point
+    uint32_t k = first + 1; // the point lies between the ways to this corner and to the next one
     for (uint32_t rest = last - first - 2; rest > 0;) {
         const uint32_t half = (rest + 1) / 2;
         const bool on = tl_turn(tl_mesh_corner(mesh, first), tl_mesh_corner(mesh, k + half), v) >= 0;
