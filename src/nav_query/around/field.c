@@ -7,7 +7,7 @@
 #include "base/radix_sort.h"
 #include "nav_query/around/flood.h"
 #include "nav_query/filter/nav_filter.h"
-#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/surface.h"
 #include "nav_query/search/query_memory.h"
 
 // Nodes in the order of their references; each node's heap_at, which nothing needs any more, becomes its place.

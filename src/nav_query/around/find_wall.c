@@ -7,8 +7,8 @@
 // that order: a polygon entered at a distance has nothing nearer. Where it seems to, the way there has turned around
 // the end of a wall and come back above or below the place, as a ramp to the next floor does: that does not count.
 
-#include "nav_query/navmesh/plan.h"
-#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/nearest_on_edge.h"
+#include "nav_query/plane/surface.h"
 #include "nav_query/search/local_search.h"
 #include "nav_query/search/open_items.h"
 #include "nav_query/search/query_memory.h"

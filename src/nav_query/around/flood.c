@@ -8,9 +8,9 @@
 #include "nav_query/navmesh/offmesh_anchor.h"
 
 #include "nav_query/filter/nav_filter.h"
-#include "nav_query/navmesh/plan.h"
 #include "nav_query/navmesh/ring_step.h"
-#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/nearest_on_edge.h"
+#include "nav_query/plane/surface.h"
 
 // Offers a way into a polygon: `end` is the one of an off-mesh link that was left, or TL_NAV_NO_END.
 static void enter_polygon(tl_nav_flood *flood, uint32_t slot, uint32_t polygon, tl_vec3 point, float cost,

@@ -21,7 +21,7 @@
 #include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
 #include "nav_query/navmesh/ring_step.h"
-#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/surface.h"
 #include "nav_query/search/node_pool.h"
 #include "nav_query/search/query_memory.h"
 

@@ -7,8 +7,8 @@
 // but a long way off. Almost all steps end in the first polygon or the second. Source: Mikko Mononen, Detour,
 // dtNavMeshQuery::moveAlongSurface, for the circle.
 
-#include "nav_query/navmesh/plan.h"
-#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/nearest_on_edge.h"
+#include "nav_query/plane/surface.h"
 #include "nav_query/search/local_search.h"
 #include "nav_query/search/query_memory.h"
 

@@ -8,8 +8,8 @@
 
 #include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/area_table.h"
-#include "nav_query/navmesh/surface.h"
 #include "nav_query/plane/point_of_random.h"
+#include "nav_query/plane/surface.h"
 
 #include <talus/nav_around.h>
 

@@ -18,9 +18,9 @@
 #include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/area_table.h"
 #include "nav_query/navmesh/navmesh.h"
-#include "nav_query/navmesh/surface.h"
 #include "nav_query/plane/circle_corners.h"
 #include "nav_query/plane/point_of_random.h"
+#include "nav_query/plane/surface.h"
 #include "nav_query/search/query_memory.h"
 
 #include <string.h>

@@ -14,9 +14,9 @@
 
 #include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
-#include "nav_query/navmesh/surface.h"
 #include "nav_query/navmesh/ways.h"
 #include "nav_query/plane/side.h"
+#include "nav_query/plane/surface.h"
 
 #include <string.h>
 

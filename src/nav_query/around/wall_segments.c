@@ -6,8 +6,8 @@
 // whole. The caller's buffer is kept sorted by insertion: it is short where this is called often (steering), and a wall
 // farther than its last entry costs one comparison.
 
-#include "nav_query/navmesh/plan.h"
-#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/nearest_on_edge.h"
+#include "nav_query/plane/surface.h"
 #include "nav_query/search/local_search.h"
 #include "nav_query/search/query_memory.h"
 

@@ -12,8 +12,8 @@
 #include "base/assert.h"
 #include "base/min_max.h"
 #include "math/tolerance.h"
-#include "nav_query/navmesh/surface.h"
 #include "nav_query/path/funnel.h"
+#include "nav_query/plane/surface.h"
 #include "nav_query/search/portal_between.h"
 
 #include <string.h>

@@ -25,7 +25,7 @@
 
 #include "nav_query/exact/wedge_root.inl"
 #include "nav_query/exact/wedge_straight.inl"
-#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/surface.h"
 
 #include <string.h>
 

@@ -152,7 +152,7 @@ static uint64_t edge_of(const tile_place *at)
 
 static bool is_ring_portal(tl_nav_ring_edge edge)
 {
-    return edge.to != TL_NAV_RING_WALL || tl_nav_ring_twin_hint(edge) == TL_NAV_RING_ON_PORTAL;
+    return edge.to != TL_NAV_RING_WALL || tl_nav_ring_twin_hint(edge) != 0; // TL_NAV_RING_ON_PORTAL, or closed
 }
 
 // Goes to where a fan begins in its tile. True: nowhere, the tile's polygons lie all around. A fan of more polygons

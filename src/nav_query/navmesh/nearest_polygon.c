@@ -11,8 +11,8 @@
 #include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
-#include "nav_query/navmesh/surface.h"
 #include "nav_query/navmesh/tile_walk.h"
+#include "nav_query/plane/surface.h"
 
 typedef struct nearest_search {
     const tl_navmesh *navmesh;

@@ -11,7 +11,7 @@
 #include "base/host.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
-#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/surface.h"
 
 #include <string.h>
 

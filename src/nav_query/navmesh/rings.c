@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Building rings: a tile's corners and links, with border edges split at the ends of their seam links.
+// Building rings: first counted, then written, polygon by polygon (ring_writer.h).
 
 #include "nav_query/navmesh/rings.h"
 
@@ -8,6 +8,7 @@
 #include "base/assert.h"
 #include "nav_query/navmesh/fans.h"
 #include "nav_query/navmesh/navmesh.h"
+#include "nav_query/navmesh/ring_writer.h"
 
 #include <string.h>
 
@@ -65,103 +66,6 @@ static bool is_same_vertex(tl_vec3 a, tl_vec3 b)
     return a.x == b.x && a.z == b.z;
 }
 
-// Appends edges; the last one's end is where the next one starts. With rings that have no arrays yet it counts, and
-// finds which rings have points of their own.
-typedef struct ring_writer {
-    tl_nav_rings *rings;
-    uint32_t *first, *first_point; // as the rings', to be written; NULL: they are the tile's
-    tl_vec3 *points;
-    uint64_t edge_count, seam_count;
-    uint64_t point_count; // of rings that have their own
-    // The ring that is being written.
-    const tl_vec3 *corners; // of its polygon
-    uint32_t corner_count;
-    uint32_t count; // of its edges so far
-    bool has_points;
-} ring_writer;
-
-static inline void add_ring_edge(ring_writer *writer, tl_vec3 start, uint32_t to, uint32_t mark)
-{
-    const uint32_t i = writer->count++;
-    if (writer->rings->edges.wide == NULL) {
-        const bool is_corner = i < writer->corner_count && memcmp(&writer->corners[i], &start, sizeof start) == 0;
-        writer->has_points = writer->has_points || !is_corner;
-    } else {
-        const tl_nav_ring_edge edge = { to, mark };
-        tl_nav_set_edge(writer->rings, writer->edge_count + i, edge);
-        if (writer->has_points) {
-            writer->points[writer->point_count + i] = start;
-        }
-    }
-}
-
-static uint32_t add_ring_seam(ring_writer *writer, tl_nav_ring_seam seam)
-{
-    if (writer->rings->seams != NULL) {
-        writer->rings->seams[writer->seam_count] = seam;
-    }
-    return TL_NAV_RING_BACK - 1 - (uint32_t)writer->seam_count++; // tl_nav_ring_seam_number
-}
-
-// An edge without a way from `at` to `point`, unless they are one. `ahead` is the edge's direction.
-static void add_gap(ring_writer *writer, tl_vec3 at, tl_vec3 point, tl_vec3 ahead)
-{
-    if (at.x != point.x || at.z != point.z) {
-        bool forward = tl_dot(tl_sub(point, at), ahead) > 0.0f;
-        add_ring_edge(writer, at, forward ? TL_NAV_RING_WALL : TL_NAV_RING_BACK, TL_NAV_RING_ON_PORTAL);
-        writer->rings->has_back = writer->rings->has_back || !forward;
-    }
-}
-
-// The pieces of a border edge from `start` to `end`. The links ascend along the side, the edge does on sides 0 and 1.
-static void add_seam_edge(ring_writer *writer, const tl_nav_tile *tile, uint32_t portal, tl_vec3 start, tl_vec3 end,
-                          const tl_nav_side_links *links)
-{
-    const uint32_t side = tl_nav_tile_side_of(tile, portal);
-    const uint32_t *first = links->first + (portal - tl_nav_tile_side_first(tile, side));
-    const tl_nav_seam_link *seams = tl_nav_seam_links_of(links) + first[0];
-    const uint32_t count = first[1] - first[0];
-    tl_vec3 ahead = tl_sub(end, start);
-    tl_vec3 at = start;
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_nav_seam_link *link = &seams[side < 2 ? i : count - 1 - i];
-        const tl_nav_ring_seam seam = { tl_nav_seam_slot(link), tl_nav_seam_polygon(link) };
-        tl_vec3 left, right;
-        tl_nav_seam_ends(tile, portal, link, &left, &right);
-        add_gap(writer, at, right, ahead);
-        add_ring_edge(writer, right, add_ring_seam(writer, seam), TL_NAV_RING_ON_PORTAL);
-        at = left;
-    }
-    add_gap(writer, at, end, ahead);
-}
-
-static void add_ring(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
-                     uint32_t polygon)
-{
-    uint32_t count = 0;
-    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
-    writer->corners = corners;
-    writer->corner_count = count;
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t link = tl_nav_tile_edge_link(tile, polygon, k);
-        if (!tl_nav_is_portal(link)) {
-            add_ring_edge(writer, corners[k], link == TL_NAV_LINK_WALL ? TL_NAV_RING_WALL : link, 0);
-            continue;
-        }
-        const uint32_t portal = tl_nav_link_portal(link);
-        uint32_t side = tl_nav_tile_side_of(tile, portal);
-        uint32_t at = portal - tl_nav_tile_side_first(tile, side);
-        if (sides[side]->first == NULL || sides[side]->first[at] == sides[side]->first[at + 1]) {
-            add_ring_edge(writer, corners[k], TL_NAV_RING_WALL, TL_NAV_RING_ON_PORTAL);
-        } else {
-            add_seam_edge(writer, tile, portal, corners[k], corners[k + 1 < count ? k + 1 : 0], sides[side]);
-        }
-    }
-    if (writer->rings->edges.wide == NULL) {
-        writer->has_points = writer->has_points || writer->count != count;
-    }
-}
-
 // Vertices that a polygon had before keep their walls: for now by their place among the old ones.
 static void copy_walls(tl_nav_rings *rings, const tl_nav_rings *old, uint32_t polygon)
 {
@@ -175,28 +79,6 @@ static void copy_walls(tl_nav_rings *rings, const tl_nav_rings *old, uint32_t po
             }
         }
         tl_nav_set_edge(rings, now.first + k, edge);
-    }
-}
-
-// A polygon whose edges stay as they were; only its seams get new places.
-static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t polygon)
-{
-    const tl_nav_ring ring = tl_nav_ring_of(old, polygon);
-    tl_nav_rings *rings = writer->rings;
-    writer->has_points = (tl_nav_ring_first_point(old, polygon) & TL_NAV_RING_OWN_POINTS) != 0;
-    writer->count = ring.count;
-    for (uint32_t i = 0; i < ring.count; i++) {
-        tl_nav_ring_edge edge = tl_nav_ring_edge_at(&ring, i);
-        if (tl_nav_ring_is_seam(edge.to)) {
-            edge.to = add_ring_seam(writer, old->seams[tl_nav_ring_seam_number(edge.to)]);
-        }
-        rings->has_back = rings->has_back || edge.to == TL_NAV_RING_BACK;
-        if (rings->edges.wide != NULL) {
-            tl_nav_set_edge(rings, writer->edge_count + i, edge);
-        }
-    }
-    if (rings->edges.wide != NULL && writer->has_points) {
-        memcpy(writer->points + writer->point_count, ring.points, ring.count * sizeof *ring.points);
     }
 }
 
@@ -362,17 +244,16 @@ static void mark_changed(const tl_nav_tile *tile, uint32_t side, const tl_nav_ri
 }
 
 // The changed polygons' rings anew, all others' as they were. `writer`: to count, then to write.
-static void write_rings(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
-                        uint32_t *marks, const tl_nav_rings *old)
+static void write_rings(tl_nav_ring_writer *writer, const tl_nav_tile *tile,
+                        const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], uint32_t *marks, const tl_nav_rings *old)
 {
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         const bool changes = (marks[p] & RING_CHANGES) != 0;
-        writer->count = 0;
         writer->has_points = (marks[p] & RING_HAS_POINTS) != 0;
         if (changes) {
-            add_ring(writer, tile, sides, p);
+            tl_nav_write_ring(writer, tile, sides, p);
         } else {
-            copy_ring(writer, old, p);
+            tl_nav_write_same_ring(writer, old, p);
         }
         if (writer->first != NULL) {
             writer->first[p] = (uint32_t)writer->edge_count;
@@ -392,7 +273,7 @@ static void write_rings(ring_writer *writer, const tl_nav_tile *tile, const tl_n
 // `counted`: what a writer without arrays has counted.
 static tl_result fill_rings(const tl_allocator *allocator, const tl_nav_tile *tile,
                             const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], uint32_t *marks, const tl_nav_rings *old,
-                            const ring_writer *counted, tl_nav_rings *rings)
+                            const tl_nav_ring_writer *counted, tl_nav_rings *rings)
 {
     rings->edge_count = (uint32_t)counted->edge_count;
     rings->seam_count = (uint32_t)counted->seam_count;
@@ -402,13 +283,15 @@ static tl_result fill_rings(const tl_allocator *allocator, const tl_nav_tile *ti
     if (block == NULL) {
         return TL_ERR_MEMORY;
     }
-    ring_writer writer;
+    tl_nav_ring_writer writer;
     memset(&writer, 0, sizeof writer);
+    writer.mode = TL_NAV_RINGS_WRITE;
     writer.rings = rings;
     writer.first = place_arrays(rings, block);
     writer.first_point = writer.first != NULL ? writer.first + rings->polygon_count + 1 : NULL;
     writer.points = (tl_vec3 *)(void *)((char *)block + edges_size(rings));
     write_rings(&writer, tile, sides, marks, old);
+    rings->has_back = writer.has_back;
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         if ((marks[p] & RING_CHANGES) != 0) {
             if (old != NULL) {
@@ -510,7 +393,7 @@ static tl_result make_rings(const tl_allocator *allocator, const tl_nav_tile *ti
                             const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const tl_nav_rings *old,
                             uint32_t *scratch, tl_nav_rings *rings)
 {
-    ring_writer counted;
+    tl_nav_ring_writer counted;
     memset(&counted, 0, sizeof counted);
     counted.rings = rings;
     write_rings(&counted, tile, sides, scratch, old);
@@ -582,15 +465,4 @@ tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings)
     tl_release_array(allocator, rings->walls, walls_size(rings), 1);
     place_walls(rings, walls);
     return TL_OK;
-}
-
-void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot)
-{
-    for (uint32_t i = 0; i < rings->edge_count; i++) {
-        tl_nav_ring_edge edge = tl_nav_edge_of(rings, i);
-        if (tl_nav_ring_is_seam(edge.to) && tl_nav_ring_seam_of(rings, edge.to).slot == slot) {
-            edge.to = TL_NAV_RING_WALL;
-            tl_nav_set_edge(rings, i, tl_nav_with_twin(edge, TL_NAV_RING_ON_PORTAL));
-        }
-    }
 }

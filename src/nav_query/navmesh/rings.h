@@ -25,6 +25,8 @@ enum {
 };
 /// Instead of a place, of a wall over which other tiles' polygons may come to lie.
 #define TL_NAV_RING_ON_PORTAL 1u
+/// The same where a way led over it when the rings were made, until the tile across left (tl_nav_rings_close).
+#define TL_NAV_RING_CLOSED    2u
 #define TL_NAV_RING_MAX_WALLS (UINT32_MAX >> TL_NAV_RING_TWIN_BITS) ///< of one tile
 
 /// An edge of a polygon, from its point to the next one's. Seen from inside looking out, it starts at its right end.
@@ -130,6 +132,14 @@ tl_result tl_nav_rings_copy(const tl_allocator *allocator, tl_nav_rings *rings);
 
 /// Makes walls of all ways to a slot. The cuts in the edges stay.
 void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot);
+
+/// Whether rings of a tile, as it was added, are those that tl_nav_rings_make would make of them with these links on
+/// its sides, but for ways over one side that are closed: as when a tile is replaced by one whose border is the same.
+bool tl_nav_rings_can_reopen(const tl_nav_rings *rings, const tl_nav_tile *tile,
+                             const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], uint32_t changed_side);
+/// Opens those ways.
+void tl_nav_rings_reopen(tl_nav_rings *rings, const tl_nav_tile *tile,
+                         const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], uint32_t changed_side);
 
 /// A polygon's first edge. `polygon` <= polygon_count.
 uint32_t tl_nav_ring_first(const tl_nav_rings *rings, uint32_t polygon);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Lookups in the table of tiles: slots, tiles by their place, references to polygons, and the links of a polygon.
+// Lookups in the table of tiles: slots, tiles by their place, references to polygons, the links of a polygon and points
+// of it.
 
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/ways.h"
+#include "nav_query/plane/surface.h"
 
 // The first slot from `slot` on in its chain whose tile is at a place.
 static uint32_t first_in_chain(const tl_navmesh *navmesh, uint32_t slot, int64_t tile_x, int64_t tile_z)
@@ -150,4 +152,51 @@ const tl_nav_tile *tl_navmesh_find_tile(const tl_navmesh *navmesh, int32_t tile_
         lowest = lowest == NULL || tile->layer < lowest->layer ? tile : lowest;
     }
     return lowest;
+}
+
+tl_result tl_navmesh_closest_point(const tl_navmesh *navmesh, tl_nav_ref ref, tl_vec3 point, tl_vec3 *closest_out,
+                                   bool *inside_out)
+{
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    bool inside = false;
+    if (inside_out != NULL) {
+        *inside_out = false;
+    }
+    if (navmesh == NULL || closest_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    *closest_out = tl_vec3_make(0.0f, 0.0f, 0.0f);
+    if (!tl_nav_is_finite(point)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
+        return TL_ERR_STALE;
+    }
+    *closest_out = tl_nav_closest_on_surface(navmesh->slots[slot].tile, polygon, point, &inside);
+    if (inside_out != NULL) {
+        *inside_out = inside;
+    }
+    return TL_OK;
+}
+
+tl_result tl_navmesh_height(const tl_navmesh *navmesh, tl_nav_ref ref, float x, float z, float *height_out)
+{
+    tl_vec3 closest;
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    if (height_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    *height_out = 0.0f;
+    // A point over the surface is over the polygon: its outline need not be asked.
+    if (navmesh != NULL && isfinite(x) && isfinite(z) && tl_nav_split_ref(navmesh, ref, &slot, &polygon) &&
+        tl_nav_find_surface_height(navmesh->slots[slot].tile, polygon, x, z, height_out)) {
+        return TL_OK;
+    }
+    tl_result result = tl_navmesh_closest_point(navmesh, ref, tl_vec3_make(x, 0.0f, z), &closest, NULL);
+    if (result == TL_OK) {
+        *height_out = closest.y;
+    }
+    return result;
 }

@@ -95,6 +95,18 @@ static tl_result make_links(const tl_navmesh *navmesh, const tl_nav_tile *tile, 
     return TL_OK;
 }
 
+// The links on all sides of a tile around, with those to the new one. Rings point into the tile as it was added: a
+// changed one goes before them.
+static const tl_nav_tile *sides_around(const tl_navmesh *navmesh, const tl_nav_seam_neighbour *neighbour,
+                                       const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT])
+{
+    const tl_nav_slot *slot = &navmesh->slots[neighbour->slot];
+    for (uint32_t i = 0; i < TL_NAV_SIDE_COUNT; i++) {
+        sides[i] = i == tl_nav_facing_side(neighbour->side) ? &neighbour->facing : &slot->sides[i];
+    }
+    return slot->baked != NULL ? slot->baked : slot->tile;
+}
+
 static tl_result make_tile_rings(const tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_seams *seams)
 {
     const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT];
@@ -104,13 +116,13 @@ static tl_result make_tile_rings(const tl_navmesh *navmesh, const tl_nav_tile *t
     TL_TRY(tl_nav_rings_make(&navmesh->allocator, tile, sides, NULL, 0, &seams->rings));
     for (uint32_t n = 0; n < seams->neighbour_count; n++) {
         tl_nav_seam_neighbour *neighbour = &seams->neighbours[n];
-        const tl_nav_slot *slot = &navmesh->slots[neighbour->slot];
-        for (uint32_t i = 0; i < TL_NAV_SIDE_COUNT; i++) {
-            sides[i] = i == tl_nav_facing_side(neighbour->side) ? &neighbour->facing : &slot->sides[i];
+        const tl_nav_rings *before = &navmesh->slots[neighbour->slot].rings;
+        const uint32_t changed_side = tl_nav_facing_side(neighbour->side);
+        const tl_nav_tile *around = sides_around(navmesh, neighbour, sides);
+        neighbour->reopens = tl_nav_rings_can_reopen(before, around, sides, changed_side);
+        if (!neighbour->reopens) {
+            TL_TRY(tl_nav_rings_make(&navmesh->allocator, around, sides, before, changed_side, &neighbour->rings));
         }
-        // Rings point into the tile as it was added: a changed one goes before them.
-        TL_TRY(tl_nav_rings_make(&navmesh->allocator, slot->baked != NULL ? slot->baked : slot->tile, sides,
-                                 &slot->rings, tl_nav_facing_side(neighbour->side), &neighbour->rings));
     }
     return TL_OK;
 }
@@ -152,7 +164,7 @@ bool tl_nav_seams_remake(const tl_nav_seams *seams, uint32_t slot)
 {
     for (uint32_t n = 0; seams != NULL && n < seams->neighbour_count; n++) {
         if (seams->neighbours[n].slot == slot) {
-            return true;
+            return !seams->neighbours[n].reopens;
         }
     }
     return false;
@@ -167,11 +179,17 @@ void tl_nav_seams_install(tl_navmesh *navmesh, uint32_t slot, tl_nav_seams *seam
     for (uint32_t n = 0; n < seams->neighbour_count; n++) {
         tl_nav_seam_neighbour *made = &seams->neighbours[n];
         tl_nav_slot *neighbour = &navmesh->slots[made->slot];
+        if (made->reopens) {
+            const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT];
+            const tl_nav_tile *around = sides_around(navmesh, made, sides);
+            tl_nav_rings_reopen(&neighbour->rings, around, sides, tl_nav_facing_side(made->side));
+        } else {
+            tl_nav_rings_free(&navmesh->allocator, &neighbour->rings);
+            neighbour->rings = made->rings;
+        }
         tl_nav_free_side(&navmesh->allocator, &neighbour->sides[tl_nav_facing_side(made->side)]);
         neighbour->sides[tl_nav_facing_side(made->side)] = made->facing;
         navmesh->link_count += made->added;
-        tl_nav_rings_free(&navmesh->allocator, &neighbour->rings);
-        neighbour->rings = made->rings;
         tl_nav_note_edit(navmesh, made->slot);
     }
     tl_release_array(&navmesh->allocator, seams->neighbours, seams->neighbour_capacity, sizeof *seams->neighbours);

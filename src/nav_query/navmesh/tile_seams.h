@@ -13,6 +13,7 @@ typedef struct tl_nav_seam_neighbour {
     uint32_t slot, side; ///< the new tile's side
     uint32_t added;      ///< links
     tl_nav_side_links facing;
+    bool reopens; ///< its rings stay, and closed ways in them open again; else new ones:
     tl_nav_rings rings;
 } tl_nav_seam_neighbour;
 

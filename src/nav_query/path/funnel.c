@@ -18,8 +18,8 @@
 #include "nav_query/path/funnel.h"
 
 #include "base/assert.h"
-#include "nav_query/navmesh/surface.h"
 #include "nav_query/plane/side.h"
+#include "nav_query/plane/surface.h"
 #include "nav_query/search/portal_between.h"
 
 #include <string.h>

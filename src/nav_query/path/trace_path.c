@@ -8,9 +8,9 @@
 #include "base/assert.h"
 #include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/offmesh.h"
-#include "nav_query/navmesh/surface.h"
 #include "nav_query/path/funnel.h"
 #include "nav_query/plane/side.h"
+#include "nav_query/plane/surface.h"
 #include "nav_query/search/portal_between.h"
 
 #include <string.h>

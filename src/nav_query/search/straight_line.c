@@ -7,7 +7,7 @@
 
 #include "nav_query/search/straight_line.h"
 
-#include "nav_query/navmesh/plan.h"
+#include "nav_query/plane/nearest_on_edge.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #include "nav_query/wide/wall_cell.h"
 
 #include "nav_query/filter/nav_filter.h"
-#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/surface.h"
 #include "nav_query/search/local_search.h"
 
 #include <string.h>

@@ -9,7 +9,7 @@
 #include "base/assert.h"
 #include "nav_query/exact/shortest_search.h"
 #include "nav_query/filter/nav_filter.h"
-#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/surface.h"
 
 #include <string.h>
 

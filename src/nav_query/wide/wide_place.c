@@ -10,7 +10,7 @@
 
 #include "nav_query/filter/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
-#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/surface.h"
 #include "nav_query/search/query_memory.h"
 #include "nav_query/wide/free_pieces.h"
 

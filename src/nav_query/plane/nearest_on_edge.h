@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Distances in the plane from a point to the edges of rings.
+// Where an edge comes nearest to a point, in the plane.
 
-#ifndef TALUS_SRC_NAV_QUERY_PLAN_H
-#define TALUS_SRC_NAV_QUERY_PLAN_H
+#ifndef TALUS_SRC_NAV_QUERY_NEAREST_ON_EDGE_H
+#define TALUS_SRC_NAV_QUERY_NEAREST_ON_EDGE_H
 
-#include "nav_query/navmesh/rings.h"
+#include <talus/vec.h>
 
 /// Where an edge comes nearest to a point.
 typedef struct tl_nav_plan_point {

@@ -6,8 +6,7 @@
 // least answers, with its negative weights cut off; so a point on a polygon always has a height.
 
 #include "base/compiler.h"
-#include "nav_query/navmesh/navmesh.h"
-#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/surface.h"
 
 typedef struct triangle_weights {
     double w[3]; // parts of the area, sum 1
@@ -185,25 +184,4 @@ float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, 
     const tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
     float height = 0.0f;
     return find_height(&surface, x, z, &height) ? height : height_beside(&surface, (double)x, (double)z);
-}
-
-tl_result tl_navmesh_height(const tl_navmesh *navmesh, tl_nav_ref ref, float x, float z, float *height_out)
-{
-    tl_vec3 closest;
-    uint32_t slot = 0;
-    uint32_t polygon = 0;
-    if (height_out == NULL) {
-        return TL_ERR_ARGUMENT;
-    }
-    *height_out = 0.0f;
-    // A point over the surface is over the polygon: its outline need not be asked.
-    if (navmesh != NULL && isfinite(x) && isfinite(z) && tl_nav_split_ref(navmesh, ref, &slot, &polygon) &&
-        tl_nav_find_surface_height(navmesh->slots[slot].tile, polygon, x, z, height_out)) {
-        return TL_OK;
-    }
-    tl_result result = tl_navmesh_closest_point(navmesh, ref, tl_vec3_make(x, 0.0f, z), &closest, NULL);
-    if (result == TL_OK) {
-        *height_out = closest.y;
-    }
-    return result;
 }

@@ -3,9 +3,8 @@
 // The point of a polygon closest to a point, in the plane: the point itself when it is inside, else the closest one of
 // the edges. Inside is decided exactly; distances are compared in double, ties to the lower edge.
 
-#include "nav_query/navmesh/navmesh.h"
-#include "nav_query/navmesh/surface.h"
 #include "nav_query/plane/side.h"
+#include "nav_query/plane/surface.h"
 
 // A corner seen from a point.
 typedef struct seen_corner {
@@ -112,30 +111,4 @@ tl_vec3 tl_nav_closest_on_surface(const tl_nav_tile *tile, uint32_t polygon, tl_
     tl_vec3 closest = tl_nav_clamp_to_polygon(tile, polygon, point, inside_out);
     closest.y = tl_nav_surface_height(tile, polygon, closest.x, closest.z);
     return closest;
-}
-
-tl_result tl_navmesh_closest_point(const tl_navmesh *navmesh, tl_nav_ref ref, tl_vec3 point, tl_vec3 *closest_out,
-                                   bool *inside_out)
-{
-    uint32_t slot = 0;
-    uint32_t polygon = 0;
-    bool inside = false;
-    if (inside_out != NULL) {
-        *inside_out = false;
-    }
-    if (navmesh == NULL || closest_out == NULL) {
-        return TL_ERR_ARGUMENT;
-    }
-    *closest_out = tl_vec3_make(0.0f, 0.0f, 0.0f);
-    if (!tl_nav_is_finite(point)) {
-        return TL_ERR_NOT_FINITE;
-    }
-    if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
-        return TL_ERR_STALE;
-    }
-    *closest_out = tl_nav_closest_on_surface(navmesh->slots[slot].tile, polygon, point, &inside);
-    if (inside_out != NULL) {
-        *inside_out = inside;
-    }
-    return TL_OK;
 }
