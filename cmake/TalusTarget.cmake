@@ -1,6 +1,20 @@
 # How every target of the project is compiled.
 
 include(CheckCCompilerFlag)
+include(CheckCSourceCompiles)
+
+# Stops the configuration, and not each source (src/base/exact_floats.h), where a compiler's floats are none of IEEE 754.
+function(talus_check_floats)
+    set(CMAKE_REQUIRED_QUIET ON)
+    set(CMAKE_TRY_COMPILE_CONFIGURATION ${CMAKE_BUILD_TYPE}) # with its flags
+    set(CMAKE_REQUIRED_INCLUDES ${PROJECT_SOURCE_DIR}/src)
+    check_c_source_compiles("#include \"base/exact_floats.h\"\nint main(void) { return 0; }" TALUS_EXACT_FLOATS)
+    if(NOT TALUS_EXACT_FLOATS)
+        unset(TALUS_EXACT_FLOATS CACHE)
+        message(FATAL_ERROR "talus needs floats as IEEE 754 computes them: configure without -ffast-math, -Ofast, "
+            "-ffinite-math-only or /fp:fast, and for 32-bit x86 with -DCMAKE_C_FLAGS='-m32 -msse2 -mfpmath=sse'")
+    endif()
+endfunction()
 
 function(talus_compile_options target)
     set_target_properties(${target} PROPERTIES C_STANDARD 17 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)

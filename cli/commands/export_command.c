@@ -97,14 +97,14 @@ static tl_exit export_navmesh(tl_cli *cli, const tl_input *input, tl_detour_refs
     }
     // Without room the first run only says what is wrong; else it says CAPACITY.
     uint64_t size = tl_detour_linked_set_size(&set);
-    void *bytes = size > 0 ? malloc(size) : NULL;
+    void *bytes = size > 0 && size <= SIZE_MAX ? malloc((size_t)size) : NULL;
     tl_detour_report report;
     tl_result result =
         size > 0 && bytes == NULL ? TL_ERR_MEMORY : tl_detour_linked_set_write(&set, bytes, size, &report);
     tl_io_error error;
     if (result != TL_OK) {
         code = tl_cli_fail_result(cli, input->path, result, result == TL_ERR_MEMORY ? NULL : &report.base);
-    } else if (tl_atomic_write(output, bytes, size, &error) != TL_OK) {
+    } else if (tl_atomic_write(output, bytes, (size_t)size, &error) != TL_OK) {
         code = tl_cli_fail_io(cli, &error);
     } else {
         code = print_export_report(cli, output, size, &report);

@@ -42,7 +42,7 @@ static tl_result make_route_room(const tl_navmesh *navmesh, draw_route *route)
     // that keeps away from walls has half a circle more a portal, at most.
     route->buffers.polygon_capacity = (uint32_t)links;
     route->buffers.corner_capacity = HALF_CIRCLE * ((uint32_t)links + 2);
-    route->buffers.polygons = malloc(links * sizeof *route->buffers.polygons);
+    route->buffers.polygons = malloc((size_t)links * sizeof *route->buffers.polygons);
     route->buffers.corners = malloc(route->buffers.corner_capacity * sizeof *route->buffers.corners);
     if (route->buffers.polygons == NULL || route->buffers.corners == NULL) {
         return TL_ERR_MEMORY;

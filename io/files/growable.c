@@ -44,15 +44,15 @@ tl_allocator tl_io_allocator_or_default(const tl_allocator *allocator)
     return standard;
 }
 
-void *tl_io_allocate(const tl_allocator *allocator, size_t size)
+void *tl_io_allocate(const tl_allocator *allocator, uint64_t size)
 {
-    return allocator->allocate(size, ALIGNMENT, allocator->user);
+    return size <= SIZE_MAX ? allocator->allocate((size_t)size, ALIGNMENT, allocator->user) : NULL;
 }
 
-void tl_io_release(const tl_allocator *allocator, void *block, size_t size)
+void tl_io_release(const tl_allocator *allocator, void *block, uint64_t size)
 {
     if (block != NULL) {
-        allocator->release(block, size, allocator->user);
+        allocator->release(block, (size_t)size, allocator->user);
     }
 }
 

@@ -13,11 +13,12 @@
 /// The allocator that a NULL stands for: aligned malloc and free.
 tl_allocator tl_io_allocator_or_default(const tl_allocator *allocator);
 
-/// `size` > 0 bytes aligned to 64, or NULL. The allocator must not be NULL here and below.
-void *tl_io_allocate(const tl_allocator *allocator, size_t size);
+/// `size` > 0 bytes aligned to 64, or NULL: also where no pointer reaches as far. The allocator must not be NULL here
+/// and below.
+void *tl_io_allocate(const tl_allocator *allocator, uint64_t size);
 
 /// Gives back what tl_io_allocate returned; a NULL block is allowed.
-void tl_io_release(const tl_allocator *allocator, void *block, size_t size);
+void tl_io_release(const tl_allocator *allocator, void *block, uint64_t size);
 
 /// Grows `*array` to a capacity of `needed` items or more; its first `used` are kept. Capacities double, so n pushes
 /// cost O(n). False when memory is out; array and capacity are then as before.

@@ -368,7 +368,7 @@ static const char *read_other(tl_obj_state *reader, const char *at)
                                 "binary content");
         }
         keyword_end++;
-        if (keyword_end - at > TL_MAX_OBJ_KEYWORD_BYTES) {
+        if ((size_t)(keyword_end - at) > TL_MAX_OBJ_KEYWORD_BYTES) {
             return fail_at_line(reader, TL_ERR_LIMIT, "is this an OBJ file?", "a keyword of more than 32 characters");
         }
     }
@@ -414,7 +414,7 @@ static inline const char *read_obj_line(tl_obj_state *reader, const char *at)
     if (line_end == NULL) {
         return NULL;
     }
-    if (line_end - first > TL_MAX_OBJ_LINE_BYTES) {
+    if ((size_t)(line_end - first) > TL_MAX_OBJ_LINE_BYTES) {
         return fail_at_line(reader, TL_ERR_LIMIT, "is this an OBJ file?", "a line of more than 1048576 characters");
     }
     return step_line(reader, line_end);

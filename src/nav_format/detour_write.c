@@ -387,7 +387,7 @@ static tl_result write_tile(set_tile place, uint8_t *bytes, uint64_t capacity, u
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         write_polygon(tile, p, bytes + at.polygons);
     }
-    memset(bytes + at.links, 0, at.patches - at.links); // Detour links a tile when it is added
+    memset(bytes + at.links, 0, (size_t)(at.patches - at.links)); // Detour links a tile when it is added
     write_detail(tile, &at, bytes);
     write_nodes(tile, &header, bytes + at.nodes);
     write_off_mesh(place, &header, &at, bytes);
@@ -542,7 +542,8 @@ static tl_result write_set(const tl_detour_set *set, uint8_t *bytes, uint64_t ca
         uint32_t size32 = (uint32_t)size;
         memset(bytes + at, 0, (size_t)entry);
         const uint32_t reference32 = (uint32_t)reference; // its low half, whichever comes first here
-        memcpy(bytes + at, set->refs == TL_DETOUR_REFS_64 ? (const void *)&reference : &reference32, entry / 2);
+        memcpy(bytes + at, set->refs == TL_DETOUR_REFS_64 ? (const void *)&reference : &reference32,
+               (size_t)(entry / 2));
         memcpy(bytes + at + (set->refs == TL_DETOUR_REFS_64 ? 8 : 4), &size32, 4);
         at += entry + size;
     }

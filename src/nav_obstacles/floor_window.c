@@ -93,7 +93,7 @@ static tl_result read_window(tl_floor_window *window, const tl_packed_floors *pa
     window->marked = base_area + floors;
     window->base_area = base_area;
     read_floors(window, packed, base_area);
-    memcpy(compact->area, base_area, floors);
+    memcpy(compact->area, base_area, (size_t)floors);
     return TL_OK;
 }
 

@@ -142,7 +142,7 @@ static tl_result bake_range(tl_nav_obstacles *o, const tl_host *host, const tl_n
     if (taker.fresh == NULL) {
         return TL_ERR_MEMORY;
     }
-    memset(taker.fresh, 0, count * sizeof *taker.fresh);
+    memset(taker.fresh, 0, (size_t)count * sizeof *taker.fresh);
     const tl_nav_stage_sink sink = { take_floors, &taker };
     tl_nav_def def = o->def;
     def.host = *host;
@@ -213,7 +213,7 @@ static tl_result create(const tl_nav_def *def, tl_nav_obstacles **out, tl_report
         tl_release_array(&allocator, o, 1, sizeof *o);
         return TL_ERR_MEMORY;
     }
-    memset(o->tiles, 0, tile_count(o) * sizeof *o->tiles);
+    memset(o->tiles, 0, (size_t)tile_count(o) * sizeof *o->tiles);
     tl_unpacked_tiles_init(&o->unpacked, tile_count(o));
     *out = o;
     return TL_OK;

@@ -75,7 +75,7 @@ static tl_result pack(const tl_nav_compact *compact, const tl_allocator *allocat
     if (packed->bytes == NULL) {
         return TL_ERR_MEMORY;
     }
-    memcpy(packed->bytes, s->bytes, size);
+    memcpy(packed->bytes, s->bytes, (size_t)size);
     packed->size = size;
     return TL_OK;
 }
@@ -409,7 +409,7 @@ tl_result tl_floors_unpack(const tl_packed_floors *packed, tl_floors_scratch *sc
     scratch->links = links;
     scratch->even = counts; // whose last reader is done
     scratch->is_done = (uint8_t *)(counts + packed->frame.width);
-    memcpy(base_area, compact_out->area, spans);
+    memcpy(base_area, compact_out->area, (size_t)spans);
     *base_area_out = base_area;
     return TL_OK;
 }

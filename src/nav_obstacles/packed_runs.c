@@ -51,7 +51,7 @@ uint8_t *tl_packed_runs_write(const tl_value_array *values, uint8_t *to)
         }
         const uint64_t literals = end - i < MAX_PACKED_LITERALS ? end - i : MAX_PACKED_LITERALS;
         *to++ = (uint8_t)(literals - 1);
-        memcpy(to, values->bytes + i * values->size, literals * values->size);
+        memcpy(to, values->bytes + i * values->size, (size_t)literals * values->size);
         to += literals * values->size;
         i += literals;
     }

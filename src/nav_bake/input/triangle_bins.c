@@ -75,7 +75,7 @@ static bool place_table_make(place_table *table, uint64_t size, const tl_allocat
     table->bins = table->places + size;
     table->mask = size - 1;
     table->count = 0;
-    memset(table->places, 0xff, size * sizeof *table->places);
+    memset(table->places, 0xff, (size_t)size * sizeof *table->places);
     return true;
 }
 
@@ -196,7 +196,7 @@ static tl_result keep_bins(bin_source *source, tl_triangle_bins *bins)
 static tl_result count_triangles(const bin_source *source, tl_triangle_bins *bins)
 {
     uint64_t total = 0;
-    memset(bins->first, 0, (bins->bin_count + 1) * sizeof *bins->first);
+    memset(bins->first, 0, (size_t)(bins->bin_count + 1) * sizeof *bins->first);
     for (uint32_t i = 0; i < source->list.count; i++) {
         const bin_range range = listed_range(source, i);
         if (range.x1 < range.x0) {
@@ -233,7 +233,7 @@ static void fill_bins(const bin_source *source, tl_triangle_bins *bins)
             }
         }
     }
-    memmove(bins->first + 1, bins->first, bins->bin_count * sizeof *bins->first);
+    memmove(bins->first + 1, bins->first, (size_t)bins->bin_count * sizeof *bins->first);
     bins->first[0] = 0;
 }
 

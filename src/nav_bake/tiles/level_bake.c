@@ -159,7 +159,7 @@ static tl_result allocate_stacks(level_job *job, uint64_t count)
         return TL_ERR_MEMORY;
     }
     job->stack_count = count;
-    memset(job->stacks, 0, count * sizeof *job->stacks);
+    memset(job->stacks, 0, (size_t)count * sizeof *job->stacks);
     return TL_OK;
 }
 

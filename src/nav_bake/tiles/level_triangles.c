@@ -105,8 +105,8 @@ static bool cells_of_triangle(const tl_nav_triangles *t, const tl_mesh_view *mes
 static uint64_t count_members(tl_nav_triangles *t, const tl_mesh_view *mesh)
 {
     uint64_t members = 0;
-    memset(t->first, 0, (cell_count_of(t) + 1) * sizeof *t->first);
-    memset(t->is_loose, 0, t->word_count * sizeof *t->is_loose);
+    memset(t->first, 0, (size_t)(cell_count_of(t) + 1) * sizeof *t->first);
+    memset(t->is_loose, 0, (size_t)t->word_count * sizeof *t->is_loose);
     t->changed_count = 0;
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         cell_range range;
@@ -157,8 +157,9 @@ static tl_result list_all_triangles(tl_nav_triangles *t, const tl_mesh_view *mes
         t->member_capacity = 0;
         t->members = tl_allocate_array(&t->allocator, count, sizeof *t->members);
         if (t->members == NULL) {
-            memset(t->first, 0, (cell_count_of(t) + 1) * sizeof *t->first); // all lists are empty, and all are loose
-            memset(t->is_loose, 0xff, t->word_count * sizeof *t->is_loose);
+            memset(t->first, 0,
+                   (size_t)(cell_count_of(t) + 1) * sizeof *t->first); // all lists are empty, and all are loose
+            memset(t->is_loose, 0xff, (size_t)t->word_count * sizeof *t->is_loose);
             return TL_ERR_MEMORY;
         }
         t->member_capacity = count;
@@ -181,10 +182,10 @@ static tl_result reserve_bits(tl_nav_triangles *t, uint32_t triangle_count)
         tl_release_array(&t->allocator, near, words, sizeof *near);
         return TL_ERR_MEMORY;
     }
-    memset(loose, 0, words * sizeof *loose);
-    memset(near, 0, words * sizeof *near);
+    memset(loose, 0, (size_t)words * sizeof *loose);
+    memset(near, 0, (size_t)words * sizeof *near);
     if (t->word_count > 0) {
-        memcpy(loose, t->is_loose, t->word_count * sizeof *loose);
+        memcpy(loose, t->is_loose, (size_t)t->word_count * sizeof *loose);
     }
     tl_release_array(&t->allocator, t->is_loose, t->word_count, sizeof *t->is_loose);
     tl_release_array(&t->allocator, t->is_near, t->word_count, sizeof *t->is_near);
@@ -305,7 +306,7 @@ tl_result tl_nav_triangles_change(tl_nav_triangles *triangles, const tl_mesh_vie
 // Marks what is listed in the cells of a window, and what is loose.
 static void mark_near(tl_nav_triangles *t, const tl_aabb *window)
 {
-    memcpy(t->is_near, t->is_loose, t->word_count * sizeof *t->is_near);
+    memcpy(t->is_near, t->is_loose, (size_t)t->word_count * sizeof *t->is_near);
     const cell_range range = cells_of_box(t, window);
     for (uint32_t z = range.first_z; z < range.end_z; z++) {
         const uint32_t *first = t->first + (uint64_t)z * t->cells_x;

@@ -73,7 +73,7 @@ static uint64_t *grow_words(const tl_allocator *allocator, uint64_t *words, uint
 {
     uint64_t *grown = tl_allocate_array(allocator, capacity, sizeof *grown);
     if (grown != NULL && words != NULL) {
-        memcpy(grown, words, count * sizeof *grown);
+        memcpy(grown, words, (size_t)count * sizeof *grown);
     }
     if (grown != NULL) {
         tl_release_array(allocator, words, old_capacity, sizeof *words);
@@ -377,7 +377,7 @@ static tl_result join_late(tl_span_buffer *buffer, uint32_t column, const tl_spa
     }
     tl_span_item *items = buffer->column;
     list_items(buffer, column, items);
-    memcpy(items + listed, late, late_count * sizeof *late);
+    memcpy(items + listed, late, (size_t)late_count * sizeof *late);
     sort_items(items, (uint32_t)count);
     uint32_t span_count = 0;
     for (uint64_t begin = 0; begin < count;) {
@@ -401,7 +401,7 @@ static tl_result make_span_room(tl_span_buffer *buffer, uint64_t used, uint64_t 
         return TL_ERR_MEMORY;
     }
     if (used > 0) {
-        memcpy(grown, buffer->spans, used * sizeof *grown);
+        memcpy(grown, buffer->spans, (size_t)used * sizeof *grown);
     }
     tl_release_array(buffer->allocator, buffer->spans, buffer->span_capacity, sizeof *grown);
     buffer->spans = grown;

@@ -47,8 +47,8 @@ static tl_result list_new_polygons(tl_nav_corner_look *look)
     if (look->is_new == NULL || look->last_anew == NULL) {
         return TL_ERR_MEMORY;
     }
-    memset(look->is_new, 0, count * sizeof *look->is_new);
-    memset(look->last_anew, 0, count * sizeof *look->last_anew);
+    memset(look->is_new, 0, (size_t)count * sizeof *look->is_new);
+    memset(look->last_anew, 0, (size_t)count * sizeof *look->last_anew);
     for (uint64_t i = 0; i < c->slots.count; i++) {
         const uint32_t slot = c->slots.numbers[i], first = look->first_polygon[slot];
         if ((c->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0) {

@@ -69,7 +69,7 @@ static uint32_t find_same(const tl_nav_tile_stack *stack, const tl_nav_tile *til
 {
     uint32_t i = 0;
     while (i < stack->count && (stack->tiles[i] == NULL || stack->tiles[i]->blob.size != tile->blob.size ||
-                                memcmp(stack->tiles[i], tile, tile->blob.size) != 0)) {
+                                memcmp(stack->tiles[i], tile, (size_t)tile->blob.size) != 0)) {
         i++;
     }
     return i;

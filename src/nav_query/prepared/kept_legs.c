@@ -159,7 +159,7 @@ static tl_result trim(const tl_allocator *allocator, tl_nav_ref **list, uint64_t
         return TL_ERR_MEMORY;
     }
     if (count > 0) {
-        memcpy(exact, *list, count * sizeof *exact);
+        memcpy(exact, *list, (size_t)count * sizeof *exact);
     }
     tl_release_array(allocator, *list, capacity, sizeof *exact);
     *list = exact;

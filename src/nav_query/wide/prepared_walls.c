@@ -57,14 +57,14 @@ static void *append_items(wall_baker *b, item_list *l, uint64_t count)
     if (l->count + count > l->capacity) {
         const tl_allocator *allocator = &b->navmesh->allocator;
         uint64_t capacity = 2 * (l->count + count);
-        char *grown = tl_allocate_array(allocator, capacity, l->size);
+        char *grown = tl_allocate_array(allocator, capacity, (size_t)l->size);
         if (grown == NULL) {
             return NULL;
         }
         if (l->count > 0) {
-            memcpy(grown, l->at, l->count * l->size);
+            memcpy(grown, l->at, (size_t)(l->count * l->size));
         }
-        tl_release_array(allocator, l->at, l->capacity, l->size);
+        tl_release_array(allocator, l->at, l->capacity, (size_t)l->size);
         l->at = grown;
         l->capacity = capacity;
     }
@@ -247,7 +247,7 @@ static tl_nav_kept_walls *pack_walls(const wall_baker *b, uint32_t polygons, uin
     for (int i = 0; i < 5; i++) {
         to[i] = at;
         if (sizes[i] > 0) {
-            memcpy(at, from[i], sizes[i]);
+            memcpy(at, from[i], (size_t)sizes[i]);
         }
         at += sizes[i];
     }
@@ -410,7 +410,7 @@ tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_def *de
     tl_nav_query_release(b.query);
     item_list *lists[3] = { &b.walls, &b.hits, &b.pairs };
     for (int i = 0; i < 3; i++) {
-        tl_release_array(&navmesh->allocator, lists[i]->at, lists[i]->capacity, lists[i]->size);
+        tl_release_array(&navmesh->allocator, lists[i]->at, lists[i]->capacity, (size_t)lists[i]->size);
     }
     if (report_out != NULL) {
         fill_report(navmesh, made, report_out);

@@ -22,7 +22,7 @@ static tl_result reserve_store(tl_arena *arena, void **array, uint64_t used, uin
         return TL_ERR_MEMORY;
     }
     if (used > 0) {
-        memcpy(larger, *array, used * size);
+        memcpy(larger, *array, (size_t)used * size);
     }
     *array = larger;
     return TL_OK;

@@ -46,7 +46,7 @@ static void *grow_edges(tl_arena *arena, const void *old, uint64_t old_count, ui
 {
     void *array = tl_arena_push(arena, new_count, size);
     if (array != NULL && old_count > 0) {
-        memcpy(array, old, old_count * size);
+        memcpy(array, old, (size_t)old_count * size);
     }
     return array;
 }

@@ -17,6 +17,6 @@ bool tl_key_table_init(tl_key_table *table, tl_arena *arena, uint64_t count)
     if (table->entries == NULL) {
         return false;
     }
-    memset(table->entries, 0xff, size * sizeof *table->entries);
+    memset(table->entries, 0xff, (size_t)size * sizeof *table->entries);
     return true;
 }

@@ -147,7 +147,7 @@ static void build_subtree(uint32_t index, uint32_t worker, void *user)
         built->nodes = tl_allocate_array(tasks->allocator, list->count, sizeof *built->nodes);
         built->count = (uint32_t)list->count;
         if (built->nodes != NULL) {
-            memcpy(built->nodes, list->nodes, list->count * sizeof *built->nodes);
+            memcpy(built->nodes, list->nodes, (size_t)list->count * sizeof *built->nodes);
         }
     }
 }

@@ -99,7 +99,7 @@ static bool grow_kd_array(kd_builder *b, void **array, uint64_t *capacity, uint6
         return false;
     }
     if (*capacity > 0) {
-        memcpy(larger, *array, *capacity * size);
+        memcpy(larger, *array, (size_t)*capacity * size);
     }
     tl_release_array(b->allocator, *array, *capacity, size);
     *array = larger;

@@ -177,7 +177,7 @@ uint32_t tl_encode_id(const tl_soup_encoder *b, const tl_bvh_ref *ref, uint32_t 
 static void write_leaf(const tl_soup_encoder *b, const tl_bvh_node *node, tl_soup_leaf *leaf)
 {
     uint32_t n = tl_bvh_leaf_count(node);
-    memset(leaf, 0, tl_leaf_size(n));
+    memset(leaf, 0, (size_t)tl_leaf_size(n));
     leaf->tagged_count = TL_LEAF_TAG | n;
     uint32_t *ids = (uint32_t *)(void *)(leaf + 1);
     float *floats = (float *)(void *)(ids + 2 * (size_t)n);
