@@ -9,6 +9,7 @@
 
 #include <talus/hull.h>
 
+#include <math.h>
 #include <string.h>
 
 enum { MAX_POINTS = 64 };
@@ -67,18 +68,21 @@ static void transform(const tl_hull *hull, tl_vec3 scale, tl_vec3 turn, tl_vec3 
     }
 }
 
-static void build(const tl_vec3 *points, uint32_t count, uint32_t limit)
+static void build(const tl_vec3 *points, uint32_t count, uint32_t limit, float tolerance)
 {
     tl_hull_def def = tl_default_hull_def();
     def.flatness = 0.0f;
     def.max_vertices = limit;
+    def.tolerance = tolerance;
     tl_hull *hull;
-    if (tl_hull_bake(points, count, &def, &hull, NULL) != TL_OK) {
+    tl_hull_report report;
+    if (tl_hull_bake(points, count, &def, &hull, &report) != TL_OK) {
         return;
     }
+    require(limit != 0 || report.max_outside <= (double)tolerance * 1.000001);
     require(tl_hull_check(hull, hull->blob.size, NULL) == TL_OK);
     tl_result proof = tl_hull_validate(hull, points, count, NULL);
-    require(proof == TL_OK || (limit != 0 && proof == TL_ERR_RANGE));
+    require(proof == TL_OK || ((limit != 0 || tolerance > 0.0f) && proof == TL_ERR_RANGE));
     for (uint32_t i = 0; i < count; i++) {
         use(hull, points[i]);
         require_farthest(hull, points[i], i);
@@ -108,7 +112,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                                            (float)(data[at + 2] % 8));
         }
     }
-    build(points, count, data[1] % 4 == 0 ? 4u + data[1] / 4u : 0);
+    // A tolerance from far below one rounding to far above the size.
+    const float tolerance = data[1] % 4 == 2 ? ldexpf(1.0f, (int)(data[1] / 4u) - 32) : 0.0f;
+    build(points, count, data[1] % 4 == 0 ? 4u + data[1] / 4u : 0, tolerance);
     if (data[1] % 4 == 1) {
         merge(points, count, 0.001f * (float)(data[1] / 4u) * (float)(data[1] / 4u), data[0] % 2 != 0 ? 0.3f : 0.0f);
     }

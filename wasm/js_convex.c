@@ -50,11 +50,12 @@ static tl_hull *put_hull(tl_result *result, tl_hull *hull, const tl_hull_report 
 }
 
 /// Slot: the result, then the report.
-tl_hull *TL_JS_FULL_EXPORT(js_hull_bake)(const tl_vec3 *points, uint32_t count, uint32_t max_vertices, float thickness,
-                                         float flatness, float weld_distance, float merge_distance)
+tl_hull *TL_JS_FULL_EXPORT(js_hull_bake)(const tl_vec3 *points, uint32_t count, uint32_t max_vertices, float tolerance,
+                                         float thickness, float flatness, float weld_distance, float merge_distance)
 {
     tl_hull_def def = tl_default_hull_def();
     def.max_vertices = max_vertices;
+    def.tolerance = tolerance;
     def.thickness = thickness;
     def.flatness = flatness;
     def.weld_distance = weld_distance;

@@ -23,6 +23,8 @@ void tl_hull_options(tl_hull_settings *settings, tl_option table[TL_HULL_OPTIONS
           0, 0, 0, 0 },
         { "max-vertices", 0, TL_OPTION_COUNT, &settings->max_vertices, "N", "most vertices, from 4; 0: no limit", NULL,
           0, 0, 0, 0 },
+        { "tolerance", 0, TL_OPTION_FLOAT, &settings->tolerance, "M",
+          "metres: points may lie this far outside, for fewer vertices; 0: none does", NULL, 0, 1e6f, 0, 0 },
         { "thickness", 0, TL_OPTION_FLOAT, &settings->thickness, "M",
           "metres: make flat input, a line or a single point this thick; 0: refuse it", NULL, 0, 1e6f, 0, 0 },
         { "weld-distance", 0, TL_OPTION_FLOAT, &settings->weld_distance, "M",
@@ -54,6 +56,7 @@ tl_result tl_hull_bake_cloud(tl_cli *cli, const tl_hull_settings *settings, tl_p
 {
     tl_hull_def def = tl_default_hull_def();
     def.max_vertices = settings->max_vertices;
+    def.tolerance = settings->tolerance;
     def.thickness = settings->thickness;
     def.weld_distance = settings->weld_distance;
     def.merge_distance = settings->merge_distance;

@@ -14,10 +14,10 @@ typedef struct tl_hull_settings {
     tl_level_settings level; ///< weld is not used: a hull welds by itself
     uint32_t index;          ///< which cloud of a file of several
     uint32_t max_vertices;
-    float thickness, weld_distance, merge_distance;
+    float tolerance, thickness, weld_distance, merge_distance;
 } tl_hull_settings;
 
-enum { TL_HULL_OPTIONS = 8 };
+enum { TL_HULL_OPTIONS = 9 };
 
 tl_hull_settings tl_default_hull_settings(void);
 void tl_hull_options(tl_hull_settings *settings, tl_option table[TL_HULL_OPTIONS]);

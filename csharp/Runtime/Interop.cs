@@ -415,6 +415,7 @@ namespace Talus.Interop
     public unsafe struct tl_hull_def
     {
         public uint max_vertices;
+        public float tolerance;
         public float thickness;
         public float flatness;
         public float weld_distance;

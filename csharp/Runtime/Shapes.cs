@@ -10,6 +10,8 @@ namespace Talus
     {
         /// <summary>0: no limit; else 4 or more. The farthest points come first, so those that matter are kept.</summary>
         public int MaxVertices;
+        /// <summary>Metres: points may lie this far outside, for fewer corners. 0: none does.</summary>
+        public float Tolerance;
         /// <summary>Metres: points without volume are made this thick instead of being refused.</summary>
         public float Thickness;
         /// <summary>Points count as flat when they are thinner than this many roundings of their largest coordinate.</summary>
@@ -31,6 +33,7 @@ namespace Talus
             {
                 tl_hull_def def = Api.tl_default_hull_def();
                 def.max_vertices = (uint)MaxVertices;
+                def.tolerance = Tolerance;
                 def.thickness = Thickness;
                 def.flatness = Flatness;
                 def.weld_distance = WeldDistance;

@@ -83,10 +83,11 @@ static unsafe class Layout
         Test.Equal(80, (byte*)&((tl_halfedge_mesh*)at)->allocator - at, "tl_halfedge_mesh.allocator");
         Test.Equal(56, sizeof(tl_hull_def), "tl_hull_def");
         Test.Equal(0, (byte*)&((tl_hull_def*)at)->max_vertices - at, "tl_hull_def.max_vertices");
-        Test.Equal(4, (byte*)&((tl_hull_def*)at)->thickness - at, "tl_hull_def.thickness");
-        Test.Equal(8, (byte*)&((tl_hull_def*)at)->flatness - at, "tl_hull_def.flatness");
-        Test.Equal(12, (byte*)&((tl_hull_def*)at)->weld_distance - at, "tl_hull_def.weld_distance");
-        Test.Equal(16, (byte*)&((tl_hull_def*)at)->merge_distance - at, "tl_hull_def.merge_distance");
+        Test.Equal(4, (byte*)&((tl_hull_def*)at)->tolerance - at, "tl_hull_def.tolerance");
+        Test.Equal(8, (byte*)&((tl_hull_def*)at)->thickness - at, "tl_hull_def.thickness");
+        Test.Equal(12, (byte*)&((tl_hull_def*)at)->flatness - at, "tl_hull_def.flatness");
+        Test.Equal(16, (byte*)&((tl_hull_def*)at)->weld_distance - at, "tl_hull_def.weld_distance");
+        Test.Equal(20, (byte*)&((tl_hull_def*)at)->merge_distance - at, "tl_hull_def.merge_distance");
         Test.Equal(24, (byte*)&((tl_hull_def*)at)->host - at, "tl_hull_def.host");
         Test.Equal(48, (byte*)&((tl_hull_def*)at)->cookie - at, "tl_hull_def.cookie");
         Test.Equal(80, sizeof(tl_hull_report), "tl_hull_report");

@@ -187,10 +187,12 @@ static class Tests
         }
         using (Hull exact = Hull.Bake(uneven))
         using (Hull merged = Hull.Bake(uneven, new HullSettings { WeldDistance = 0.01f, MergeDistance = 0.01f }))
+        using (Hull rough = Hull.Bake(uneven, new HullSettings { Tolerance = 0.01f }))
         using (Hull four = Hull.Bake(uneven, new HullSettings { MaxVertices = 4 }))
         {
             Test.That(exact.VertexCount > 8, "each point counts");
             Test.Equal(8, merged.VertexCount, "corners that are nearly one");
+            Test.Equal(8, rough.VertexCount, "corners within a tolerance");
             Test.Equal(4, four.VertexCount, "the farthest four");
         }
         Test.That(Test.Throws(() => Hull.Bake(cube, new HullSettings { MaxVertices = 3 })).Field == "max_vertices", "three corners");

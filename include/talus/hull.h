@@ -36,6 +36,9 @@ typedef struct tl_hull_def {
     /// 0: no limit; else >= 4. The points are added farthest first, so a hull that reaches the limit is the hull of
     /// those that matter most; the report says how far outside the others lie.
     uint32_t max_vertices;
+    /// Metres, >= 0. 0: no point lies outside. Else the points are added farthest first, and the hull is done when none
+    /// of the others lies farther outside than this: fewer corners, and sooner. 1e-3 is Jolt's mHullTolerance.
+    float tolerance;
     /// Metres, >= 0. 0: input without volume is refused (TL_ERR_COPLANAR, ...). Else it is made this thick, half to
     /// each side, along every direction in which it has no extent.
     float thickness;
@@ -58,9 +61,9 @@ typedef struct tl_hull_report {
     tl_report base;           ///< what failed, and where
     uint32_t triangle_count;  ///< of the hull before coplanar ones were merged
     bool thickened;           ///< the input had no volume, and was given the def's thickness
-    uint32_t points_left_out; ///< points outside, because max_vertices was reached
+    uint32_t points_left_out; ///< points outside, because max_vertices was reached or for the tolerance
     /// Metres, to double rounding: no point of the input lies farther outside of the hull. 0 where none was left out;
-    /// at most weld_distance + merge_distance, if max_vertices is 0.
+    /// at most tolerance + weld_distance + merge_distance, if max_vertices is 0.
     double max_outside;
     uint32_t corners_left_out; ///< of the exact hull, by weld_distance and merge_distance
 } tl_hull_report;

@@ -33,8 +33,8 @@ export class Hull extends Handle {
     const address = copyIn(array);
     try {
       return fromResult(watched(options, null, () => wasm.js_hull_bake(
-        address, Math.floor(array.length / 3), options.maxVertices ?? 0, options.thickness ?? 0, options.flatness ?? 8,
-        options.weldDistance ?? 0, options.mergeDistance ?? 0)));
+        address, Math.floor(array.length / 3), options.maxVertices ?? 0, options.tolerance ?? 0, options.thickness ?? 0,
+        options.flatness ?? 8, options.weldDistance ?? 0, options.mergeDistance ?? 0)));
     } finally {
       release(address);
     }

@@ -32,7 +32,10 @@ test('hulls of noisy points: corners welded, faces merged', () => {
   assert.deepEqual([merged.faceCount, merged.vertexCount, merged.report.cornersLeftOut > 0], [6, 8, true]);
   assert.ok(merged.report.maxOutside > 0 && merged.report.maxOutside <= 2e-3);
   assert.equal(exact.report.cornersLeftOut, 0);
+  const rough = Hull.bake(points, { tolerance: 1e-3 });
+  assert.ok(rough.vertexCount < exact.vertexCount && rough.report.maxOutside > 0 && rough.report.maxOutside <= 1e-3);
   assert.equal(errorOf(() => Hull.bake(points, { weldDistance: -1 })).field, 'weldDistance');
+  assert.equal(errorOf(() => Hull.bake(points, { tolerance: NaN })).field, 'tolerance');
 });
 
 test('every type of shape', () => {

@@ -11,7 +11,7 @@ static const tl_hull *hull_of(PyObject *capsule)
     return binding_blob_of(capsule, BINDING_HULL);
 }
 
-// hull_bake(points, max_vertices, thickness, flatness, weld distance, merge distance, progress)
+// hull_bake(points, max_vertices, tolerance, thickness, flatness, weld distance, merge distance, progress)
 // -> (capsule, points left out, metres outside)
 static PyObject *hull_bake(PyObject *self, PyObject *args)
 {
@@ -19,7 +19,7 @@ static PyObject *hull_bake(PyObject *self, PyObject *args)
     Py_buffer points;
     PyObject *progress;
     tl_hull_def def = tl_default_hull_def();
-    if (!PyArg_ParseTuple(args, "y*IffffO", &points, &def.max_vertices, &def.thickness, &def.flatness,
+    if (!PyArg_ParseTuple(args, "y*IfffffO", &points, &def.max_vertices, &def.tolerance, &def.thickness, &def.flatness,
                           &def.weld_distance, &def.merge_distance, &progress)) {
         return NULL;
     }

@@ -28,6 +28,7 @@ class Hull:
         points: ArrayLike,
         *,
         max_vertices: int = 0,
+        tolerance: float = 0.0,
         thickness: float = 0.0,
         flatness: float = 8.0,
         weld_distance: float = 0.0,
@@ -38,6 +39,7 @@ class Hull:
 
         Args:
             max_vertices: 0 is no limit; else at least 4. The farthest points come first, so those that matter are kept.
+            tolerance: metres; points may lie this far outside, for fewer vertices. 0: none does.
             thickness: metres; input without volume is made this thick instead of being refused.
             flatness: input counts as flat when it is thinner than this many roundings of its largest coordinate.
             weld_distance: metres; corners this close to an earlier one are left out.
@@ -50,6 +52,7 @@ class Hull:
         self._hull, self._left_out, self._max_outside = _talus.hull_bake(
             as_points(points, "points"),
             int(max_vertices),
+            float(tolerance),
             float(thickness),
             float(flatness),
             float(weld_distance),
@@ -123,7 +126,7 @@ class Hull:
 
     @property
     def points_left_out(self) -> int:
-        """Points that lie outside because ``max_vertices`` was reached."""
+        """Points that lie outside because ``max_vertices`` was reached or for the ``tolerance``."""
         return int(self._left_out)
 
     @property

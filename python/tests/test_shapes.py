@@ -100,6 +100,17 @@ def test_hull() -> None:
     assert (hull.support(directions) == best).all()
 
 
+def test_hull_within_a_tolerance() -> None:
+    ball = np.random.default_rng(5).normal(size=(2000, 3))
+    ball /= np.linalg.norm(ball, axis=1, keepdims=True)
+    hull = talus.Hull(ball, tolerance=0.01)
+    assert len(hull.vertices) < 500 and hull.points_left_out > 1500
+    assert 0.0 < hull.max_outside <= 0.01
+    with pytest.raises(talus.Error) as caught:
+        talus.Hull(ball, tolerance=-1.0)
+    assert caught.value.field == "tolerance"
+
+
 def test_hull_moves_and_mass() -> None:
     cube = talus.Hull([[x, y, z] for x in (0, 2) for y in (0, 2) for z in (0, 2)])
     assert len(cube) == 8

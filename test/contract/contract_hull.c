@@ -36,10 +36,11 @@ static tl_result hull_bake(contract_run *run)
         memset(&def, 0, sizeof def);
     } else if (run->what == CONTRACT_BAD_FIELD) {
         def.max_vertices = run->variant == 0 ? 3 : 0;
-        def.thickness = run->variant == 1 ? -1.0f : 0.0f;
-        def.flatness = run->variant == 2 ? NAN : 8.0f;
-        def.weld_distance = run->variant == 3 ? -1.0f : 0.0f;
-        def.merge_distance = run->variant == 4 ? INFINITY : 0.0f;
+        def.tolerance = run->variant == 1 ? -1.0f : 0.0f;
+        def.thickness = run->variant == 2 ? -1.0f : 0.0f;
+        def.flatness = run->variant == 3 ? NAN : 8.0f;
+        def.weld_distance = run->variant == 4 ? -1.0f : 0.0f;
+        def.merge_distance = run->variant == 5 ? INFINITY : 0.0f;
     }
     def.host = *run->host;
     tl_hull *hull = NULL;
@@ -124,7 +125,7 @@ static tl_result hull_validate(contract_run *run)
     return result;
 }
 
-static const char *const HULL_FIELDS[] = { "max_vertices",  "thickness",      "flatness",
+static const char *const HULL_FIELDS[] = { "max_vertices",  "tolerance",      "thickness", "flatness",
                                            "weld_distance", "merge_distance", NULL };
 
 enum {

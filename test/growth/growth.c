@@ -298,6 +298,13 @@ ALONE void growth_measured(work *w)
         tl_hull *hull = NULL;
         w->result = tl_hull_bake(w->view.vertices, w->view.vertex_count, NULL, &hull, NULL);
         tl_blob_free(hull);
+    } else if (strcmp(w->operation, "hull-tolerance") == 0) {
+        tl_hull_def def = tl_default_hull_def();
+        def.tolerance = 1e-3f;
+        tl_hull *hull = NULL;
+        tl_hull_report report;
+        w->result = tl_hull_bake(w->view.vertices, w->view.vertex_count, &def, &hull, &report);
+        tl_blob_free(hull);
     } else if (strcmp(w->operation, "nav") == 0) {
         w->result = bake_nav_of(w);
     } else if (strcmp(w->operation, "polygons") == 0) {

@@ -212,6 +212,96 @@ static void test_reduction_is_graceful(void **state)
     free(points);
 }
 
+// The hull within a tolerance: proven, and no point farther outside by GJK than the tolerance and the report say.
+static uint32_t check_tolerance(const tl_vec3 *points, uint32_t count, float tolerance)
+{
+    tl_hull_def def = tl_default_hull_def();
+    def.tolerance = tolerance;
+    tl_hull *hull, *again;
+    tl_hull_report report;
+    TEST_RESULT(tl_hull_bake(points, count, &def, &hull, &report), TL_OK);
+    TEST_RESULT(tl_hull_bake(points, count, &def, &again, NULL), TL_OK);
+    TEST_CHECK(hull->blob.size == again->blob.size && memcmp(hull, again, hull->blob.size) == 0);
+    TEST_RESULT(tl_hull_validate(hull, NULL, 0, NULL), TL_OK);
+    const double farthest = farthest_outside(hull, points, count);
+    TEST_CHECK(report.max_outside <= (double)tolerance * 1.000001);
+    TEST_CHECK(fabs(report.max_outside - farthest) <= 2e-6 * farthest);
+    const uint32_t vertex_count = hull->vertex_count;
+    tl_blob_free(hull);
+    tl_blob_free(again);
+    return vertex_count;
+}
+
+static void test_tolerance_is_kept(void **state)
+{
+    (void)state;
+    enum { N = 1200 };
+    static const float tolerances[] = { 1e-6f, 1e-3f, 0.02f, 0.3f, 1e3f };
+    tl_vec3 *points = malloc(N * sizeof *points);
+    uint32_t fewer = 0;
+    for (int kind = 0; kind < SHAPE_COUNT; kind++) {
+        test_random random = { (uint64_t)kind };
+        shape_make((shape_kind)kind, &random, points, N);
+        tl_hull *exact = build(points, N);
+        for (size_t i = 0; i < sizeof tolerances / sizeof *tolerances; i++) {
+            const uint32_t count = check_tolerance(points, N, tolerances[i]);
+            TEST_CHECK(count <= exact->vertex_count);
+            fewer += count < exact->vertex_count;
+        }
+        tl_blob_free(exact);
+    }
+    TEST_CHECK(fewer > SHAPE_COUNT);
+    free(points);
+}
+
+// Points that are near to the plane of a large face and far from the hull: round a thin plate, and on needles. Of a
+// plate's rim as many corners are left as of a polygon's: within 1e-3 of a circle some hundred.
+static void test_thin_bodies_keep_the_tolerance(void **state)
+{
+    (void)state;
+    enum { N = 2000 };
+    tl_vec3 *points = malloc(N * sizeof *points);
+    for (int power = 2; power <= 5; power++) {
+        const float half = powf(10.0f, -(float)power);
+        test_random random = { (uint64_t)power };
+        for (uint32_t i = 0; i < N; i++) {
+            const double angle = 6.283185307179586 * (double)test_random_unit(&random);
+            points[i] =
+                tl_vec3_make((float)cos(angle), half * test_random_range(&random, -1.0f, 1.0f), (float)sin(angle));
+        }
+        TEST_CHECK(check_tolerance(points, N, 1e-3f) < 300);
+        TEST_CHECK(check_tolerance(points, N, 1e-2f) < 100);
+        for (uint32_t i = 0; i < N; i++) { // needles out of one point, each with two points near its tip
+            const tl_vec3 tip = test_random_direction(&random);
+            points[i] = tl_add(tl_scale(tip, i % 2 == 0 ? 1.0f : 0.9f), tl_scale(test_random_direction(&random), half));
+        }
+        check_tolerance(points, N, half);
+        check_tolerance(points, N, 0.1f * half);
+    }
+    free(points);
+}
+
+// Faces whose normal has no length in double are no reason to leave a point out.
+static void test_tiny_faces_leave_no_point_out(void **state)
+{
+    (void)state;
+    const tl_vec3 points[] = {
+        { -2.159042e-27f, 1.15000361e-40f, 1.68523662e+22f },  { 1.68523662e+22f, 1.68523662e+22f, 1.68523662e+22f },
+        { 1.68523662e+22f, 1.68523662e+22f, 1.20562128e+22f }, { 1.68523662e+22f, 1.68523662e+22f, -0.670211792f },
+        { -1.49779499f, 1.12103877e-44f, 5.60519386e-45f },    { 1.22568622e-13f, 3.51725915e-43f, 2.38814189e-39f },
+        { 2.13462853e-30f, 2.40616175e-38f, 2.5238478e-11f }
+    };
+    tl_hull_def def = tl_default_hull_def();
+    def.flatness = 0.0f;
+    for (def.tolerance = 0.5f; def.tolerance >= 1e-9f; def.tolerance *= 0.01f) {
+        tl_hull *hull;
+        tl_hull_report report;
+        TEST_RESULT(tl_hull_bake(points, sizeof points / sizeof *points, &def, &hull, &report), TL_OK);
+        TEST_CHECK(report.max_outside <= (double)def.tolerance && hull->vertex_count == 5);
+        tl_blob_free(hull);
+    }
+}
+
 static void test_same_points_same_bytes(void **state)
 {
     (void)state;
@@ -310,6 +400,9 @@ int main(void)
         cmocka_unit_test(test_bad_points_and_defs_are_refused),
         cmocka_unit_test(test_a_cube_is_a_cube),
         cmocka_unit_test(test_reduction_is_graceful),
+        cmocka_unit_test(test_tolerance_is_kept),
+        cmocka_unit_test(test_thin_bodies_keep_the_tolerance),
+        cmocka_unit_test(test_tiny_faces_leave_no_point_out),
         cmocka_unit_test(test_same_points_same_bytes),
         cmocka_unit_test(test_golden_hash),
         cmocka_unit_test(test_memory_runs_out),

@@ -21,6 +21,8 @@ export type Shape =
 export interface HullOptions extends BakeHooks {
   /** 0: no limit, else >= 4. Default 0. */
   maxVertices?: number;
+  /** Metres, >= 0: points may lie this far outside, for fewer corners. Default 0: none does. */
+  tolerance?: number;
   /** Metres, >= 0: how thick input without volume is made. Default 0: it is refused. */
   thickness?: number;
   /** Half ulps of the largest coordinate: input this thin counts as flat. Default 8. */
@@ -35,7 +37,7 @@ export interface HullReport {
   /** Before coplanar ones were merged. */
   triangleCount: number;
   thickened: boolean;
-  /** Points outside, because maxVertices was reached. */
+  /** Points outside, because maxVertices was reached or for the tolerance. */
   pointsLeftOut: number;
   /** Metres: no point of the input lies farther outside of the hull. */
   maxOutside: number;

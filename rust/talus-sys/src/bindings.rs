@@ -327,6 +327,7 @@ pub struct tl_halfedge_mesh {
 #[derive(Clone, Copy)]
 pub struct tl_hull_def {
     pub max_vertices: u32,
+    pub tolerance: f32,
     pub thickness: f32,
     pub flatness: f32,
     pub weld_distance: f32,
@@ -4341,10 +4342,11 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_halfedge_mesh, allocator), 80);
         assert_eq!(core::mem::size_of::<tl_hull_def>(), 56);
         assert_eq!(core::mem::offset_of!(tl_hull_def, max_vertices), 0);
-        assert_eq!(core::mem::offset_of!(tl_hull_def, thickness), 4);
-        assert_eq!(core::mem::offset_of!(tl_hull_def, flatness), 8);
-        assert_eq!(core::mem::offset_of!(tl_hull_def, weld_distance), 12);
-        assert_eq!(core::mem::offset_of!(tl_hull_def, merge_distance), 16);
+        assert_eq!(core::mem::offset_of!(tl_hull_def, tolerance), 4);
+        assert_eq!(core::mem::offset_of!(tl_hull_def, thickness), 8);
+        assert_eq!(core::mem::offset_of!(tl_hull_def, flatness), 12);
+        assert_eq!(core::mem::offset_of!(tl_hull_def, weld_distance), 16);
+        assert_eq!(core::mem::offset_of!(tl_hull_def, merge_distance), 20);
         assert_eq!(core::mem::offset_of!(tl_hull_def, host), 24);
         assert_eq!(core::mem::offset_of!(tl_hull_def, cookie), 48);
         assert_eq!(core::mem::size_of::<tl_hull_report>(), 80);

@@ -13,6 +13,8 @@ use crate::{Error, Point};
 pub struct HullSettings {
     /// 0: no limit; else 4 or more. The farthest points come first, so those that matter are kept.
     pub max_vertices: u32,
+    /// Metres: points may lie this far outside, for fewer corners. 0: none does.
+    pub tolerance: f32,
     /// Metres: points without volume are made this thick instead of being refused.
     pub thickness: f32,
     /// Points count as flat when they are thinner than this many roundings of their largest coordinate.
@@ -29,6 +31,7 @@ impl Default for HullSettings {
         let def = unsafe { sys::tl_default_hull_def() };
         HullSettings {
             max_vertices: def.max_vertices,
+            tolerance: def.tolerance,
             thickness: def.thickness,
             flatness: def.flatness,
             weld_distance: def.weld_distance,
@@ -62,6 +65,7 @@ impl Hull {
         let report = unsafe {
             let mut def = sys::tl_default_hull_def();
             def.max_vertices = settings.max_vertices;
+            def.tolerance = settings.tolerance;
             def.thickness = settings.thickness;
             def.flatness = settings.flatness;
             def.weld_distance = settings.weld_distance;

@@ -209,6 +209,8 @@ fn hulls_keep_their_distance() {
     assert_eq!(hull.vertex_count(), 8);
     assert!(outside > 0.0 && outside <= 2e-2);
     assert_eq!(Hull::bake_with(&CUBE, &HullSettings { max_vertices: 4, ..settings }).unwrap().0.vertex_count(), 4);
+    let (rough, outside) = Hull::bake_with(&uneven, &HullSettings { tolerance: 1e-2, ..Default::default() }).unwrap();
+    assert!(rough.vertex_count() == 8 && outside > 0.0 && outside <= 1e-2);
     let error = Hull::bake_with(&CUBE, &HullSettings { max_vertices: 3, ..settings }).err().unwrap();
     assert_eq!((error.kind(), error.field()), (ErrorKind::Argument, Some("max_vertices")));
     assert_eq!(Hull::bake(&[[f32::INFINITY; 3]; 4]).err().unwrap().kind(), ErrorKind::NotFinite);

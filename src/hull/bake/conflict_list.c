@@ -7,7 +7,7 @@
 // faces at some horizon edge, and the new face there lies between the two. The newest face is refined first: the step
 // after it works on the same few faces and points, which are in the cache, and a point is refiled half as often as when
 // faces wait in a ring. Clarkson, Shor, Applications of Random Sampling in Computational Geometry, 1989, keep all
-// conflicts; one is enough.
+// conflicts; one is enough. Of many points the farthest of all are added first (quickhull.c).
 
 #include "hull/bake/quickhull.h"
 
@@ -52,6 +52,36 @@ tl_result tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4])
     return TL_OK;
 }
 
+// Files a point under one of the created faces that it is in front of: the first one, or when each_farthest that from
+// whose plane it lies farthest. False: it is in front of none.
+static bool file_under_created(tl_quickhull *hull, uint32_t point)
+{
+    const tl_vec3 position = hull->local[point].position;
+    uint32_t best = TL_NONE;
+    double best_distance = -(double)INFINITY, best_value = 0.0;
+    for (uint32_t k = 0; k < hull->created_count; k++) {
+        const uint32_t face = hull->created[k];
+        double value;
+        if (tl_quickhull_side(hull, &hull->faces[face], position, &value) <= 0) {
+            continue;
+        }
+        if (!hull->each_farthest) {
+            file_under(hull, face, point, value);
+            return true;
+        }
+        const double distance = value / tl_side_plane_length(&hull->faces[face].plane);
+        if (distance > best_distance) {
+            best = face;
+            best_distance = distance;
+            best_value = value;
+        }
+    }
+    if (best != TL_NONE) {
+        file_under(hull, best, point, best_value);
+    }
+    return best != TL_NONE;
+}
+
 tl_result tl_quickhull_refile(tl_quickhull *hull)
 {
     // The new point lies in the planes of all created faces: it needs no test, and a test would be the costly case.
@@ -60,18 +90,9 @@ tl_result tl_quickhull_refile(tl_quickhull *hull)
         uint32_t p = hull->conflicts[hull->visible[i]].first;
         while (p != TL_NONE) {
             uint32_t next = hull->local[p].next;
-            tl_vec3 position = hull->local[p].position;
             TL_TRY(tl_quickhull_count_work(hull, 1));
-            uint32_t k = p != eye ? 0 : hull->created_count;
-            for (; k < hull->created_count; k++) {
-                uint32_t face = hull->created[k];
-                double value;
-                if (tl_quickhull_side(hull, &hull->faces[face], position, &value) > 0) {
-                    file_under(hull, face, p, value);
-                    break;
-                }
-            }
-            hull->waiting -= k == hull->created_count && p < hull->point_count; // inside, or on the surface
+            const bool is_outside = p != eye && file_under_created(hull, p);
+            hull->waiting -= !is_outside && p < hull->point_count; // inside, or on the surface
             p = next;
         }
     }
@@ -105,28 +126,44 @@ static tl_result push_waiting_face(tl_quickhull *hull, uint32_t face)
         hull->heap = grown;
     }
     const tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
-    tl_quickhull_entry entry = { conflicts->farthest_value / tl_side_plane_length(&hull->faces[face].plane), face,
-                                 conflicts->farthest };
+    const double distance = conflicts->farthest_value / tl_side_plane_length(&hull->faces[face].plane);
+    // Of a face so small that its normal is zero in double nothing is known: it comes first.
+    tl_quickhull_entry entry = { isnan(distance) ? (double)INFINITY : distance, face, conflicts->farthest };
     waiting_push(hull->heap, &hull->heap_count, entry, NULL);
     return TL_OK;
 }
 
-tl_result tl_quickhull_enqueue(tl_quickhull *hull, uint32_t face)
+static void list_waiting_face(tl_quickhull *hull, uint32_t face)
 {
     tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
-    if (conflicts->farthest == TL_NONE) {
-        return TL_OK;
-    }
-    if (hull->farthest_first) {
-        return push_waiting_face(hull, face);
-    }
     conflicts->newer = TL_NONE;
     conflicts->older = hull->newest;
     if (hull->newest != TL_NONE) {
         hull->conflicts[hull->newest].newer = face;
     }
     hull->newest = face;
+}
+
+tl_result tl_quickhull_enqueue(tl_quickhull *hull, uint32_t face)
+{
+    if (hull->conflicts[face].farthest == TL_NONE) {
+        return TL_OK;
+    }
+    if (hull->farthest_first) {
+        return push_waiting_face(hull, face);
+    }
+    list_waiting_face(hull, face);
     return TL_OK;
+}
+
+void tl_quickhull_end_order(tl_quickhull *hull)
+{
+    hull->farthest_first = false;
+    for (uint32_t face = 0; face < hull->face_count; face++) {
+        if (hull->conflicts[face].live && hull->conflicts[face].farthest != TL_NONE) {
+            list_waiting_face(hull, face);
+        }
+    }
 }
 
 void tl_quickhull_unqueue(tl_quickhull *hull, uint32_t face)
@@ -145,12 +182,12 @@ void tl_quickhull_unqueue(tl_quickhull *hull, uint32_t face)
     }
 }
 
-uint32_t tl_quickhull_dequeue(tl_quickhull *hull)
+uint32_t tl_quickhull_dequeue(tl_quickhull *hull, double enough)
 {
     if (!hull->farthest_first) {
         return hull->newest; // it leaves the list when it dies, for its farthest point sees it
     }
-    while (hull->heap_count > 0) {
+    while (hull->heap_count > 0 && hull->heap[0].distance > enough) {
         tl_quickhull_entry entry = waiting_pop(hull->heap, &hull->heap_count, NULL);
         const tl_quickhull_conflicts *conflicts = &hull->conflicts[entry.face];
         // An entry of a face that is gone, or whose place another one took, is dropped.

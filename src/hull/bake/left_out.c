@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Points that a hull leaves out, for its vertices are limited or its faces merged: how far they lie outside.
+// Points that a hull leaves out, for its vertices are limited, a tolerance lets them or its faces are merged: how far
+// they lie outside.
 //
 // The nearest point of a convex body lies on a face that the point is in front of. So the faces that it sees, flooded
 // as for a step of quickhull, are all that must be tested. For nearly every point that is not needed: its distance from
@@ -70,5 +71,36 @@ tl_result tl_quickhull_measure_left_out(tl_quickhull *hull, double allowed, uint
         }
     }
     *max_outside = sqrt(farthest_sq);
+    return TL_OK;
+}
+
+tl_result tl_quickhull_enqueue_beyond(tl_quickhull *hull, double allowed, bool *found)
+{
+    *found = false;
+    hull->heap_count = 0;
+    for (uint32_t face = 0; face < hull->face_count; face++) {
+        tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
+        uint32_t farthest = TL_NONE;
+        double farthest_sq = allowed * allowed;
+        for (uint32_t point = conflicts->live ? conflicts->first : TL_NONE; point != TL_NONE;
+             point = hull->local[point].next) {
+            const tl_vec3 position = hull->local[point].position;
+            if (distance_sq_to_face(hull, face, tl_vec3d_from(position)) <= farthest_sq) {
+                continue;
+            }
+            const double distance_sq = distance_sq_to_hull(hull, face, position);
+            TL_TRY(tl_quickhull_count_work(hull, hull->visible_count));
+            if (!(distance_sq <= farthest_sq)) { // not a number where faces are too small for double
+                farthest_sq = isnan(distance_sq) ? (double)INFINITY : distance_sq;
+                farthest = point;
+            }
+        }
+        if (farthest != TL_NONE) {
+            *found = true;
+            conflicts->farthest = farthest;
+            conflicts->farthest_value = sqrt(farthest_sq) * tl_side_plane_length(&hull->faces[face].plane);
+            TL_TRY(tl_quickhull_enqueue(hull, face));
+        }
+    }
     return TL_OK;
 }

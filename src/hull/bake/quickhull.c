@@ -22,6 +22,18 @@
 #define FACES_A_STEP 64u
 #define FACE_GROWTH  8u
 
+// Of many points most lie well inside: until the hull has some faces the farthest point of all is added, which leaves
+// those behind at once. From then on the newest face's is, as its neighbours and points are in the cache. Where a
+// tolerance or a number of vertices is to be met the order stays, and with a tolerance fewer points are enough from
+// then on, as each is filed where it tells most.
+enum { MANY_POINTS = 256, FIRST_LOOK = 24, FIRST_FACES = 128 };
+
+// In which points are measured for the tolerance: one for most bodies, up to a dozen for thin plates.
+enum { MAX_TOLERANCE_ROUNDS = 32 };
+
+// No point is near enough to a face's plane to stay outside.
+#define ANY_DISTANCE (-(double)INFINITY)
+
 // On the stack: enough for the hull of a dozen points.
 enum { MEMORY_BYTES = 8 * 1024 };
 
@@ -193,16 +205,54 @@ static tl_result make_tetrahedron(tl_quickhull *hull, const uint32_t seed[4])
     return TL_OK;
 }
 
+// Lets points wait that lie farther out than the tolerance, when none is left that lies so far from the plane of the
+// face that it is filed under: beside a sharp edge, or a thin plate's, a point may be near to one plane and far from
+// the hull. After some rounds whatever is outside waits, so that a body of needles is not measured once for each.
+// False: there are none.
+static tl_result find_beyond_tolerance(tl_quickhull *hull, uint32_t *rounds, double *enough, bool *found)
+{
+    *found = false;
+    if (*enough < 0.0) {
+        return TL_OK;
+    }
+    const bool is_last = (*rounds)++ == MAX_TOLERANCE_ROUNDS;
+    hull->each_farthest = true;
+    TL_TRY(tl_quickhull_enqueue_beyond(hull, is_last ? 0.0 : *enough, found));
+    *enough = is_last ? ANY_DISTANCE : *enough;
+    return TL_OK;
+}
+
+// Whether the farthest points have left behind what they can, or most points are corners, as of a ball.
+static bool is_order_spent(const tl_quickhull *hull)
+{
+    return hull->live_faces >= FIRST_FACES ||
+           (hull->live_faces >= FIRST_LOOK && hull->waiting > hull->point_count - hull->point_count / 16);
+}
+
 static tl_result add_farthest_points(tl_quickhull *hull, const tl_hull_def *def)
 {
+    const bool is_ordered = def->max_vertices != 0 || def->tolerance > 0.0f; // to the end
+    double enough = def->tolerance > 0.0f ? (double)def->tolerance : ANY_DISTANCE;
+    uint32_t rounds = 1;
     for (;;) {
         // A triangulated sphere of F faces has F / 2 + 2 vertices.
         if (def->max_vertices != 0 && hull->live_faces / 2 + 2 >= def->max_vertices) {
             return TL_OK;
         }
-        uint32_t face = tl_quickhull_dequeue(hull);
+        if (hull->live_faces >= FIRST_FACES) {
+            hull->each_farthest = def->tolerance > 0.0f;
+        }
+        if (hull->farthest_first && !is_ordered && is_order_spent(hull)) {
+            tl_quickhull_end_order(hull);
+        }
+        uint32_t face = tl_quickhull_dequeue(hull, enough);
         if (face == TL_NONE) {
-            return TL_OK;
+            bool found;
+            TL_TRY(find_beyond_tolerance(hull, &rounds, &enough, &found));
+            if (!found) {
+                return TL_OK;
+            }
+            continue;
         }
         TL_TRY(tl_quickhull_add_point(hull, face));
         TL_TRY(tl_quickhull_count_work(hull, hull->visible_count + hull->created_count));
@@ -236,7 +286,7 @@ tl_result tl_quickhull_build(tl_quickhull *hull, const tl_hull_def *def, tl_hull
     tl_report *base = report != NULL ? &report->base : NULL;
     uint32_t seed[4], rank;
     *copies_out = 1;
-    hull->farthest_first = def->max_vertices != 0;
+    hull->farthest_first = def->max_vertices != 0 || def->tolerance > 0.0f || hull->point_count >= MANY_POINTS;
     measure_box(hull, hull->point_count);
     tl_result result = tl_quickhull_seed(hull, (double)def->flatness, seed, &rank);
     if (result != TL_OK && def->thickness > 0.0f) {
@@ -328,6 +378,9 @@ static tl_result check_hull_def(const tl_hull_def *def, tl_report *report)
     TL_TRY(tl_def_check(def->cookie, "begin with tl_default_hull_def()", report));
     if (def->max_vertices != 0 && def->max_vertices < 4) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "max_vertices", "give 0 for no limit, or at least 4");
+    }
+    if (!(def->tolerance >= 0.0f) || !isfinite(def->tolerance)) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "tolerance", "give metres, 0 or more");
     }
     if (!(def->thickness >= 0.0f) || !isfinite(def->thickness)) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "thickness", "give metres, 0 or more");

@@ -78,6 +78,7 @@ typedef struct tl_quickhull {
     // Faces that wait: the newest first, or a heap when farthest_first.
     uint32_t newest;
     bool farthest_first;
+    bool each_farthest; // each point is filed under the face that it lies farthest from
     tl_quickhull_entry *heap;
     uint32_t heap_count, heap_capacity;
 } tl_quickhull;
@@ -149,10 +150,13 @@ tl_result tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4]);
 tl_result tl_quickhull_refile(tl_quickhull *hull);
 // Lets a new face wait for its turn, if it has points.
 tl_result tl_quickhull_enqueue(tl_quickhull *hull, uint32_t face);
+// When farthest_first: from now on the newest face is the next.
+void tl_quickhull_end_order(tl_quickhull *hull);
 // Takes a face that is about to die out of the waiting ones.
 void tl_quickhull_unqueue(tl_quickhull *hull, uint32_t face);
-// The next face with a point outside, or TL_NONE.
-uint32_t tl_quickhull_dequeue(tl_quickhull *hull);
+// The next face with a point outside, or TL_NONE; when farthest_first also where that lies no farther from the face's
+// plane than `enough`.
+uint32_t tl_quickhull_dequeue(tl_quickhull *hull, double enough);
 
 // horizon.c
 // Fills `visible` with the faces that a point, which is strictly in front of `first`, sees; and `horizon`.
@@ -165,6 +169,10 @@ tl_result tl_quickhull_add_point(tl_quickhull *hull, uint32_t face);
 // infinite. TL_ERR_CANCELLED.
 tl_result tl_quickhull_measure_left_out(tl_quickhull *hull, double allowed, uint32_t *beyond, uint32_t *beyond_count,
                                         double *max_outside);
+
+// When farthest_first and no face waits whose points lie far from its plane: lets the faces wait under which a point is
+// filed that lies farther out than `allowed`, that point first. `found`: there are some. TL_ERR_CANCELLED.
+tl_result tl_quickhull_enqueue_beyond(tl_quickhull *hull, double allowed, bool *found);
 
 // quickhull.c
 // As tl_hull_bake; `named` as in tl_quickhull.
