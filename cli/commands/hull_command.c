@@ -33,7 +33,7 @@ static json_t *hull_json(const tl_hull *hull, uint32_t points, const tl_hull_rep
     return object;
 }
 
-static void print_hull(const tl_hull *hull, uint32_t points, const tl_hull_report *report)
+static void print_hull(const tl_hull *hull, uint32_t points, const tl_hull_report *report, float tolerance)
 {
     const tl_hull_mass *mass = &hull->mass;
     if (points > 0) {
@@ -47,8 +47,8 @@ static void print_hull(const tl_hull *hull, uint32_t points, const tl_hull_repor
         printf("thickened: the points have no volume of their own\n");
     }
     if (report->points_left_out > 0) {
-        printf("%u points lie outside, by %.9g m at most: --max-vertices was reached\n", report->points_left_out,
-               report->max_outside);
+        printf("%u points lie outside, by %.9g m at most: %s\n", report->points_left_out, report->max_outside,
+               report->max_outside <= (double)tolerance ? "--tolerance allows it" : "--max-vertices was reached");
     }
     if (report->corners_left_out > 0) {
         printf("%u corners were left out; no point lies more than %.9g m outside\n", report->corners_left_out,
@@ -123,7 +123,7 @@ static tl_exit hull_of_one(tl_cli *cli, const tl_hull_settings *settings, const 
             }
             code = tl_cli_print_json(cli, object);
         } else {
-            print_hull(input.hull, input.points, &input.report);
+            print_hull(input.hull, input.points, &input.report, settings->tolerance);
         }
     }
     tl_hull_input_close(&input);
