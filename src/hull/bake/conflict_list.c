@@ -9,92 +9,119 @@
 // faces wait in a ring. Clarkson, Shor, Applications of Random Sampling in Computational Geometry, 1989, keep all
 // conflicts; one is enough. Of many points the farthest of all are added first (quickhull.c).
 
-#include "hull/bake/quickhull.h"
+#include "hull/bake/file_points.h"
 
 #include "base/assert.h"
 
 #include <string.h>
 
-static void file_under(tl_quickhull *hull, uint32_t face, uint32_t point, double value)
+// With fewer points outside, a step tests a handful: laying its planes side by side would take as long.
+enum { FEWEST_WAITING = 256 };
+
+tl_file_points_fn *tl_file_points_for(int level)
 {
-    tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
-    hull->local[point].next = conflicts->first;
-    conflicts->first = point;
-    if (point >= hull->point_count) {
-        return;
-    }
-    if (conflicts->farthest == TL_NONE || value > conflicts->farthest_value ||
-        (value == conflicts->farthest_value && point < conflicts->farthest)) {
-        conflicts->farthest = point;
-        conflicts->farthest_value = value;
-    }
+    static tl_file_points_fn *const kernels[] = {
+        NULL,
+#if TL_CPU_LEVELS >= 1
+        tl_file_points_vec128,
+#endif
+#if TL_CPU_LEVELS >= 2
+        tl_file_points_avx2,
+        tl_file_points_avx2, // a step has too few faces for eight lanes
+#endif
+    };
+    return tl_cpu_has_level(level) ? kernels[level] : NULL;
 }
 
-tl_result tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4])
-{
-    hull->waiting = hull->point_count;
-    for (uint32_t p = 0; p < hull->point_count + hull->passive_count; p++) {
-        TL_TRY(tl_quickhull_count_work(hull, 1));
-        if (p == seed[0] || p == seed[1] || p == seed[2] || p == seed[3]) {
-            hull->waiting--;
-            continue;
-        }
-        uint32_t f = 0;
-        for (; f < 4; f++) {
-            double value;
-            if (tl_quickhull_side(hull, &hull->faces[f], hull->local[p].position, &value) > 0) {
-                file_under(hull, f, p, value);
-                break;
-            }
-        }
-        hull->waiting -= f == 4 && p < hull->point_count;
-    }
-    return TL_OK;
-}
-
-// Files a point under one of the created faces that it is in front of: the first one, or when each_farthest that from
-// whose plane it lies farthest. False: it is in front of none.
-static bool file_under_created(tl_quickhull *hull, uint32_t point)
+// Files a point under one of some faces that it is in front of: the first one, or when each_farthest that from whose
+// plane it lies farthest. False: it is in front of none.
+static bool file_under_any(tl_quickhull *hull, const uint32_t *faces, uint32_t count, uint32_t point)
 {
     const tl_vec3 position = hull->local[point].position;
     uint32_t best = TL_NONE;
     double best_distance = -(double)INFINITY, best_value = 0.0;
-    for (uint32_t k = 0; k < hull->created_count; k++) {
-        const uint32_t face = hull->created[k];
+    for (uint32_t k = 0; k < count; k++) {
         double value;
-        if (tl_quickhull_side(hull, &hull->faces[face], position, &value) <= 0) {
+        if (tl_quickhull_side(hull, &hull->faces[faces[k]], position, &value) <= 0) {
             continue;
         }
         if (!hull->each_farthest) {
-            file_under(hull, face, point, value);
+            tl_file_under(hull, faces[k], point, value);
             return true;
         }
-        const double distance = value / tl_side_plane_length(&hull->faces[face].plane);
+        const double distance = value / tl_side_plane_length(&hull->faces[faces[k]].plane);
         if (distance > best_distance) {
-            best = face;
+            best = faces[k];
             best_distance = distance;
             best_value = value;
         }
     }
     if (best != TL_NONE) {
-        file_under(hull, best, point, best_value);
+        tl_file_under(hull, best, point, best_value);
     }
     return best != TL_NONE;
+}
+
+static tl_result file_list(tl_quickhull *hull, const uint32_t *faces, uint32_t count, uint32_t eye, uint32_t first)
+{
+    for (uint32_t p = first, next; p != TL_NONE; p = next) {
+        next = hull->local[p].next;
+        TL_TRY(tl_quickhull_count_work(hull, 1));
+        const bool is_outside = p != eye && file_under_any(hull, faces, count, p);
+        hull->waiting -= !is_outside && p < hull->point_count; // inside, or on the surface
+    }
+    return TL_OK;
+}
+
+// Planes side by side, where that is worth the trouble.
+static bool make_filing(const tl_quickhull *hull, const uint32_t *faces, uint32_t count, uint32_t eye, tl_filing *f)
+{
+    if (hull->file_points == NULL || hull->each_farthest || count > TL_MAX_FILED_FACES ||
+        hull->waiting < FEWEST_WAITING) {
+        return false;
+    }
+    f->faces = faces;
+    f->eye = eye;
+    f->block_count = (count + 3) / 4;
+    for (uint32_t k = 0; k < 4 * f->block_count; k++) {
+        const tl_side_plane beyond = { { 0.0, 0.0, 0.0 }, (double)INFINITY, 0.0 };
+        const tl_side_plane plane = k < count ? hull->faces[faces[k]].plane : beyond;
+        tl_plane_block *block = &f->blocks[k / 4];
+        block->x[k % 4] = plane.normal[0];
+        block->y[k % 4] = plane.normal[1];
+        block->z[k % 4] = plane.normal[2];
+        block->offset[k % 4] = plane.offset;
+        block->error[k % 4] = plane.error;
+    }
+    return true;
+}
+
+tl_result tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4])
+{
+    static const uint32_t faces[4] = { 0, 1, 2, 3 };
+    uint32_t first = TL_NONE;
+    hull->waiting = hull->point_count - 4;
+    for (uint32_t p = hull->point_count + hull->passive_count; p-- > 0;) {
+        if (p != seed[0] && p != seed[1] && p != seed[2] && p != seed[3]) {
+            hull->local[p].next = first;
+            first = p;
+        }
+    }
+    tl_filing filing;
+    return make_filing(hull, faces, 4, TL_NONE, &filing) ? hull->file_points(hull, &filing, first)
+                                                         : file_list(hull, faces, 4, TL_NONE, first);
 }
 
 tl_result tl_quickhull_refile(tl_quickhull *hull)
 {
     // The new point lies in the planes of all created faces: it needs no test, and a test would be the costly case.
-    uint32_t eye = hull->faces[hull->created[0]].vertex[2];
+    const uint32_t eye = hull->faces[hull->created[0]].vertex[2];
+    tl_filing filing;
+    const bool in_lanes = make_filing(hull, hull->created, hull->created_count, eye, &filing);
     for (uint32_t i = 0; i < hull->visible_count; i++) {
-        uint32_t p = hull->conflicts[hull->visible[i]].first;
-        while (p != TL_NONE) {
-            uint32_t next = hull->local[p].next;
-            TL_TRY(tl_quickhull_count_work(hull, 1));
-            const bool is_outside = p != eye && file_under_created(hull, p);
-            hull->waiting -= !is_outside && p < hull->point_count; // inside, or on the surface
-            p = next;
-        }
+        const uint32_t first = hull->conflicts[hull->visible[i]].first;
+        TL_TRY(in_lanes ? hull->file_points(hull, &filing, first)
+                        : file_list(hull, hull->created, hull->created_count, eye, first));
     }
     for (uint32_t i = 0; i < hull->visible_count; i++) {
         tl_quickhull_free_face(hull, hull->visible[i]);

@@ -14,6 +14,7 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "base/min_max.h"
+#include "hull/bake/file_points.h"
 #include "hull/bake/flat_regions.h"
 
 #include <string.h>
@@ -278,6 +279,11 @@ void tl_quickhull_init(tl_quickhull *hull, const tl_vec3 *points, uint32_t count
     hull->point_count = count;
     hull->free_face = TL_NONE;
     hull->newest = TL_NONE;
+    int level = TL_CPU_LEVELS;
+    while (!tl_cpu_has_level(level)) {
+        level--;
+    }
+    hull->file_points = tl_file_points_for(level);
 }
 
 tl_result tl_quickhull_build(tl_quickhull *hull, const tl_hull_def *def, tl_hull_report *report, uint32_t *copies_out,

@@ -42,7 +42,10 @@ typedef struct tl_quickhull_entry {
     uint32_t point;
 } tl_quickhull_entry;
 
-typedef struct tl_quickhull {
+typedef struct tl_quickhull tl_quickhull;
+typedef struct tl_filing tl_filing;
+
+struct tl_quickhull {
     tl_arena *arena;
     tl_stage *stage; // its unit: points that are a corner, inside or on the surface
     uint32_t work;   // points and faces that were looked at since progress was called
@@ -81,7 +84,9 @@ typedef struct tl_quickhull {
     bool each_farthest; // each point is filed under the face that it lies farthest from
     tl_quickhull_entry *heap;
     uint32_t heap_count, heap_capacity;
-} tl_quickhull;
+
+    tl_result (*file_points)(tl_quickhull *hull, const tl_filing *filing, uint32_t first); // file_points.h; or NULL
+};
 
 static inline uint32_t tl_half_edge_face(uint32_t half_edge)
 {
