@@ -104,7 +104,8 @@ def test_hull_within_a_tolerance() -> None:
     ball = np.random.default_rng(5).normal(size=(2000, 3))
     ball /= np.linalg.norm(ball, axis=1, keepdims=True)
     hull = talus.Hull(ball, tolerance=0.01)
-    assert len(hull.vertices) < 500 and hull.points_left_out > 1500
+    assert len(hull.vertices) < 500
+    assert hull.points_left_out > 1500
     assert 0.0 < hull.max_outside <= 0.01
     with pytest.raises(talus.Error) as caught:
         talus.Hull(ball, tolerance=-1.0)

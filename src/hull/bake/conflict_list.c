@@ -39,7 +39,7 @@ static bool file_under_any(tl_quickhull *hull, const uint32_t *faces, uint32_t c
 {
     const tl_vec3 position = hull->local[point].position;
     uint32_t best = TL_NONE;
-    double best_distance = -(double)INFINITY, best_value = 0.0;
+    double best_distance = 0.0, best_value = 0.0;
     for (uint32_t k = 0; k < count; k++) {
         double value;
         if (tl_quickhull_side(hull, &hull->faces[faces[k]], position, &value) <= 0) {
@@ -49,8 +49,8 @@ static bool file_under_any(tl_quickhull *hull, const uint32_t *faces, uint32_t c
             tl_file_under(hull, faces[k], point, value);
             return true;
         }
-        const double distance = value / tl_side_plane_length(&hull->faces[faces[k]].plane);
-        if (distance > best_distance) {
+        const double distance = tl_filing_distance(value, tl_side_plane_length(&hull->faces[faces[k]].plane));
+        if (best == TL_NONE || distance > best_distance) {
             best = faces[k];
             best_distance = distance;
             best_value = value;
@@ -76,8 +76,7 @@ static tl_result file_list(tl_quickhull *hull, const uint32_t *faces, uint32_t c
 // Planes side by side, where that is worth the trouble.
 static bool make_filing(const tl_quickhull *hull, const uint32_t *faces, uint32_t count, uint32_t eye, tl_filing *f)
 {
-    if (hull->file_points == NULL || hull->each_farthest || count > TL_MAX_FILED_FACES ||
-        hull->waiting < FEWEST_WAITING) {
+    if (hull->file_points == NULL || count > TL_MAX_FILED_FACES || hull->waiting < FEWEST_WAITING) {
         return false;
     }
     f->faces = faces;
@@ -92,6 +91,7 @@ static bool make_filing(const tl_quickhull *hull, const uint32_t *faces, uint32_
         block->z[k % 4] = plane.normal[2];
         block->offset[k % 4] = plane.offset;
         block->error[k % 4] = plane.error;
+        block->length[k % 4] = hull->each_farthest ? tl_side_plane_length(&plane) : 0.0;
     }
     return true;
 }
@@ -153,9 +153,8 @@ static tl_result push_waiting_face(tl_quickhull *hull, uint32_t face)
         hull->heap = grown;
     }
     const tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
-    const double distance = conflicts->farthest_value / tl_side_plane_length(&hull->faces[face].plane);
-    // Of a face so small that its normal is zero in double nothing is known: it comes first.
-    tl_quickhull_entry entry = { isnan(distance) ? (double)INFINITY : distance, face, conflicts->farthest };
+    const double length = tl_side_plane_length(&hull->faces[face].plane);
+    tl_quickhull_entry entry = { tl_filing_distance(conflicts->farthest_value, length), face, conflicts->farthest };
     waiting_push(hull->heap, &hull->heap_count, entry, NULL);
     return TL_OK;
 }

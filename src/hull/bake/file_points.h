@@ -14,6 +14,7 @@ enum { TL_MAX_FILED_FACES = 64 };
 /// Planes of four faces side by side (side_plane.h).
 typedef struct tl_plane_block {
     double x[4], y[4], z[4], offset[4], error[4];
+    double length[4]; ///< of the normal; only when each_farthest
 } tl_plane_block;
 
 struct tl_filing {
@@ -23,8 +24,9 @@ struct tl_filing {
     uint32_t eye; ///< the point that the faces have in common, which is filed nowhere, or TL_NONE
 };
 
-/// Files each point of the list that begins with `first` under the first face that it is strictly in front of; exact.
-/// One that is in front of none waits no longer. TL_ERR_CANCELLED.
+/// Files each point of the list that begins with `first` under the first face that it is strictly in front of, exactly,
+/// or when each_farthest under that from whose plane it lies farthest. One that is in front of none waits no longer.
+/// TL_ERR_CANCELLED.
 typedef tl_result tl_file_points_fn(tl_quickhull *hull, const tl_filing *filing, uint32_t first);
 
 #if TL_CPU_LEVELS >= 1
@@ -37,6 +39,13 @@ tl_file_points_fn tl_file_points_avx2;
 /// Of a level (base/cpu.h); NULL where this machine or build lacks it, and where plain C does: conflict_list.c tests
 /// face by face then, the twin of all.
 tl_file_points_fn *tl_file_points_for(int level);
+
+/// From a face's plane. Of a face so small that its normal is zero in double nothing is known: it counts as far.
+static inline double tl_filing_distance(double height, double length)
+{
+    const double distance = height / length;
+    return isnan(distance) ? (double)INFINITY : distance;
+}
 
 static inline void tl_file_under(tl_quickhull *hull, uint32_t face, uint32_t point, double value)
 {
