@@ -33,7 +33,15 @@ static json_t *hull_json(const tl_hull *hull, uint32_t points, const tl_hull_rep
     return object;
 }
 
-static void print_hull(const tl_hull *hull, uint32_t points, const tl_hull_report *report, float tolerance)
+// Of the two settings that leave points outside. Corners that were merged away count as vertices of the limit.
+static bool is_by_tolerance(const tl_hull *hull, const tl_hull_report *report, const tl_hull_settings *settings)
+{
+    return settings->tolerance > 0.0f &&
+           (settings->max_vertices == 0 || hull->vertex_count + report->corners_left_out < settings->max_vertices);
+}
+
+static void print_hull(const tl_hull *hull, uint32_t points, const tl_hull_report *report,
+                       const tl_hull_settings *settings)
 {
     const tl_hull_mass *mass = &hull->mass;
     if (points > 0) {
@@ -48,7 +56,7 @@ static void print_hull(const tl_hull *hull, uint32_t points, const tl_hull_repor
     }
     if (report->points_left_out > 0) {
         printf("%u points lie outside, by %.9g m at most: %s\n", report->points_left_out, report->max_outside,
-               report->max_outside <= (double)tolerance ? "--tolerance allows it" : "--max-vertices was reached");
+               is_by_tolerance(hull, report, settings) ? "--tolerance allows it" : "--max-vertices was reached");
     }
     if (report->corners_left_out > 0) {
         printf("%u corners were left out; no point lies more than %.9g m outside\n", report->corners_left_out,
@@ -123,7 +131,7 @@ static tl_exit hull_of_one(tl_cli *cli, const tl_hull_settings *settings, const 
             }
             code = tl_cli_print_json(cli, object);
         } else {
-            print_hull(input.hull, input.points, &input.report, settings->tolerance);
+            print_hull(input.hull, input.points, &input.report, settings);
         }
     }
     tl_hull_input_close(&input);

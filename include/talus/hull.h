@@ -37,7 +37,8 @@ typedef struct tl_hull_def {
     /// those that matter most; the report says how far outside the others lie.
     uint32_t max_vertices;
     /// Metres, >= 0. 0: no point lies outside. Else the points are added farthest first, and the hull is done when none
-    /// of the others lies farther outside than this: fewer corners, and sooner. 1e-3 is Jolt's mHullTolerance.
+    /// of the others lies farther outside than this: fewer corners, and sooner. Jolt's mHullTolerance, 1e-3 there by
+    /// default.
     float tolerance;
     /// Metres, >= 0. 0: input without volume is refused (TL_ERR_COPLANAR, ...). Else it is made this thick, half to
     /// each side, along every direction in which it has no extent.
