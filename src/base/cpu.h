@@ -129,4 +129,13 @@ static inline const char *tl_cpu_level_name(int level)
     }
 }
 
+/// The highest level of kernels, up to `most`, that runs on this machine.
+static inline int tl_cpu_level_up_to(int most)
+{
+    while (!tl_cpu_has_level(most)) {
+        most--;
+    }
+    return most;
+}
+
 #endif

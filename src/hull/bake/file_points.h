@@ -24,11 +24,6 @@ struct tl_filing {
     uint32_t eye; ///< the point that the faces have in common, which is filed nowhere, or TL_NONE
 };
 
-/// Files each point of the list that begins with `first` under the first face that it is strictly in front of, exactly,
-/// or when each_farthest under that from whose plane it lies farthest. One that is in front of none waits no longer.
-/// TL_ERR_CANCELLED.
-typedef tl_result tl_file_points_fn(tl_quickhull *hull, const tl_filing *filing, uint32_t first);
-
 #if TL_CPU_LEVELS >= 1
 tl_file_points_fn tl_file_points_vec128;
 #endif

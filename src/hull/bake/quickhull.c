@@ -279,11 +279,7 @@ void tl_quickhull_init(tl_quickhull *hull, const tl_vec3 *points, uint32_t count
     hull->point_count = count;
     hull->free_face = TL_NONE;
     hull->newest = TL_NONE;
-    int level = TL_CPU_LEVELS;
-    while (!tl_cpu_has_level(level)) {
-        level--;
-    }
-    hull->file_points = tl_file_points_for(level);
+    hull->file_points = tl_file_points_for(tl_cpu_level_up_to(TL_CPU_LEVELS));
 }
 
 tl_result tl_quickhull_build(tl_quickhull *hull, const tl_hull_def *def, tl_hull_report *report, uint32_t *copies_out,

@@ -35,7 +35,7 @@ typedef struct tl_quickhull_point {
     uint32_t next; // in its face's list
 } tl_quickhull_point;
 
-// Farthest-first order, when the number of vertices is limited.
+// Of a face that waits, when farthest_first.
 typedef struct tl_quickhull_entry {
     double distance;
     uint32_t face;
@@ -43,7 +43,12 @@ typedef struct tl_quickhull_entry {
 } tl_quickhull_entry;
 
 typedef struct tl_quickhull tl_quickhull;
-typedef struct tl_filing tl_filing;
+typedef struct tl_filing tl_filing; // file_points.h
+
+// Files each point of the list that begins with `first` under the first face of a step that it is strictly in front of,
+// exactly, or when each_farthest under that from whose plane it lies farthest. One that is in front of none waits no
+// longer. TL_ERR_CANCELLED.
+typedef tl_result tl_file_points_fn(tl_quickhull *hull, const tl_filing *filing, uint32_t first);
 
 struct tl_quickhull {
     tl_arena *arena;
@@ -85,7 +90,7 @@ struct tl_quickhull {
     tl_quickhull_entry *heap;
     uint32_t heap_count, heap_capacity;
 
-    tl_result (*file_points)(tl_quickhull *hull, const tl_filing *filing, uint32_t first); // file_points.h; or NULL
+    tl_file_points_fn *file_points; // NULL: face by face (conflict_list.c)
 };
 
 static inline uint32_t tl_half_edge_face(uint32_t half_edge)

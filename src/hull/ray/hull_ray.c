@@ -28,11 +28,7 @@ bool tl_hull_clip_ray(const tl_hull *hull, const double origin[3], const double 
                       double *t_out, uint32_t *face_out)
 {
     TL_ASSERT(hull != NULL && t_out != NULL && face_out != NULL);
-    int level = TL_CPU_LEVELS;
-    while (!tl_cpu_has_level(level)) {
-        level--;
-    }
-    return tl_ray_planes_for(level)(hull, origin, direction, max_t, t_out, face_out);
+    return tl_ray_planes_for(tl_cpu_level_up_to(TL_CPU_LEVELS))(hull, origin, direction, max_t, t_out, face_out);
 }
 
 bool tl_hull_cast_ray(const tl_hull *hull, tl_vec3 origin, tl_vec3 direction, float max_t, tl_hull_hit *hit_out)

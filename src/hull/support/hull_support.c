@@ -29,10 +29,7 @@ bool tl_support_kernel_for(tl_support_isa isa, tl_support_kernel *kernel_out)
 
 tl_support_kernel tl_support_kernel_best(void)
 {
-    int isa = tl_min_i32(TL_SUPPORT_ISA_COUNT - 1, TL_CPU_LEVELS);
-    while (!tl_cpu_has_level(isa)) {
-        isa--;
-    }
+    const int isa = tl_cpu_level_up_to(tl_min_i32(TL_SUPPORT_ISA_COUNT - 1, TL_CPU_LEVELS));
     tl_support_kernel kernel;
     tl_support_kernel_for((tl_support_isa)isa, &kernel);
     return kernel;

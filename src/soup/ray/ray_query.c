@@ -114,11 +114,7 @@ tl_ray_walk_fn *tl_ray_best_walk(void)
 // What batches run: rays that do not wait for each other fill the lanes, on Intel's processors too.
 static tl_ray_isa widest_isa(void)
 {
-    int level = TL_CPU_LEVELS;
-    while (!tl_cpu_has_level(level)) {
-        level--;
-    }
-    return (tl_ray_isa)level;
+    return (tl_ray_isa)tl_cpu_level_up_to(TL_CPU_LEVELS);
 }
 #endif
 
