@@ -2,16 +2,17 @@
 //
 // Mending a prepared navmesh: tiles of a city change, and its visibility graph is brought up to date.
 //
-//   bench_mend [--triangles N (1000000)] [--edits N (60)] [--pairs N (400)] [--json FILE]
+//   bench_mend [--triangles N (1000000)] [--edits N (60)] [--pairs N (400)] [--threads N (1)] [--json FILE]
 //
 // Beside each other: what it takes to prepare the navmesh from nothing, and what a mend takes after an edit of each
 // kind: a tile is replaced by an equal one; a crate comes, and its tiles are replaced by rebaked ones, and goes again;
 // a tile goes, and comes back. Searches between random places before the edits and after them say what is left of the
-// landmarks. Processor time of one thread.
+// landmarks. Processor time of one thread; with --threads, time on the wall of so many.
 
 #include "base/random.h"
 #include "bench_options.h"
 #include "cli/sample/sample_level.h"
+#include "cli/shared/thread_pool.h"
 #include "measure.h"
 #include "report.h"
 
@@ -45,6 +46,7 @@ typedef struct world {
     uint32_t tile_count;
     tl_nav_obstacles *obstacles;
     tl_navmesh *navmesh;
+    const tl_tasks *tasks; // that prepare it; NULL: this thread
     tl_nav_query *query;
     tl_vec3 pairs[MAX_PAIRS][2];
     uint32_t pair_count;
@@ -55,9 +57,16 @@ static tl_nav_prepared prepare(const world *w)
 {
     tl_nav_prepare_def def = tl_default_nav_prepare_def();
     def.table_bytes = 0;
+    def.tasks = w->tasks;
     tl_nav_prepared made;
     must(tl_navmesh_prepare(w->navmesh, &def, &made), "prepare");
     return made;
+}
+
+// Seconds that preparing takes.
+static double preparing_seconds(const world *w)
+{
+    return w->tasks != NULL ? bench_wall_seconds() : bench_thread_seconds();
 }
 
 static void bake_world(world *w, uint32_t triangles)
@@ -150,9 +159,9 @@ typedef struct mend_times {
 
 static void mend(const world *w, mend_times *m)
 {
-    const double began = bench_thread_seconds();
+    const double began = preparing_seconds(w);
     m->made = prepare(w);
-    m->times[m->count++] = (bench_thread_seconds() - began) * 1e3;
+    m->times[m->count++] = (preparing_seconds(w) - began) * 1e3;
     m->looked += m->made.renewed_count;
 }
 
@@ -228,10 +237,11 @@ static void measure_mends(const world *w, uint32_t edits, bench_report *report)
 
 int main(int argc, char **argv)
 {
-    uint32_t triangles = 1000000, edits = 60, pairs = 400;
+    uint32_t triangles = 1000000, edits = 60, pairs = 400, threads = 1;
     const bench_option options[] = { { "triangles", BENCH_COUNT, &triangles, "of the city" },
                                      { "edits", BENCH_COUNT, &edits, "of each kind" },
                                      { "pairs", BENCH_COUNT, &pairs, "of places between which paths are found" },
+                                     { "threads", BENCH_COUNT, &threads, "that prepare" },
                                      { NULL, BENCH_COUNT, NULL, NULL } };
     const char *json = NULL;
     bench_parse(argc, argv, options, NULL, &json);
@@ -240,16 +250,19 @@ int main(int argc, char **argv)
     static world w;
     bench_report *report = bench_report_new("mending a prepared navmesh", "us", NULL);
     bake_world(&w, triangles);
-    const double began = bench_thread_seconds();
+    tl_thread_pool *pool = threads > 1 ? tl_thread_pool_create(threads) : NULL;
+    w.tasks = pool != NULL ? tl_thread_pool_tasks(pool) : NULL;
+    const double began = preparing_seconds(&w);
     const tl_nav_prepared made = prepare(&w);
     printf("city of %u triangles, %u tiles: prepared in %.1f ms; %u corner vertices, %u edges, %.1f MB\n", triangles,
-           w.tile_count, (bench_thread_seconds() - began) * 1e3, made.corner_vertex_count, made.edge_count,
+           w.tile_count, (preparing_seconds(&w) - began) * 1e3, made.corner_vertex_count, made.edge_count,
            1e-6 * (double)made.bytes);
     choose_pairs(&w, pairs);
     measure_paths(&w, "before", report);
     measure_mends(&w, edits, report);
     measure_paths(&w, "after", report);
     bench_report_print_claims(report);
+    tl_thread_pool_free(pool);
     tl_nav_query_destroy(w.query);
     tl_navmesh_destroy(w.navmesh);
     tl_nav_obstacles_destroy(w.obstacles);

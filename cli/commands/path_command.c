@@ -220,6 +220,7 @@ static tl_result prepare_navmesh(const tl_cli *cli, tl_navmesh *navmesh, const p
 {
     if (settings->prepared) {
         tl_nav_prepare_def prepare = tl_default_nav_prepare_def();
+        prepare.tasks = cli->host.tasks;
         prepare.progress = cli->host.progress;
         const tl_result result = tl_navmesh_prepare(navmesh, &prepare, NULL);
         if (result == TL_ERR_MEMORY || result == TL_ERR_CANCELLED) {

@@ -2352,6 +2352,7 @@ namespace Talus.Interop
     public unsafe struct tl_nav_prepare_def
     {
         public ulong table_bytes;
+        public tl_tasks* tasks;
         public tl_progress* progress;
         public uint cookie;
     }

@@ -1280,10 +1280,11 @@ static unsafe class Layout
         Test.Equal(0, (byte*)&((tl_nav_rebaked_tile*)at)->tile_x - at, "tl_nav_rebaked_tile.tile_x");
         Test.Equal(4, (byte*)&((tl_nav_rebaked_tile*)at)->tile_z - at, "tl_nav_rebaked_tile.tile_z");
         Test.Equal(8, (byte*)&((tl_nav_rebaked_tile*)at)->stack - at, "tl_nav_rebaked_tile.stack");
-        Test.Equal(24, sizeof(tl_nav_prepare_def), "tl_nav_prepare_def");
+        Test.Equal(32, sizeof(tl_nav_prepare_def), "tl_nav_prepare_def");
         Test.Equal(0, (byte*)&((tl_nav_prepare_def*)at)->table_bytes - at, "tl_nav_prepare_def.table_bytes");
-        Test.Equal(8, (byte*)&((tl_nav_prepare_def*)at)->progress - at, "tl_nav_prepare_def.progress");
-        Test.Equal(16, (byte*)&((tl_nav_prepare_def*)at)->cookie - at, "tl_nav_prepare_def.cookie");
+        Test.Equal(8, (byte*)&((tl_nav_prepare_def*)at)->tasks - at, "tl_nav_prepare_def.tasks");
+        Test.Equal(16, (byte*)&((tl_nav_prepare_def*)at)->progress - at, "tl_nav_prepare_def.progress");
+        Test.Equal(24, (byte*)&((tl_nav_prepare_def*)at)->cookie - at, "tl_nav_prepare_def.cookie");
         Test.Equal(80, sizeof(tl_nav_prepared), "tl_nav_prepared");
         Test.Equal(0, (byte*)&((tl_nav_prepared*)at)->@base - at, "tl_nav_prepared.base");
         Test.Equal(48, (byte*)&((tl_nav_prepared*)at)->kind - at, "tl_nav_prepared.kind");

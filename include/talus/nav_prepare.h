@@ -16,10 +16,12 @@ typedef struct tl_nav_prepare_def {
     /// Bytes for a table of the all-pairs shortest distances between corner vertices, 6 for each pair. Default 32 MiB,
     /// enough for 2,364 corner vertices; 0: no table.
     uint64_t table_bytes;
-    /// Stages "visibility graph", "landmarks" and "distances". NULL: silent and not cancellable. Memory
-    /// comes from the navmesh's allocator.
-    const tl_progress *progress;
-    uint32_t cookie; ///< set by tl_default_nav_prepare_def
+    /// What corner vertices see, landmarks and the table are found by these. NULL: by the calling thread. Memory comes
+    /// from the navmesh's allocator, then from several threads at once. The outcome is the same for any number of
+    /// workers.
+    const tl_tasks *tasks;
+    const tl_progress *progress; ///< stages "visibility graph", "landmarks", "distances"; NULL: not cancellable
+    uint32_t cookie;             ///< set by tl_default_nav_prepare_def
 } tl_nav_prepare_def;
 
 TL_API tl_nav_prepare_def tl_default_nav_prepare_def(void);

@@ -266,14 +266,15 @@ static PyObject *obstacles_update(PyObject *self, PyObject *args)
 
 // --- preparing ------------------------------------------------------------------------------------------------------
 
-// navmesh_prepare(navmesh, table bytes, label bytes) -> (kind, corner vertices, bytes)
+// navmesh_prepare(navmesh, table bytes, threads, progress) -> (kind, corner vertices, bytes)
 static PyObject *navmesh_prepare(PyObject *self, PyObject *args)
 {
     (void)self;
-    PyObject *capsule;
+    PyObject *capsule, *progress;
     tl_nav_prepare_def def = tl_default_nav_prepare_def();
     unsigned long long table = 0;
-    if (!PyArg_ParseTuple(args, "OK", &capsule, &table)) {
+    unsigned threads;
+    if (!PyArg_ParseTuple(args, "OKIO", &capsule, &table, &threads, &progress)) {
         return NULL;
     }
     const binding_navmesh *held = binding_navmesh_to_change(capsule);
@@ -282,12 +283,15 @@ static PyObject *navmesh_prepare(PyObject *self, PyObject *args)
     }
     def.table_bytes = table;
     tl_nav_prepared prepared;
-    tl_result result;
-    Py_BEGIN_ALLOW_THREADS result = tl_navmesh_prepare(held->navmesh, &def, &prepared);
-    Py_END_ALLOW_THREADS return result == TL_OK
-        ? Py_BuildValue("sIK", tl_nav_prepared_kind_name(prepared.kind), prepared.corner_vertex_count,
-                        (unsigned long long)prepared.bytes)
-        : binding_raise(result, &prepared.base);
+    binding_host host;
+    binding_begin(&host, progress, threads);
+    def.tasks = host.host.tasks;
+    def.progress = host.host.progress;
+    const tl_result result = tl_navmesh_prepare(held->navmesh, &def, &prepared);
+    binding_end(&host);
+    return result == TL_OK ? Py_BuildValue("sIK", tl_nav_prepared_kind_name(prepared.kind),
+                                           prepared.corner_vertex_count, (unsigned long long)prepared.bytes)
+                           : binding_raise(result, &prepared.base);
 }
 
 PyMethodDef binding_edit_methods[] = {

@@ -373,13 +373,23 @@ class Navmesh:
         x, y, z = point
         return x, y, z
 
-    def prepare(self, *, table_bytes: int = 32 << 20) -> str:
+    def prepare(
+        self, *, table_bytes: int = 32 << 20, threads: int | None = None, progress: Progress | None = None
+    ) -> str:
         """Make paths faster, with the same answers, until the navmesh is changed.
 
-        Returns what was made: ``table``, ``graph`` or ``none``.
+        Call it again after changes: what they do not concern is kept.
+
+        Args:
+            table_bytes: memory for a table of all distances, 6 bytes a pair of corner vertices; 0 is none.
+            threads: None is all. The result does not depend on it.
+            progress: called with (stage, done, total); return False to cancel.
+
+        Returns:
+            What was made: ``table``, ``graph`` or ``none``.
         """
         with self._lock:
-            kind, _, _ = _talus.navmesh_prepare(self._navmesh, int(table_bytes))
+            kind, _, _ = _talus.navmesh_prepare(self._navmesh, int(table_bytes), thread_count(threads), progress)
         return str(kind)
 
     # --- links ----------------------------------------------------------------------------------------------------

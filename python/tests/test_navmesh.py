@@ -75,7 +75,10 @@ def test_many_paths(navmesh: talus.Navmesh) -> None:
         assert (single.points == one[i].points).all()
     straight = np.linalg.norm((goals - starts)[:, [0, 2]], axis=1)
     assert (one.length >= straight - 1e-4).all()
-    assert navmesh.prepare() == "table"
+    assert navmesh.prepare(table_bytes=0, threads=2) == "graph"
+    by_graph = navmesh.shortest_paths(starts, goals)
+    np.testing.assert_allclose(by_graph.length, one.length, rtol=1e-12)
+    assert navmesh.prepare(threads=1) == "table"
     again = navmesh.shortest_paths(starts, goals)
     np.testing.assert_allclose(again.length, one.length, rtol=1e-12)
     assert one[-1].length == one[299].length

@@ -4,8 +4,8 @@
 // them farther from the body than their concavity, by samples that know nothing of grids and proofs; few parts where
 // the right number is plain; the same bytes with any number of tasks.
 
-#include "crowd_threads.h"
 #include "decompose_shapes.h"
+#include "task_threads.h"
 
 #include <string.h>
 #include <talus/decompose.h>

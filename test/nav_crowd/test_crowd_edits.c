@@ -16,8 +16,8 @@
 // one whose goal is on another island, or has no floor now: it is shut off.
 
 #include "base/cpu.h"
-#include "crowd_threads.h"
 #include "crowd_world.h"
+#include "task_threads.h"
 
 #include <talus/nav_around.h>
 #include <talus/nav_obstacles.h>

@@ -7,8 +7,8 @@
 
 #include "base/cpu.h"
 #include "base/hash.h"
-#include "crowd_threads.h"
 #include "crowd_world.h"
+#include "task_threads.h"
 
 #define DT 0.05f
 

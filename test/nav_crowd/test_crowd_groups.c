@@ -4,8 +4,8 @@
 // apart behind it; leaders wait, are followed over links, are players, and are succeeded; threads and states that are
 // restored give the same bytes.
 
-#include "crowd_threads.h" // pthread
 #include "crowd_world.h"
+#include "task_threads.h" // pthread
 
 #include "nav_crowd/crowd.h"
 

@@ -3,8 +3,8 @@
 // crowd_share.c: many agents to one goal take their paths from one search; so do they after an edit; and neither
 // threads nor a state that is restored can be told from the bytes.
 
-#include "crowd_threads.h" // pthread
 #include "crowd_world.h"
+#include "task_threads.h" // pthread
 
 #include "nav_crowd/crowd.h"
 

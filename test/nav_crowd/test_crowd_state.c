@@ -3,8 +3,8 @@
 // crowd_state.c, and that steps are a function of the state: the same bytes for any number of threads, from a saved
 // state again, and after hostile bytes were refused.
 
-#include "crowd_threads.h" // pthread
 #include "crowd_world.h"
+#include "task_threads.h" // pthread
 
 #include "nav_crowd/crowd.h"
 

@@ -129,7 +129,8 @@ static void check_level(tl_navmesh *navmesh, uint32_t pairs, uint64_t seed, tall
     graph g = make_graph(navmesh);
     for (uint32_t kind = TL_NAV_PREPARED_NONE; kind <= TL_NAV_PREPARED_TABLE; kind++) {
         test_random random = { seed };
-        tl_nav_prepare_def def_of_kind = { kind == TL_NAV_PREPARED_TABLE ? UINT64_MAX - 1 : 0, NULL, TL_DEF_COOKIE };
+        tl_nav_prepare_def def_of_kind = { .table_bytes = kind == TL_NAV_PREPARED_TABLE ? UINT64_MAX - 1 : 0,
+                                           .cookie = TL_DEF_COOKIE };
         tl_nav_prepared made;
         memset(&made, 0, sizeof made);
         if (kind != TL_NAV_PREPARED_NONE) {

@@ -227,7 +227,8 @@ static void test_slices(void **state)
     const char *const rows[] = { "000", "0#0", "000" };
     fixture_level level = fixture_make(rows, 3);
     tl_navmesh *navmesh = fixture_build(&level, NULL);
-    const tl_nav_prepare_def defs[2] = { { UINT64_MAX - 1, NULL, TL_DEF_COOKIE }, { 0, NULL, TL_DEF_COOKIE } };
+    const tl_nav_prepare_def defs[2] = { { .table_bytes = UINT64_MAX - 1, .cookie = TL_DEF_COOKIE },
+                                         { .cookie = TL_DEF_COOKIE } };
     tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } };
     tl_nav_location goal = { tl_navmesh_polygon_ref(navmesh, 0, 7), { 10, 0, 10 } };
     tl_nav_query *query = fixture_query(1000);
@@ -413,7 +414,7 @@ static void test_mended(void **state)
 {
     (void)state;
     test_random random = { 11 };
-    const tl_nav_prepare_def def = { 0, NULL, TL_DEF_COOKIE };
+    const tl_nav_prepare_def def = { .table_bytes = 0, .cookie = TL_DEF_COOKIE };
     uint32_t turning = 0, mended = 0, renewed = 0, vertices = 0;
     for (uint32_t round = 0; round < 10; round++) {
         fixture_level level = fixture_random(&random, round % 5, 24);
@@ -457,7 +458,7 @@ static void test_many_edits(void **state)
 {
     (void)state;
     test_random random = { 12 };
-    const tl_nav_prepare_def def = { 0, NULL, TL_DEF_COOKIE };
+    const tl_nav_prepare_def def = { .table_bytes = 0, .cookie = TL_DEF_COOKIE };
     fixture_level level = fixture_random(&random, 1, 16);
     level.tile_cells = 4;
     tl_navmesh *navmesh = fixture_build(&level, NULL), *fresh = fixture_build(&level, NULL);
@@ -529,7 +530,9 @@ static void test_mending_memory(void **state)
     test_random random = { 8 };
     fixture_level level = fixture_random(&random, 1, 12);
     level.tile_cells = 4;
-    const tl_nav_prepare_def def = { 0, NULL, TL_DEF_COOKIE };
+    fixture_level changed = level;
+    changed.cells[1][1] = level.cells[1][1] == '#' ? '0' : '#';
+    const tl_nav_prepare_def def = { .table_bytes = 0, .cookie = TL_DEF_COOKIE };
     tl_result result = TL_ERR_MEMORY;
     uint32_t failures = 0;
     for (uint64_t k = 1; result != TL_OK; k++) {
@@ -537,7 +540,7 @@ static void test_mending_memory(void **state)
         test_allocator_init(&failing, 0);
         tl_navmesh *navmesh = fixture_build(&level, &failing.allocator);
         TEST_RESULT(tl_navmesh_prepare(navmesh, &def, NULL), TL_OK);
-        tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, &failing.allocator);
+        tl_nav_tile *tile = fixture_build_tile(&changed, 0, 0, &failing.allocator);
         TEST_RESULT(tl_navmesh_remove_tile(navmesh, 0, 0), TL_OK);
         TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
         failing.calls = 0;
@@ -562,7 +565,8 @@ static void test_memory(void **state)
     test_allocator_init(&failing, 0);
     tl_navmesh *navmesh = fixture_build(&level, &failing.allocator);
     uint64_t before = failing.live_blocks, failures = 0;
-    const tl_nav_prepare_def defs[2] = { { UINT64_MAX - 1, NULL, TL_DEF_COOKIE }, { 0, NULL, TL_DEF_COOKIE } };
+    const tl_nav_prepare_def defs[2] = { { .table_bytes = UINT64_MAX - 1, .cookie = TL_DEF_COOKIE },
+                                         { .cookie = TL_DEF_COOKIE } };
     for (uint32_t i = 0; i < 2; i++) {
         tl_result result = TL_ERR_MEMORY;
         for (uint64_t k = 1; result != TL_OK; k++) {

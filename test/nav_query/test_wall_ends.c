@@ -82,7 +82,8 @@ static void test_leaning_walls(void **state)
         level.lean = 1 + (int32_t)test_random_below(&random, 7);
         tl_navmesh *navmesh = fixture_build(&level, NULL);
         for (uint32_t kind = TL_NAV_PREPARED_NONE; kind <= TL_NAV_PREPARED_TABLE; kind++) {
-            const tl_nav_prepare_def def = { kind == TL_NAV_PREPARED_TABLE ? UINT64_MAX - 1 : 0, NULL, TL_DEF_COOKIE };
+            const tl_nav_prepare_def def = { .table_bytes = kind == TL_NAV_PREPARED_TABLE ? UINT64_MAX - 1 : 0,
+                                             .cookie = TL_DEF_COOKIE };
             if (kind != TL_NAV_PREPARED_NONE) {
                 TEST_RESULT(tl_navmesh_prepare(navmesh, &def, NULL), TL_OK);
             }

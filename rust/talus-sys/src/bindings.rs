@@ -2045,6 +2045,7 @@ pub struct tl_nav_rebaked_tile {
 #[derive(Clone, Copy)]
 pub struct tl_nav_prepare_def {
     pub table_bytes: u64,
+    pub tasks: *const tl_tasks,
     pub progress: *const tl_progress,
     pub cookie: u32,
 }
@@ -5740,10 +5741,11 @@ mod layout {
         assert_eq!(core::mem::offset_of!(tl_nav_rebaked_tile, tile_x), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_rebaked_tile, tile_z), 4);
         assert_eq!(core::mem::offset_of!(tl_nav_rebaked_tile, stack), 8);
-        assert_eq!(core::mem::size_of::<tl_nav_prepare_def>(), 24);
+        assert_eq!(core::mem::size_of::<tl_nav_prepare_def>(), 32);
         assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, table_bytes), 0);
-        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, progress), 8);
-        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, cookie), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, tasks), 8);
+        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, progress), 16);
+        assert_eq!(core::mem::offset_of!(tl_nav_prepare_def, cookie), 24);
         assert_eq!(core::mem::size_of::<tl_nav_prepared>(), 80);
         assert_eq!(core::mem::offset_of!(tl_nav_prepared, base), 0);
         assert_eq!(core::mem::offset_of!(tl_nav_prepared, kind), 48);

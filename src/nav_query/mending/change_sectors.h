@@ -8,6 +8,12 @@
 #include "nav_query/mending/graph_changes.h"
 #include "nav_query/mending/sector.h"
 
+/// Roundings of the graph by which what lies at one place, or side by side, may be taken for apart or for overlapping.
+#define TL_NAV_PLACE_MARGIN 8.0
+
+/// Slacks of a cone by which it is taken to be wider than it is kept.
+#define TL_NAV_CONE_MARGIN 4.0
+
 /// Directions in which a corner vertex sees a convex region that may have changed: the box of a tile, a polygon, or
 /// where a corner vertex was that is gone.
 typedef struct tl_nav_change_sector {
@@ -30,9 +36,10 @@ typedef struct tl_nav_change_sectors {
 } tl_nav_change_sectors;
 
 /// Marks corner vertices that look all around, and finds for the others their sectors and cones beyond. Notes the slots
-/// whose cones may go. TL_ERR_MEMORY, TL_ERR_LIMIT. tl_nav_free_change_sectors frees what is returned, after an error
-/// too.
-tl_result tl_nav_find_change_sectors(tl_nav_graph_changes *changes, tl_nav_change_sectors *sectors_out);
+/// whose cones may go. Runs on the host's tasks. TL_ERR_MEMORY, TL_ERR_LIMIT. tl_nav_free_change_sectors frees what is
+/// returned, after an error too.
+tl_result tl_nav_find_change_sectors(tl_nav_graph_changes *changes, const tl_host *host,
+                                     tl_nav_change_sectors *sectors_out);
 void tl_nav_free_change_sectors(tl_nav_change_sectors *sectors);
 
 /// Whether the edge between two corner vertices that look stays: not both see a change along it.
@@ -40,5 +47,10 @@ bool tl_nav_is_edge_kept(const tl_nav_change_sectors *sectors, uint32_t from, ui
 
 /// The sector of a cone, a little wider than the cone is kept.
 tl_nav_sector tl_nav_sector_of_cone(const tl_nav_corner_cones *cones, uint32_t cone);
+
+static inline bool tl_nav_is_in_box(const tl_nav_plan_box *box, const tl_nav_corner_vertex *vertex)
+{
+    return vertex->x >= box->low_x && vertex->x <= box->high_x && vertex->z >= box->low_z && vertex->z <= box->high_z;
+}
 
 #endif

@@ -29,72 +29,92 @@ static tl_result make_look_query(tl_nav_corner_look *look, uint32_t max_nodes)
     return tl_nav_query_allocate(max_nodes, none, look->changes->allocator, &look->query);
 }
 
-static tl_result list_new_polygons(tl_nav_corner_look *look)
+static tl_result list_new_polygons(tl_nav_look_ground *ground)
 {
-    const tl_nav_graph_changes *c = look->changes;
+    const tl_nav_graph_changes *c = ground->changes;
     uint64_t count = 0;
     for (uint32_t slot = 0; slot < c->graph->slot_count; slot++) {
         const bool is_there = slot < c->navmesh->slot_count && c->navmesh->slots[slot].tile != NULL;
-        look->first_polygon[slot] = (uint32_t)count;
+        ground->first_polygon[slot] = (uint32_t)count;
         count += is_there ? c->navmesh->slots[slot].rings.polygon_count : 0;
         if (count > UINT32_MAX) {
             return TL_ERR_LIMIT;
         }
     }
-    look->first_polygon[c->graph->slot_count] = (uint32_t)count;
-    look->is_new = tl_allocate_array(c->allocator, count, sizeof *look->is_new);
-    look->last_anew = tl_allocate_array(c->allocator, count, sizeof *look->last_anew);
-    if (look->is_new == NULL || look->last_anew == NULL) {
+    ground->first_polygon[c->graph->slot_count] = (uint32_t)count;
+    ground->is_new = tl_allocate_array(c->allocator, count, sizeof *ground->is_new);
+    if (ground->is_new == NULL) {
         return TL_ERR_MEMORY;
     }
-    memset(look->is_new, 0, (size_t)count * sizeof *look->is_new);
-    memset(look->last_anew, 0, (size_t)count * sizeof *look->last_anew);
+    memset(ground->is_new, 0, (size_t)count * sizeof *ground->is_new);
     for (uint64_t i = 0; i < c->slots.count; i++) {
-        const uint32_t slot = c->slots.numbers[i], first = look->first_polygon[slot];
+        const uint32_t slot = c->slots.numbers[i], first = ground->first_polygon[slot];
         if ((c->slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0) {
-            memset(look->is_new + first, true, (look->first_polygon[slot + 1] - first) * sizeof *look->is_new);
+            memset(ground->is_new + first, true, (ground->first_polygon[slot + 1] - first) * sizeof *ground->is_new);
         }
     }
     for (uint64_t i = 0; i < c->polygons.count; i++) {
         const uint64_t key = c->polygons.items[i].key;
-        look->is_new[look->first_polygon[key >> 32] + (uint32_t)key] = true;
+        ground->is_new[ground->first_polygon[key >> 32] + (uint32_t)key] = true;
     }
     return TL_OK;
 }
 
-tl_result tl_nav_begin_looks(tl_nav_change_sectors *sectors, tl_nav_corner_look *look_out)
+tl_result tl_nav_make_look_ground(const tl_nav_change_sectors *sectors, tl_nav_look_ground *ground_out)
 {
     const tl_nav_graph_changes *changes = sectors->changes;
-    memset(look_out, 0, sizeof *look_out);
-    const uint32_t slots = changes->graph->slot_count;
-    look_out->sectors = sectors;
-    look_out->changes = changes;
-    look_out->cones.allocator = changes->allocator;
-    look_out->last_looks = tl_allocate_array(changes->allocator, slots, sizeof *look_out->last_looks);
-    look_out->first_polygon =
-        tl_allocate_array(changes->allocator, (uint64_t)slots + 1, sizeof *look_out->first_polygon);
-    if (look_out->last_looks == NULL || look_out->first_polygon == NULL) {
+    memset(ground_out, 0, sizeof *ground_out);
+    ground_out->sectors = sectors;
+    ground_out->changes = changes;
+    ground_out->first_polygon =
+        tl_allocate_array(changes->allocator, (uint64_t)changes->graph->slot_count + 1, sizeof(uint32_t));
+    return ground_out->first_polygon != NULL ? list_new_polygons(ground_out) : TL_ERR_MEMORY;
+}
+
+static uint64_t polygon_count(const tl_nav_look_ground *ground)
+{
+    return ground->first_polygon != NULL ? ground->first_polygon[ground->changes->graph->slot_count] : 0;
+}
+
+void tl_nav_free_look_ground(tl_nav_look_ground *ground)
+{
+    const tl_allocator *allocator = ground->changes->allocator;
+    const uint64_t slots = ground->changes->graph->slot_count;
+    tl_release_array(allocator, ground->is_new, polygon_count(ground), sizeof *ground->is_new);
+    tl_release_array(allocator, ground->first_polygon, slots + 1, sizeof *ground->first_polygon);
+}
+
+static tl_result begin_looks(const tl_nav_look_ground *ground, tl_nav_corner_look *look)
+{
+    const tl_allocator *allocator = ground->changes->allocator;
+    const uint64_t slots = ground->changes->graph->slot_count, polygons = polygon_count(ground);
+    look->ground = ground;
+    look->changes = ground->changes;
+    look->cones.allocator = allocator;
+    look->last_looks = tl_allocate_array(allocator, slots, sizeof *look->last_looks);
+    look->last_anew = tl_allocate_array(allocator, polygons, sizeof *look->last_anew);
+    if (look->last_looks == NULL || look->last_anew == NULL) {
         return TL_ERR_MEMORY;
     }
-    memset(look_out->last_looks, 0, slots * sizeof *look_out->last_looks);
-    TL_TRY(list_new_polygons(look_out));
-    return make_look_query(look_out, FIRST_WEDGES);
+    memset(look->last_looks, 0, (size_t)slots * sizeof *look->last_looks);
+    memset(look->last_anew, 0, (size_t)polygons * sizeof *look->last_anew);
+    return make_look_query(look, FIRST_WEDGES);
 }
 
 void tl_nav_end_looks(tl_nav_corner_look *look)
 {
+    if (look->ground == NULL) {
+        return; // there was none
+    }
     const tl_allocator *allocator = look->changes->allocator;
-    const uint32_t slots = look->changes->graph->slot_count;
-    const uint64_t polygons = look->first_polygon != NULL ? look->first_polygon[slots] : 0;
     tl_nav_query_release(look->query);
     tl_nav_free_pairs(allocator, &look->seen.edges);
     tl_nav_free_pairs(allocator, &look->seen.reaches);
+    tl_nav_free_pairs(allocator, &look->dropped);
     tl_nav_free_numbers(allocator, &look->is_changed);
     tl_release_array(allocator, look->cones.cones, look->cones.capacity, sizeof *look->cones.cones);
-    tl_release_array(allocator, look->last_looks, slots, sizeof *look->last_looks);
-    tl_release_array(allocator, look->is_new, polygons, sizeof *look->is_new);
-    tl_release_array(allocator, look->last_anew, polygons, sizeof *look->last_anew);
-    tl_release_array(allocator, look->first_polygon, (uint64_t)slots + 1, sizeof *look->first_polygon);
+    tl_release_array(allocator, look->last_looks, look->changes->graph->slot_count, sizeof *look->last_looks);
+    tl_release_array(allocator, look->last_anew, polygon_count(look->ground), sizeof *look->last_anew);
 }
 
 // Whether a corner vertex has an edge to another, and keeps it.
@@ -102,7 +122,7 @@ static bool has_edge(const tl_nav_corner_look *look, uint32_t from, uint32_t to)
 {
     const tl_nav_corner_vertex *vertex = &look->changes->graph->vertices[from];
     const uint32_t k = tl_nav_find_visibility_edge(vertex, to);
-    return k < vertex->edge_count && vertex->edges[k].to == to && tl_nav_edge_stays(look->sectors, from, to);
+    return k < vertex->edge_count && vertex->edges[k].to == to && tl_nav_edge_stays(look->ground->sectors, from, to);
 }
 
 // Adds an edge at both ends: each may have missed the other by rounding. Where it stood and stays, it does at both.
@@ -222,13 +242,13 @@ static bool is_in_view(const tl_nav_view *view, const tl_nav_sector *sector)
 // The last look that finds its cones in a polygon anew.
 static uint32_t *anew_in(const tl_nav_corner_look *look, uint32_t slot, uint32_t polygon)
 {
-    return &look->last_anew[look->first_polygon[slot] + polygon];
+    return &look->last_anew[look->ground->first_polygon[slot] + polygon];
 }
 
 // The sectors of changes, and of the cones that are found anew.
 static void begin_view(tl_nav_corner_look *look, uint32_t order)
 {
-    const tl_nav_change_sectors *s = look->sectors;
+    const tl_nav_change_sectors *s = look->ground->sectors;
     look->view.count = 0;
     for (uint64_t i = s->first[order]; i < s->first[order + 1]; i++) {
         widen_view(&look->view, s->sectors[i].sector);
@@ -255,7 +275,7 @@ static tl_result drop_cones_in(tl_nav_corner_look *look, uint32_t slot, uint32_t
          i++) {
         if (tl_nav_cone_vertex(cones, i) == look->vertex) {
             const tl_nav_sector sector = tl_nav_sector_of_cone(cones, i);
-            TL_TRY(tl_nav_add_pair(look->changes->allocator, &look->sectors->dropped, slot, i));
+            TL_TRY(tl_nav_add_pair(look->changes->allocator, &look->dropped, slot, i));
             if (!is_in_view(&look->view, &sector)) {
                 widen_view(&look->view, sector);
                 *widens = true;
@@ -274,7 +294,7 @@ static tl_result find_changed_sight(tl_nav_corner_look *look, bool *widens)
         const tl_nav_wedge *wedge = &query->wedges[i];
         uint32_t *anew = anew_in(look, wedge->slot, wedge->polygon);
         const bool by_parent = wedge->parent < i && look->is_changed.numbers[wedge->parent] != 0;
-        const bool is_changed = by_parent || look->is_new[anew - look->last_anew];
+        const bool is_changed = by_parent || look->ground->is_new[anew - look->last_anew];
         TL_TRY(tl_nav_add_number(look->changes->allocator, &look->is_changed, is_changed ? 1 : 0));
         if (is_changed && *anew != look->look_count) {
             *anew = look->look_count;
@@ -301,11 +321,21 @@ static tl_result look_towards_changes(tl_nav_corner_look *look, uint32_t order)
     return TL_OK;
 }
 
-tl_result tl_nav_look_from(tl_nav_corner_look *look, uint32_t vertex)
+static tl_result look_from(const tl_nav_look_ground *ground, tl_nav_corner_look *look, uint32_t vertex)
 {
-    const tl_nav_visibility_graph *graph = look->changes->graph;
+    const tl_nav_visibility_graph *graph = ground->changes->graph;
+    if (look->ground == NULL) {
+        TL_TRY(begin_looks(ground, look));
+    }
     look->vertex = vertex;
     look->look_count++;
     return graph->marks[vertex] == TL_NAV_MARK_LOOKS ? look_towards_changes(look, graph->orders[vertex])
                                                      : look_around(look);
+}
+
+void tl_nav_look_from(const tl_nav_look_ground *ground, tl_nav_corner_look *look, uint32_t vertex)
+{
+    if (look->result == TL_OK) {
+        look->result = look_from(ground, look, vertex);
+    }
 }

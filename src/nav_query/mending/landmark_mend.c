@@ -16,8 +16,8 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "math/tolerance.h"
+#include "nav_query/mending/dijkstra.h"
 #include "nav_query/mending/landmark_measure.h"
-#include "nav_query/prepared/dijkstra.h"
 
 #include <math.h>
 #include <string.h>
@@ -120,7 +120,7 @@ static tl_result open_lowered(landmark_mend *m, uint32_t vertex, uint32_t landma
         }
         m->heap = grown;
     }
-    const tl_nav_open_vertex item = { (double)m->graph->landmarks[vertex][landmark], vertex };
+    const tl_nav_open_vertex item = { .length = (double)m->graph->landmarks[vertex][landmark], .vertex = vertex };
     tl_nav_open_vertex_push(m->heap, &m->heap_count, item, NULL);
     return TL_OK;
 }

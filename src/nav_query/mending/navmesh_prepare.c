@@ -14,7 +14,7 @@
 
 tl_nav_prepare_def tl_default_nav_prepare_def(void)
 {
-    tl_nav_prepare_def def = { 32u << 20, NULL, TL_DEF_COOKIE };
+    tl_nav_prepare_def def = { 32u << 20, NULL, NULL, TL_DEF_COOKIE };
     return def;
 }
 
@@ -85,7 +85,7 @@ static tl_result update_graph(tl_navmesh *navmesh, const tl_host *host)
 static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *def, uint32_t *renewed_out)
 {
     static const tl_nav_derived derived = { NULL, free_graph, outlive_state };
-    const tl_host host = { NULL, NULL, def->progress };
+    const tl_host host = { NULL, def->tasks, def->progress };
     navmesh->derived[TL_NAV_DERIVED_GRAPH] = &derived;
     if (!tl_nav_has_current_graph(navmesh)) {
         if (floors_fork(navmesh)) {

@@ -47,6 +47,21 @@ tl_result tl_nav_add_pair(const tl_allocator *allocator, tl_nav_pair_list *list,
     return tl_nav_add_item(allocator, list, item);
 }
 
+tl_result tl_nav_gather_pairs(const tl_allocator *allocator, tl_nav_pair_list *list, tl_nav_pair_list *all)
+{
+    if (all->count == 0) {
+        const tl_nav_pair_list none = *all;
+        *all = *list;
+        *list = none;
+        return TL_OK;
+    }
+    for (uint64_t i = 0; i < list->count; i++) {
+        TL_TRY(tl_nav_add_item(allocator, all, list->items[i]));
+    }
+    list->count = 0;
+    return TL_OK;
+}
+
 void tl_nav_free_pairs(const tl_allocator *allocator, tl_nav_pair_list *list)
 {
     tl_release_array(allocator, list->items, list->capacity, sizeof *list->items);

@@ -27,6 +27,8 @@ typedef struct tl_nav_pair_list {
 /// TL_ERR_MEMORY.
 tl_result tl_nav_add_item(const tl_allocator *allocator, tl_nav_pair_list *list, tl_sort_item item);
 tl_result tl_nav_add_pair(const tl_allocator *allocator, tl_nav_pair_list *list, uint32_t first, uint32_t second);
+/// Moves all of a list to the end of another. TL_ERR_MEMORY.
+tl_result tl_nav_gather_pairs(const tl_allocator *allocator, tl_nav_pair_list *list, tl_nav_pair_list *all);
 /// Ascending, and equal ones as they came. TL_ERR_MEMORY, TL_ERR_LIMIT, TL_ERR_CANCELLED.
 tl_result tl_nav_sort_pairs(const tl_allocator *allocator, tl_nav_pair_list *list, tl_stage *stage);
 /// The same, and the first of equal ones alone.

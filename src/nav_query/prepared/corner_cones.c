@@ -202,28 +202,6 @@ void tl_nav_free_cones(const tl_allocator *allocator, tl_nav_corner_cones *cones
     memset(cones, 0, sizeof *cones);
 }
 
-tl_result tl_nav_group_cones(tl_nav_cone_list *list, uint32_t slot_count, uint32_t *first)
-{
-    tl_nav_corner_cone *grouped = tl_allocate_array(list->allocator, list->capacity, sizeof *grouped);
-    if (grouped == NULL || list->count > UINT32_MAX) {
-        tl_release_array(list->allocator, grouped, list->capacity, sizeof *grouped);
-        return grouped == NULL ? TL_ERR_MEMORY : TL_ERR_LIMIT;
-    }
-    memset(first, 0, ((size_t)slot_count + 1) * sizeof *first);
-    for (uint64_t i = 0; i < list->count; i++) {
-        first[list->cones[i].slot]++;
-    }
-    for (uint32_t slot = 1; slot <= slot_count; slot++) {
-        first[slot] += first[slot - 1];
-    }
-    for (uint64_t i = list->count; i > 0; i--) {
-        grouped[--first[list->cones[i - 1].slot]] = list->cones[i - 1];
-    }
-    tl_release_array(list->allocator, list->cones, list->capacity, sizeof *grouped);
-    list->cones = grouped;
-    return TL_OK;
-}
-
 // The new cones of a tile by polygon, joined: those of polygon p at [first[p], first[p + 1]) of `sorted`.
 static void sort_cones(const tl_nav_corner_cone *fresh, uint64_t count, uint32_t polygon_count, uint32_t *first,
                        tl_nav_corner_cone *sorted)
@@ -328,7 +306,6 @@ static tl_result lay_cones(const tl_allocator *allocator, tl_nav_visibility_grap
     }
     made.first[polygon_count] = at;
     TL_ASSERT(at == made.count);
-    graph->tile_bytes += tl_nav_cones_size(&made) - tl_nav_cones_size(old);
     tl_nav_free_cones(allocator, old);
     *old = made;
     return TL_OK;

@@ -65,12 +65,9 @@ typedef struct tl_nav_cone_list {
 /// Adds the cones of a wedge that is seen from a corner vertex. TL_ERR_MEMORY.
 tl_result tl_nav_add_cones(tl_nav_cone_list *list, const tl_nav_visibility_graph *graph, uint32_t vertex,
                            const tl_nav_wedge *wedge);
-/// Groups the cones by slot, stably: those of slot s at [first[s], first[s + 1]) of the list. `first` [slot_count + 1].
-/// TL_ERR_MEMORY.
-tl_result tl_nav_group_cones(tl_nav_cone_list *list, uint32_t slot_count, uint32_t *first);
 /// Makes a tile's cones: those before that are not dropped, and `count` new ones, in any order. `is_dropped`, by cone,
 /// may be NULL where there were none. `old_polygons`: by polygon the number that it had before, or TL_NO_POLYGON; NULL:
-/// the same. TL_ERR_MEMORY: they are as they were. TL_ERR_LIMIT.
+/// the same. Does not count the tile's bytes. TL_ERR_MEMORY: they are as they were. TL_ERR_LIMIT.
 tl_result tl_nav_remake_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint32_t slot,
                               uint32_t polygon_count, const uint32_t *old_polygons, const bool *is_dropped,
                               const tl_nav_corner_cone *fresh, uint64_t count);

@@ -3,15 +3,15 @@
 // Tasks on threads that are made for each call, but for the first worker's, which is the caller's: slow, but any number
 // of them, and no thread lives between calls.
 
-#ifndef TALUS_TEST_CROWD_THREADS_H
-#define TALUS_TEST_CROWD_THREADS_H
+#ifndef TALUS_TEST_TASK_THREADS_H
+#define TALUS_TEST_TASK_THREADS_H
 
 #include "talus_test.h"
 
 #include <pthread.h>
 #include <talus/base.h>
 
-enum { CROWD_MAX_THREADS = 8 };
+enum { TEST_MAX_THREADS = 8 };
 
 typedef struct thread_job {
     tl_task_fn *task;
@@ -32,9 +32,9 @@ static inline void *run_stride(void *argument)
 static inline void run_on_threads(tl_task_fn *task, uint32_t count, void *task_user, void *user)
 {
     const uint32_t workers = *(const uint32_t *)user;
-    pthread_t threads[CROWD_MAX_THREADS];
-    thread_job jobs[CROWD_MAX_THREADS] = { { task, 0, 0, 1, task_user } };
-    TEST_CHECK(workers <= CROWD_MAX_THREADS);
+    pthread_t threads[TEST_MAX_THREADS];
+    thread_job jobs[TEST_MAX_THREADS] = { { task, 0, 0, 1, task_user } };
+    TEST_CHECK(workers <= TEST_MAX_THREADS);
     for (uint32_t w = 0; w < workers; w++) {
         thread_job job = { task, w, count, workers, task_user };
         jobs[w] = job;
