@@ -523,38 +523,6 @@ static void test_edges_are_sights(void **state)
     tl_nav_query_destroy(query);
 }
 
-// Memory that fails while a graph is mended.
-static void test_mending_memory(void **state)
-{
-    (void)state;
-    test_random random = { 8 };
-    fixture_level level = fixture_random(&random, 1, 12);
-    level.tile_cells = 4;
-    fixture_level changed = level;
-    changed.cells[1][1] = level.cells[1][1] == '#' ? '0' : '#';
-    const tl_nav_prepare_def def = { .table_bytes = 0, .cookie = TL_DEF_COOKIE };
-    tl_result result = TL_ERR_MEMORY;
-    uint32_t failures = 0;
-    for (uint64_t k = 1; result != TL_OK; k++) {
-        test_allocator failing;
-        test_allocator_init(&failing, 0);
-        tl_navmesh *navmesh = fixture_build(&level, &failing.allocator);
-        TEST_RESULT(tl_navmesh_prepare(navmesh, &def, NULL), TL_OK);
-        tl_nav_tile *tile = fixture_build_tile(&changed, 0, 0, &failing.allocator);
-        TEST_RESULT(tl_navmesh_remove_tile(navmesh, 0, 0), TL_OK);
-        TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
-        failing.calls = 0;
-        failing.fail_at = k;
-        result = tl_navmesh_prepare(navmesh, &def, NULL);
-        TEST_CHECK(result == TL_OK || result == TL_ERR_MEMORY);
-        TEST_CHECK(tl_navmesh_is_prepared(navmesh) == (result == TL_OK));
-        failures += result != TL_OK;
-        tl_navmesh_destroy(navmesh);
-        TEST_CHECK(failing.live_blocks == 0);
-    }
-    TEST_CHECK(failures > 20);
-}
-
 static void test_memory(void **state)
 {
     (void)state;
@@ -612,7 +580,6 @@ int main(void)
         cmocka_unit_test(test_mended),
         cmocka_unit_test(test_many_edits),
         cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_mending_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
