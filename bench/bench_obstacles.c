@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A city that changes: a box of it baked again, and obstacles that come, move and go, beside DetourTileCache where it
-// is installed: the same cylinders in the same tiles, both sides in turn, each until its navmesh is right.
+// is installed: the same cylinders in the same tiles, both sides in turn, each until its navmesh is right. And many
+// that move at once, by one thread and by two.
 //
 //   bench_obstacles [--triangles N (1000000)] [--json FILE] [LEVEL ...]
 //
@@ -11,6 +12,7 @@
 #include "base/random.h"
 #include "bench_options.h"
 #include "cli/sample/sample_level.h"
+#include "cli/shared/thread_pool.h"
 #include "measure.h"
 #include "report.h"
 #include "soup_levels.h"
@@ -23,7 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { EDITS = 400, REBUILDS = 20, MAX_TILES = 12 * EDITS, MAX_SIDE = 256 };
+enum { EDITS = 400, MOVERS = 50, FRAMES = 40, REBUILDS = 20, MAX_TILES = 12 * EDITS, MAX_SIDE = 256 };
 
 static void must(tl_result result, const char *what)
 {
@@ -170,6 +172,49 @@ static void claim_ratios(bench_report *report, const char *name, peer_ratios rat
 }
 #endif
 
+static tl_nav_obstacle random_cylinder(const tl_nav_def *def)
+{
+    tl_nav_obstacle crate;
+    memset(&crate, 0, sizeof crate);
+    crate.shape = TL_NAV_OBSTACLE_CYLINDER;
+    crate.radius = random_between(0.3f, 1.5f);
+    crate.height = 2.0f;
+    crate.base = tl_vec3_make(random_between(def->bounds.min.x, def->bounds.max.x), 0.0f,
+                              random_between(def->bounds.min.z, def->bounds.max.z));
+    return crate;
+}
+
+// Many that move, until the navmesh is right: milliseconds on the wall of a frame, with one thread and two in turn.
+static void measure_movers(const tl_nav_def *def, tl_nav_obstacles *obstacles, tl_navmesh *navmesh, const char *name,
+                           bench_report *report)
+{
+    tl_nav_obstacle movers[MOVERS];
+    tl_nav_obstacle_id ids[MOVERS];
+    double times[2][FRAMES];
+    tl_thread_pool *pool = tl_thread_pool_create(2);
+    for (int i = 0; i < MOVERS; i++) {
+        movers[i] = random_cylinder(def);
+        must(tl_nav_obstacles_add(obstacles, &movers[i], &ids[i], NULL), "add");
+    }
+    must(tl_nav_obstacles_update(obstacles, navmesh, UINT32_MAX, NULL, NULL), "update");
+    for (int frame = 0; frame < 2 * FRAMES; frame++) {
+        must(tl_nav_obstacles_set_tasks(obstacles, frame % 2 != 0 ? tl_thread_pool_tasks(pool) : NULL), "tasks");
+        const double began = bench_wall_seconds();
+        for (int i = 0; i < MOVERS; i++) {
+            movers[i].base.x += frame % 4 < 2 ? 0.4f : -0.4f; // there and back, with both
+            must(tl_nav_obstacles_move(obstacles, ids[i], &movers[i], NULL), "move");
+        }
+        must(tl_nav_obstacles_update(obstacles, navmesh, UINT32_MAX, NULL, NULL), "update");
+        times[frame % 2][frame / 2] = (bench_wall_seconds() - began) * 1e3;
+    }
+    must(tl_nav_obstacles_set_tasks(obstacles, NULL), "tasks");
+    const double one = bench_quantile(times[0], FRAMES, 0.5), two = bench_quantile(times[1], FRAMES, 0.5);
+    printf("%s: %d cylinders moved at once: %.1f ms, two threads %.1f ms (%.2f times as fast)\n", name, MOVERS, one,
+           two, one / two);
+    bench_report_value(report, "many obstacles in the city", "two threads, times as fast", name, one / two);
+    tl_thread_pool_free(pool);
+}
+
 static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_partition partition, uint32_t tile_size,
                               bench_report *report)
 {
@@ -195,13 +240,7 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_
     bench_tile_cache *peer = make_peer(&def, input);
 #endif
     for (int i = 0; i < EDITS; i++) {
-        tl_nav_obstacle crate;
-        memset(&crate, 0, sizeof crate);
-        crate.shape = TL_NAV_OBSTACLE_CYLINDER;
-        crate.radius = random_between(0.3f, 1.5f);
-        crate.height = 2.0f;
-        crate.base = tl_vec3_make(random_between(def.bounds.min.x, def.bounds.max.x), 0.0f,
-                                  random_between(def.bounds.min.z, def.bounds.max.z));
+        tl_nav_obstacle crate = random_cylinder(&def);
         tl_nav_obstacle_id id;
         began = bench_process_seconds();
         must(tl_nav_obstacles_add(obstacles, &crate, &id, NULL), "add");
@@ -249,6 +288,7 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_
     bench_report_value(report, "one obstacle in the city", "tile baked, first time", name, first_median);
     bench_report_value(report, "one obstacle in the city", "tile baked again", name, again_median);
     bench_report_value(report, "one obstacle in the city", "tile swapped", name, swap_median);
+    measure_movers(&def, obstacles, navmesh, name, report);
     tl_navmesh_destroy(navmesh);
     tl_nav_obstacles_destroy(obstacles);
 }

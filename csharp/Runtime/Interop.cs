@@ -3420,6 +3420,8 @@ namespace Talus.Interop
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern void tl_nav_obstacles_destroy(tl_nav_obstacles* obstacles);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern tl_result tl_nav_obstacles_set_tasks(tl_nav_obstacles* obstacles, tl_tasks* tasks);
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_nav_obstacles_add(tl_nav_obstacles* obstacles, tl_nav_obstacle* obstacle, ulong* id_out, tl_report* report_out);
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern tl_result tl_nav_obstacles_move(tl_nav_obstacles* obstacles, ulong id, tl_nav_obstacle* obstacle, tl_report* report_out);

@@ -75,6 +75,12 @@ TL_API tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input
                                        tl_nav_bake_report *report_out);
 TL_API void tl_nav_obstacles_destroy(tl_nav_obstacles *obstacles);
 
+/// Several tiles are rebaked at once from now on, one a worker, by tl_nav_obstacles_update, and the triangles of
+/// tl_nav_obstacles_rebake by as many. The tasks must live until others are set, or until the end; NULL: the calling
+/// thread, as at first. Memory then comes from several threads. What is made is the same. TL_ERR_MEMORY, not
+/// for NULL: nothing has changed.
+TL_API tl_result tl_nav_obstacles_set_tasks(tl_nav_obstacles *obstacles, const tl_tasks *tasks);
+
 /// Adds an obstacle; the tiles that it touches wait to be rebaked. Takes a microsecond or less, and memory only
 /// where the list of obstacles grows. TL_ERR_ARGUMENT (a size, an outline that is not convex, a `convex` that no
 /// function of convex.h made), TL_ERR_NOT_FINITE, TL_ERR_MEMORY.

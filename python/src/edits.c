@@ -242,24 +242,29 @@ static PyObject *obstacle_remove(PyObject *self, PyObject *args)
     return failed == 0 ? Py_NewRef(Py_None) : NULL;
 }
 
-// obstacles_update(navmesh, max tiles) -> tiles still waiting
+// obstacles_update(navmesh, max tiles, threads) -> tiles still waiting
 static PyObject *obstacles_update(PyObject *self, PyObject *args)
 {
     (void)self;
     PyObject *capsule;
-    unsigned max_tiles = 0;
-    if (!PyArg_ParseTuple(args, "OI", &capsule, &max_tiles)) {
+    unsigned max_tiles = 0, threads = 1;
+    if (!PyArg_ParseTuple(args, "OII", &capsule, &max_tiles, &threads)) {
         return NULL;
     }
     const binding_navmesh *held = with_obstacles(capsule);
     if (held == NULL) {
         return NULL;
     }
-    tl_nav_bake_report report;
+    tl_nav_bake_report report = { 0 };
     uint32_t waiting = 0;
+    tl_tasks tasks;
+    binding_tasks(&tasks, threads);
     tl_result result;
-    Py_BEGIN_ALLOW_THREADS result =
-        tl_nav_obstacles_update(held->obstacles, held->navmesh, max_tiles, &waiting, &report);
+    Py_BEGIN_ALLOW_THREADS result = tl_nav_obstacles_set_tasks(held->obstacles, threads > 1 ? &tasks : NULL);
+    if (result == TL_OK) {
+        result = tl_nav_obstacles_update(held->obstacles, held->navmesh, max_tiles, &waiting, &report);
+        tl_nav_obstacles_set_tasks(held->obstacles, NULL);
+    }
     Py_END_ALLOW_THREADS return result == TL_OK ? PyLong_FromUnsignedLong(waiting)
                                                 : binding_raise(result, &report.base);
 }

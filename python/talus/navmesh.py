@@ -494,10 +494,14 @@ class Navmesh:
             if update:
                 self.update_obstacles()
 
-    def update_obstacles(self, max_tiles: int | None = None) -> int:
-        """Rebake up to ``max_tiles`` tiles that wait; None is all. Returns how many wait still."""
+    def update_obstacles(self, max_tiles: int | None = None, *, threads: int | None = 1) -> int:
+        """Rebake up to ``max_tiles`` tiles that wait; None is all. Returns how many wait still.
+
+        Several ``threads`` are worth it where dozens of tiles wait; None is all.
+        """
+        most = 0x7FFFFFFF if max_tiles is None else int(max_tiles)
         with self._lock:
-            return int(_talus.obstacles_update(self._navmesh, 0x7FFFFFFF if max_tiles is None else int(max_tiles)))
+            return int(_talus.obstacles_update(self._navmesh, most, thread_count(threads)))
 
     # --- checks ---------------------------------------------------------------------------------------------------
 

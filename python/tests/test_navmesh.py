@@ -192,6 +192,7 @@ def test_obstacles(hall: Mesh) -> None:
         talus.Obstacle.prism([10, 0, 20], [[-1, -3], [-1, 3], [1, 3], [1, -3]], 2), update=False
     )
     assert navmesh.update_obstacles(1) >= 0
+    assert navmesh.update_obstacles(threads=3) == 0
     navmesh.remove_obstacle(third)
     navmesh.remove_obstacle(crate)
     assert navmesh.shortest_path(start, goal).length == free

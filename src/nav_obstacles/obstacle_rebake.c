@@ -76,7 +76,7 @@ static tl_result compare_borders(const tl_nav_obstacles *o, const tile_floors *t
     return same ? TL_NOT_FOUND : TL_OK;
 }
 
-static tl_result rebake_marked(tl_nav_obstacles *o, tile_floors *tile, tl_unpacked_tile *now,
+static tl_result rebake_marked(const tl_nav_obstacles *o, tile_floors *tile, tl_unpacked_tile *now,
                                tl_nav_rebaked_tile *rebaked, tl_nav_bake_report *report)
 {
     const uint32_t x = (uint32_t)rebaked->tile_x, z = (uint32_t)rebaked->tile_z;
@@ -134,45 +134,106 @@ static tl_obstacle_window changed_columns(const tl_nav_obstacles *o, const tile_
 }
 
 // Marks the changed columns of a tile that is known. TL_NOT_FOUND: they are as they were handed out last.
-static tl_result mark_changed_columns(tl_nav_obstacles *o, const tile_floors *tile, uint32_t x, uint32_t z)
+static tl_result mark_changed_columns(const tl_nav_obstacles *o, tl_floor_window *columns, const tile_floors *tile,
+                                      uint32_t x, uint32_t z)
 {
-    TL_TRY(tl_floor_window_read(&o->window, &tile->floors, changed_columns(o, tile, x, z), &o->allocator));
-    mark_obstacles(o, x, z, &o->window.compact);
-    return tl_floor_window_holds(&o->window, &tile->marks) ? TL_NOT_FOUND : TL_OK;
+    TL_TRY(tl_floor_window_read(columns, &tile->floors, changed_columns(o, tile, x, z), &o->allocator));
+    mark_obstacles(o, x, z, &columns->compact);
+    return tl_floor_window_holds(columns, &tile->marks) ? TL_NOT_FOUND : TL_OK;
 }
 
-// Makes a tile with what stands on it now; TL_NOT_FOUND: it is as it was handed out last.
-static tl_result rebake_with_obstacles(tl_nav_obstacles *o, tile_floors *tile, tl_nav_rebaked_tile *rebaked,
-                                       tl_nav_bake_report *report)
+// A tile that waits, and what is made of it.
+typedef struct rebake_job {
+    uint32_t tile;
+    tl_unpacked_tile *room; // for its floors
+    tl_nav_rebaked_tile rebaked;
+    tl_nav_bake_report report;
+    tl_result result; // TL_NOT_FOUND: the tile is as it was handed out last
+} rebake_job;
+
+// Makes a tile with what stands on it now.
+static tl_result rebake_with_obstacles(const tl_nav_obstacles *o, tl_floor_window *columns, rebake_job *job)
 {
-    tl_unpacked_tile *now = NULL;
+    tile_floors *tile = &o->tiles[job->tile];
+    tl_unpacked_tile *now = job->room;
     if (tile->floors.frame.span_count == 0) {
         return tile->is_known ? TL_NOT_FOUND : TL_OK;
     }
-    const uint32_t index = (uint32_t)(tile - o->tiles), x = (uint32_t)rebaked->tile_x, z = (uint32_t)rebaked->tile_z;
+    const uint32_t x = (uint32_t)job->rebaked.tile_x, z = (uint32_t)job->rebaked.tile_z;
     const bool only_changed = tile->is_known && !tile->all_changed;
     if (only_changed) {
-        const tl_result marked = mark_changed_columns(o, tile, x, z);
+        const tl_result marked = mark_changed_columns(o, columns, tile, x, z);
         if (marked != TL_OK) {
             return marked;
         }
     }
-    TL_TRY(tl_unpacked_tiles_take(&o->unpacked, index, &tile->floors, &o->allocator, &now));
+    TL_TRY(tl_unpacked_tile_fill(now, job->tile, &tile->floors, &o->allocator));
     tl_nav_compact *compact = &now->compact;
     if (only_changed) {
         tl_tile_marks_apply(&tile->marks, now->base_area, 0, compact->span_count, compact->area);
-        tl_floor_window_paste(&o->window, compact->area);
+        tl_floor_window_paste(columns, compact->area);
     } else {
         mark_obstacles(o, x, z, compact);
         if (tile->is_known && tl_tile_marks_hold(&tile->marks, now->base_area, compact->area, compact->span_count)) {
             return TL_NOT_FOUND;
         }
     }
-    const tl_result result = rebake_marked(o, tile, now, rebaked, report);
-    if (tl_is_error(result)) {
+    return rebake_marked(o, tile, now, &job->rebaked, &job->report);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Tiles that wait, several as tasks.
+
+typedef struct rebake_batch {
+    tl_nav_obstacles *o;
+    rebake_job jobs[TL_MAX_UNPACKED_TILES];
+    uint32_t count;
+} rebake_batch;
+
+static void rebake_one(uint32_t index, uint32_t worker, void *user)
+{
+    rebake_batch *batch = user;
+    rebake_job *job = &batch->jobs[index];
+    job->result = rebake_with_obstacles(batch->o, &batch->o->windows[worker], job);
+}
+
+// Makes the first `most` tiles of the queue, where there are rooms for their floors. They keep waiting.
+static void rebake_first(tl_nav_obstacles *o, uint32_t most, rebake_batch *batch)
+{
+    const tl_host host = { NULL, o->tasks, NULL };
+    bool any_failed = false;
+    batch->o = o;
+    batch->count = 0;
+    for (uint32_t tile = o->first_waiting; tile != OBSTACLE_NO_SLOT && batch->count < most;
+         tile = o->tiles[tile].next_waiting) {
+        tl_unpacked_tile *room = tl_unpacked_tiles_reserve(&o->unpacked, tile);
+        if (room == NULL) {
+            break;
+        }
+        rebake_job *job = &batch->jobs[batch->count];
+        memset(job, 0, sizeof *job);
+        tl_report_begin(&job->report.base, "rebake");
+        job->tile = tile;
+        job->rebaked.tile_x = (int32_t)(tile % o->tiles_x);
+        job->rebaked.tile_z = (int32_t)(tile / o->tiles_x);
+        job->room = room;
+        batch->count++;
+    }
+    tl_run_tasks(&host, rebake_one, batch->count, batch);
+    tl_unpacked_tiles_release(&o->unpacked);
+    for (uint32_t i = 0; i < batch->count; i++) {
+        any_failed = any_failed || tl_is_error(batch->jobs[i].result);
+    }
+    if (any_failed) {
         tl_unpacked_tiles_free(&o->unpacked); // where memory is short
     }
-    return result;
+}
+
+// The first tile of the queue is handed out, or was found as it is.
+static void end_first_wait(tl_nav_obstacles *o)
+{
+    o->tiles[o->first_waiting].is_known = true;
+    tl_obstacles_end_wait(o);
 }
 
 tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked_tile *rebaked_out,
@@ -183,19 +244,71 @@ tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked
     TL_REFUSE_NULL(rebaked_out, base);
     memset(rebaked_out, 0, sizeof *rebaked_out);
     TL_REFUSE_NULL(obstacles, base);
-    tl_result result = TL_NOT_FOUND;
-    while (result == TL_NOT_FOUND && o->first_waiting != OBSTACLE_NO_SLOT) {
-        tile_floors *tile = &o->tiles[o->first_waiting];
-        rebaked_out->tile_x = (int32_t)(o->first_waiting % o->tiles_x);
-        rebaked_out->tile_z = (int32_t)(o->first_waiting / o->tiles_x);
-        result = rebake_with_obstacles(o, tile, rebaked_out, report_out);
-        if (!tl_is_error(result)) {
-            tile->is_known = true;
-            tl_obstacles_end_wait(o);
+    while (o->first_waiting != OBSTACLE_NO_SLOT) {
+        rebake_batch batch;
+        rebake_first(o, 1, &batch);
+        const rebake_job *job = &batch.jobs[0];
+        if (report_out != NULL) {
+            *report_out = job->report;
+        }
+        if (tl_is_error(job->result)) {
+            return job->result;
+        }
+        end_first_wait(o);
+        if (job->result == TL_OK) {
+            *rebaked_out = job->rebaked;
+            return TL_OK;
         }
     }
+    return TL_NOT_FOUND;
+}
+
+// Puts a tile into the navmesh. Where that fails it waits again, to be made from nothing.
+static tl_result install_rebaked(tl_nav_obstacles *o, tl_navmesh *navmesh, rebake_job *job)
+{
+    end_first_wait(o);
+    if (job->result == TL_NOT_FOUND) {
+        return TL_OK;
+    }
+    const tl_nav_rebaked_tile *rebaked = &job->rebaked;
+    const tl_result result = tl_navmesh_replace_tiles(navmesh, rebaked->tile_x, rebaked->tile_z, &job->rebaked.stack);
     if (result != TL_OK) {
-        memset(rebaked_out, 0, sizeof *rebaked_out);
+        const tl_nav_tile_range again = { (uint32_t)rebaked->tile_x, (uint32_t)rebaked->tile_z, 1, 1 };
+        tl_obstacles_tile_at(o, again.x, again.z)->is_known = false;
+        tl_obstacles_let_wait(o, &again, NULL);
+    }
+    return result;
+}
+
+// What was made behind a failure: its tile, which waits still, is made from nothing.
+static void discard_rebaked(tl_nav_obstacles *o, rebake_job *job)
+{
+    if (job->result == TL_OK) {
+        tl_nav_tile_stack_free(&job->rebaked.stack);
+        o->tiles[job->tile].is_known = false;
+    }
+}
+
+// Makes the first `most` tiles that wait, and puts them into the navmesh one after another. `*made_out`: how many were
+// not as they had been.
+static tl_result update_some(tl_nav_obstacles *o, tl_navmesh *navmesh, uint32_t most, uint32_t *made_out,
+                             tl_nav_bake_report *report_out)
+{
+    rebake_batch batch;
+    tl_result result = TL_OK;
+    *made_out = 0;
+    rebake_first(o, o->tasks != NULL ? most : tl_min_u32(most, 1), &batch);
+    for (uint32_t i = 0; i < batch.count; i++) {
+        rebake_job *job = &batch.jobs[i];
+        if (result != TL_OK) {
+            discard_rebaked(o, job);
+            continue;
+        }
+        if (report_out != NULL && job->result != TL_NOT_FOUND) {
+            *report_out = job->report;
+        }
+        result = tl_is_error(job->result) ? job->result : install_rebaked(o, navmesh, job);
+        *made_out += job->result == TL_OK ? 1 : 0;
     }
     return result;
 }
@@ -211,21 +324,13 @@ tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navme
     TL_REFUSE_NULL(navmesh, base);
     tl_nav_obstacles *o = obstacles;
     tl_result result = TL_OK;
-    for (uint32_t i = 0; i < max_tiles && result == TL_OK && o->first_waiting != OBSTACLE_NO_SLOT; i++) {
-        tl_nav_rebaked_tile rebaked;
-        result = tl_nav_obstacles_bake_next(o, &rebaked, report_out);
-        if (result != TL_OK) {
-            break;
-        }
-        result = tl_navmesh_replace_tiles(navmesh, rebaked.tile_x, rebaked.tile_z, &rebaked.stack);
-        if (result != TL_OK) {
-            const tl_nav_tile_range again = { (uint32_t)rebaked.tile_x, (uint32_t)rebaked.tile_z, 1, 1 };
-            tl_obstacles_tile_at(o, again.x, again.z)->is_known = false;
-            tl_obstacles_let_wait(o, &again, NULL);
-        }
+    while (max_tiles > 0 && result == TL_OK && o->first_waiting != OBSTACLE_NO_SLOT) {
+        uint32_t made = 0;
+        result = update_some(o, navmesh, max_tiles, &made, report_out);
+        max_tiles -= made;
     }
     if (waiting_out != NULL) {
         *waiting_out = o->waiting_count;
     }
-    return result == TL_NOT_FOUND ? TL_OK : result;
+    return result;
 }

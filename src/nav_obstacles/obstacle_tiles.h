@@ -39,7 +39,9 @@ struct tl_nav_obstacles {
     uint32_t slot_count, slot_capacity, first_free, used_count;
     uint32_t first_waiting, last_waiting, waiting_count;
     tl_unpacked_tiles unpacked; // of the tiles that were made again last
-    tl_floor_window window;     // of the tile that is looked at
+    const tl_tasks *tasks;      // that make tiles; NULL: the calling thread
+    tl_floor_window *windows;   // [window_count] of the tile that a worker looks at
+    uint32_t window_count;      // at least one for each worker
 };
 
 #define OBSTACLE_NO_SLOT UINT32_MAX

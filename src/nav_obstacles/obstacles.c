@@ -188,6 +188,40 @@ static tl_result check_obstacles_def(const tl_nav_def *def, tl_report *report)
     return TL_OK;
 }
 
+static void free_windows(const tl_nav_obstacles *o)
+{
+    for (uint32_t w = 0; w < o->window_count; w++) {
+        tl_floor_window_free(&o->windows[w], &o->allocator);
+    }
+    tl_release_array(&o->allocator, o->windows, o->window_count, sizeof *o->windows);
+}
+
+// Makes room for so many workers. Fewer can do with it.
+static tl_result make_room_for_workers(tl_nav_obstacles *o, uint32_t workers)
+{
+    if (workers > o->window_count) {
+        tl_floor_window *windows = tl_allocate_array(&o->allocator, workers, sizeof *windows);
+        if (windows == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        memset(windows, 0, workers * sizeof *windows);
+        free_windows(o);
+        o->windows = windows;
+        o->window_count = workers;
+    }
+    tl_unpacked_tiles_init(&o->unpacked, tile_count(o), workers);
+    return TL_OK;
+}
+
+tl_result tl_nav_obstacles_set_tasks(tl_nav_obstacles *obstacles, const tl_tasks *tasks)
+{
+    TL_REFUSE_NULL(obstacles, NULL);
+    const tl_host host = { NULL, tasks, NULL };
+    TL_TRY(make_room_for_workers(obstacles, tl_worker_count(&host)));
+    obstacles->tasks = tasks;
+    return TL_OK;
+}
+
 static tl_result create(const tl_nav_def *def, tl_nav_obstacles **out, tl_report *report)
 {
     TL_TRY(check_obstacles_def(def, report));
@@ -214,7 +248,11 @@ static tl_result create(const tl_nav_def *def, tl_nav_obstacles **out, tl_report
         return TL_ERR_MEMORY;
     }
     memset(o->tiles, 0, (size_t)tile_count(o) * sizeof *o->tiles);
-    tl_unpacked_tiles_init(&o->unpacked, tile_count(o));
+    const tl_result result = make_room_for_workers(o, 1);
+    if (result != TL_OK) {
+        tl_nav_obstacles_destroy(o);
+        return result;
+    }
     *out = o;
     return TL_OK;
 }
@@ -265,7 +303,6 @@ tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input
 tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_input *input, tl_aabb changed,
                                   tl_nav_bake_report *report_out)
 {
-    static const tl_host alone = { NULL, NULL, NULL };
     tl_report *base = tl_obstacles_report_begin(report_out, "rebake");
     TL_REFUSE_NULL(obstacles, base);
     TL_REFUSE_NULL(input, base);
@@ -277,7 +314,8 @@ tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_inpu
     tl_report_begin(&report.base, "rebake");
     tl_result result = tl_nav_tiles_in_box(&o->def, o->def.bounds, changed, &range, &report.base);
     if (result == TL_OK && range.count_x > 0) {
-        result = bake_range(o, &alone, input, range, &block, &report);
+        const tl_host host = { NULL, o->tasks, NULL };
+        result = bake_range(o, &host, input, range, &block, &report);
         if (result == TL_OK) {
             tl_nav_tile_block_free(&block); // made again with the obstacles
             tl_obstacles_let_wait(o, &range, NULL);
@@ -299,7 +337,7 @@ void tl_nav_obstacles_destroy(tl_nav_obstacles *obstacles)
         free_floors(&o->tiles[i], &o->allocator);
     }
     tl_unpacked_tiles_free(&o->unpacked);
-    tl_floor_window_free(&o->window, &o->allocator);
+    free_windows(o);
     const tl_allocator allocator = o->allocator;
     tl_release_array(&allocator, o->tiles, tile_count(o), sizeof *o->tiles);
     tl_release_array(&allocator, o->slots, o->slot_capacity, sizeof *o->slots);
@@ -436,8 +474,11 @@ uint32_t tl_nav_obstacles_waiting(const tl_nav_obstacles *obstacles)
 uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles)
 {
     const tl_nav_obstacles *o = obstacles;
-    uint64_t bytes = sizeof *o + tl_unpacked_tiles_bytes(&o->unpacked) + tl_floor_window_bytes(&o->window) +
-                     tile_count(o) * sizeof *o->tiles + (uint64_t)o->slot_capacity * sizeof *o->slots;
+    uint64_t bytes = sizeof *o + tl_unpacked_tiles_bytes(&o->unpacked) + tile_count(o) * sizeof *o->tiles +
+                     (uint64_t)o->slot_capacity * sizeof *o->slots;
+    for (uint32_t w = 0; w < o->window_count; w++) {
+        bytes += sizeof *o->windows + tl_floor_window_bytes(&o->windows[w]);
+    }
     for (uint64_t i = 0; i < tile_count(o); i++) {
         bytes += (uint64_t)o->tiles[i].floors.block_count * sizeof(tl_floor_block);
         bytes += o->tiles[i].floors.size + tl_nav_tile_memo_bytes(o->tiles[i].memo);

@@ -6,16 +6,18 @@
 #include "nav_obstacles/unpacked_tiles.h"
 
 #include "base/assert.h"
+#include "base/min_max.h"
 
 #include <string.h>
 
-enum { TILES_FOR_EACH_UNPACKED = 32 };
+enum { TILES_FOR_EACH_UNPACKED = 32, FOR_EACH_WORKER = 4 };
 
-void tl_unpacked_tiles_init(tl_unpacked_tiles *tiles, uint64_t tile_count)
+void tl_unpacked_tiles_init(tl_unpacked_tiles *tiles, uint64_t tile_count, uint32_t workers)
 {
-    const uint64_t share = tile_count / TILES_FOR_EACH_UNPACKED;
-    memset(tiles, 0, sizeof *tiles);
-    tiles->most = share < 1 ? 1 : share < TL_UNPACKED_TILES ? (uint32_t)share : TL_UNPACKED_TILES;
+    const uint64_t wanted = workers > 1 ? (uint64_t)FOR_EACH_WORKER * workers
+                                        : tl_min_u64(tile_count / TILES_FOR_EACH_UNPACKED, FOR_EACH_WORKER);
+    tiles->most = tl_max_u32(tiles->most, (uint32_t)tl_min_u64(wanted, TL_MAX_UNPACKED_TILES));
+    tiles->most = tl_max_u32(tiles->most, 1);
 }
 
 static tl_unpacked_tile *find_unpacked(tl_unpacked_tiles *tiles, uint32_t tile)
@@ -30,30 +32,50 @@ static tl_unpacked_tile *find_unpacked(tl_unpacked_tiles *tiles, uint32_t tile)
 
 static tl_unpacked_tile *least_recent(tl_unpacked_tiles *tiles)
 {
-    tl_unpacked_tile *least = &tiles->tiles[0];
-    for (uint32_t i = 1; i < tiles->most; i++) {
-        least = tiles->tiles[i].last_use < least->last_use ? &tiles->tiles[i] : least;
+    tl_unpacked_tile *least = NULL;
+    for (uint32_t i = 0; i < tiles->most; i++) {
+        tl_unpacked_tile *room = &tiles->tiles[i];
+        least = !room->is_reserved && (least == NULL || room->last_use < least->last_use) ? room : least;
     }
     return least;
 }
 
-tl_result tl_unpacked_tiles_take(tl_unpacked_tiles *tiles, uint32_t tile, const tl_packed_floors *packed,
-                                 const tl_allocator *allocator, tl_unpacked_tile **taken_out)
+tl_unpacked_tile *tl_unpacked_tiles_reserve(tl_unpacked_tiles *tiles, uint32_t tile)
 {
-    tl_unpacked_tile *taken = find_unpacked(tiles, tile);
-    if (taken != NULL) {
-        memcpy(taken->compact.area, taken->base_area, taken->compact.span_count);
-    } else {
-        taken = least_recent(tiles);
-        taken->last_use = 0;
-        taken->is_linked = false;
-        taken->tile = tile;
-        taken->scratch.allocator = allocator;
-        TL_TRY(tl_floors_unpack(packed, &taken->scratch, &taken->compact, &taken->base_area));
+    tl_unpacked_tile *room = find_unpacked(tiles, tile);
+    room = room != NULL && !room->is_reserved ? room : least_recent(tiles); // another tile may have got it
+    if (room != NULL) {
+        room->is_reserved = true;
+        room->was_filled = false;
     }
-    taken->last_use = ++tiles->uses;
-    *taken_out = taken;
+    return room;
+}
+
+tl_result tl_unpacked_tile_fill(tl_unpacked_tile *room, uint32_t tile, const tl_packed_floors *packed,
+                                const tl_allocator *allocator)
+{
+    if (room->last_use > 0 && room->tile == tile) {
+        memcpy(room->compact.area, room->base_area, room->compact.span_count);
+    } else {
+        room->last_use = 0;
+        room->is_linked = false;
+        room->tile = tile;
+        room->scratch.allocator = allocator;
+        TL_TRY(tl_floors_unpack(packed, &room->scratch, &room->compact, &room->base_area));
+    }
+    room->was_filled = true;
     return TL_OK;
+}
+
+void tl_unpacked_tiles_release(tl_unpacked_tiles *tiles)
+{
+    for (uint32_t i = 0; i < tiles->most; i++) {
+        tl_unpacked_tile *room = &tiles->tiles[i];
+        if (room->is_reserved && room->was_filled) {
+            room->last_use = ++tiles->uses;
+        }
+        room->is_reserved = false;
+    }
 }
 
 void tl_unpacked_tile_link(tl_unpacked_tile *tile)

@@ -80,6 +80,26 @@ static tl_result nav_obstacles_destroy(contract_run *run)
     return TL_OK;
 }
 
+static void run_in_order(tl_task_fn *task, uint32_t count, void *task_user, void *user)
+{
+    (void)user;
+    for (uint32_t i = 0; i < count; i++) {
+        task(i, 0, task_user);
+    }
+}
+
+static tl_result nav_obstacles_set_tasks(contract_run *run)
+{
+    tl_nav_obstacles *obstacles = make_obstacles();
+    const tl_tasks tasks = { run_in_order, 4, NULL };
+    tl_result result = tl_nav_obstacles_set_tasks(is_null_input(run, 0) ? NULL : obstacles, &tasks);
+    result = result == TL_OK ? tl_nav_obstacles_set_tasks(obstacles, NULL) : result;
+    run->is_clear = true;
+    run->answer = tl_nav_obstacles_waiting(obstacles);
+    tl_nav_obstacles_destroy(obstacles);
+    return result;
+}
+
 static const char *const OBSTACLE_FIELDS[] = { "shape", "base", "height", "radius", "convex", "pose", NULL };
 
 static tl_nav_obstacle obstacle_of(const contract_run *run)
@@ -211,6 +231,8 @@ const contract_entry CONTRACT_TABLE_nav_obstacles[] = {
           CONTRACT_BIT(CANCELLED),
       1, 1, BAKE_FIELDS, nav_obstacles_bake, NULL },
     { "tl_nav_obstacles_destroy", CONTRACT_BIT(NULL_FREE), 0, 0, NULL, nav_obstacles_destroy, NULL },
+    { "tl_nav_obstacles_set_tasks", CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT), 1, 0, NULL, nav_obstacles_set_tasks,
+      NULL },
     { "tl_nav_obstacles_add", CALLS | CONTRACT_BIT(BAD_FIELD) | CONTRACT_BIT(NULL_OUTPUT), 2, 1, OBSTACLE_FIELDS,
       nav_obstacles_add, NULL },
     { "tl_nav_obstacles_move", CALLS | CONTRACT_BIT(BAD_FIELD) | CONTRACT_BIT(STALE), 2, 0, OBSTACLE_FIELDS,

@@ -6,6 +6,7 @@
 #include "nav_obstacles/footprint.h"
 #include "nav_obstacles/unpacked_tiles.h"
 #include "obstacle_world.h"
+#include "task_threads.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -202,7 +203,13 @@ static void test_random_edits(void **state)
     tl_nav_obstacle_id ids[CAPACITY], other_id;
     uint32_t count = 0, added = 0, moved = 0, removed = 0, compared = 0;
     test_random random = { asked != NULL ? (uint64_t)edits : 3 };
+    uint32_t workers = 1;
+    const tl_tasks tasks = { run_backwards, 5, &workers };
     for (int edit = 0; edit < edits; edit++) {
+        if (edit % 50 == 0) { // in turn without tasks, and by other numbers of workers
+            workers = 1 + test_random_below(&random, tasks.worker_count);
+            TEST_RESULT(tl_nav_obstacles_set_tasks(w.obstacles, edit % 100 == 0 ? NULL : &tasks), TL_OK);
+        }
         uint32_t what = test_random_below(&random, 3);
         if (count == 0 || (what == 0 && count < CAPACITY)) {
             there[count] = random_obstacle_at_any_pose(&random);
@@ -399,7 +406,7 @@ static void test_out_of_memory(void **state)
             }
             TEST_RESULT(result, TL_ERR_MEMORY);
             // The room that tiles are unpacked in is given back, where there is any.
-            TEST_CHECK(counting.live_blocks <= blocks && counting.live_blocks + TL_UNPACKED_TILES >= blocks);
+            TEST_CHECK(counting.live_blocks <= blocks && counting.live_blocks + 4 >= blocks);
             TEST_CHECK(remade.stack.count == 0);
             TEST_CHECK(tl_nav_obstacles_waiting(obstacles) == waiting);
             failures[2]++;
@@ -409,6 +416,54 @@ static void test_out_of_memory(void **state)
     TEST_CHECK(tl_nav_obstacles_bytes(obstacles) > 1000);
     counting.fail_at = 0;
     tl_nav_obstacles_destroy(obstacles);
+    TEST_CHECK(counting.live_blocks == 0);
+}
+
+// Every allocation of several workers may fail: what was made is in the navmesh, the others wait, and in the end the
+// navmesh is that of a world without failures.
+static void test_update_out_of_memory(void **state)
+{
+    (void)state;
+    test_allocator counting;
+    test_allocator_init(&counting, 0);
+    world w, other;
+    make_world(&other, NULL);
+    make_world(&w, &counting.allocator);
+    settle(&w);
+    settle(&other);
+    uint32_t workers = 3, failures = 0;
+    const tl_tasks tasks = { run_backwards, workers, &workers };
+    TEST_RESULT(tl_nav_obstacles_set_tasks(w.obstacles, &tasks), TL_OK);
+    test_random random = { 12 };
+    for (int edit = 0; edit < 6; edit++) {
+        tl_nav_obstacle_id id;
+        for (int i = 0; i < 5; i++) {
+            const tl_nav_obstacle obstacle = random_obstacle(&random);
+            counting.fail_at = 0;
+            TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &obstacle, &id, NULL), TL_OK);
+            TEST_RESULT(tl_nav_obstacles_add(other.obstacles, &obstacle, &id, NULL), TL_OK);
+        }
+        for (uint64_t k = 1; tl_nav_obstacles_waiting(w.obstacles) > 0; k += 1 + k / 8) {
+            uint32_t waiting = 0;
+            counting.calls = 0;
+            counting.fail_at = k;
+            const tl_result result = tl_nav_obstacles_update(w.obstacles, w.navmesh, UINT32_MAX, &waiting, NULL);
+            TEST_CHECK(result == TL_OK || result == TL_ERR_MEMORY);
+            TEST_CHECK(waiting == tl_nav_obstacles_waiting(w.obstacles) && (waiting == 0) == (result == TL_OK));
+            failures += result != TL_OK;
+        }
+        settle(&other);
+        for (uint32_t slot = 0; slot < tl_navmesh_slot_count(other.navmesh); slot++) {
+            const tl_nav_tile *tile = tl_navmesh_slot_tile(other.navmesh, slot);
+            TEST_CHECK(tile == NULL ||
+                       same_tile(tile, tl_navmesh_find_layer(w.navmesh, tile->tile_x, tile->layer, tile->tile_z)));
+        }
+        TEST_CHECK(tl_navmesh_tile_count(w.navmesh) == tl_navmesh_tile_count(other.navmesh));
+    }
+    TEST_CHECK(failures > 50);
+    counting.fail_at = 0;
+    free_world(&w);
+    free_world(&other);
     TEST_CHECK(counting.live_blocks == 0);
 }
 
@@ -445,6 +500,7 @@ int main(void)
         cmocka_unit_test(test_rebake),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_update_out_of_memory),
         cmocka_unit_test_setup(test_volumes, divide),
         cmocka_unit_test_setup(test_random_edits, divide),
         cmocka_unit_test_setup(test_rebake, divide),

@@ -9,14 +9,6 @@
 
 #include <talus/nav_prepare.h>
 
-// Backwards, and a worker's tasks not side by side.
-static void run_backwards(tl_task_fn *task, uint32_t count, void *task_user, void *user)
-{
-    for (uint32_t i = count; i > 0; i--) {
-        task(i - 1, (i * 7) % *(const uint32_t *)user, task_user);
-    }
-}
-
 static void check_bytes(const void *a, const void *b, size_t bytes)
 {
     TEST_CHECK(bytes == 0 || memcmp(a, b, bytes) == 0);

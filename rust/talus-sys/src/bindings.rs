@@ -3770,6 +3770,10 @@ extern "C" {
         report_out: *mut tl_nav_bake_report,
     ) -> tl_result;
     pub fn tl_nav_obstacles_destroy(obstacles: *mut tl_nav_obstacles);
+    pub fn tl_nav_obstacles_set_tasks(
+        obstacles: *mut tl_nav_obstacles,
+        tasks: *const tl_tasks,
+    ) -> tl_result;
     pub fn tl_nav_obstacles_add(
         obstacles: *mut tl_nav_obstacles,
         obstacle: *const tl_nav_obstacle,
