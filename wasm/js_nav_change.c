@@ -4,6 +4,7 @@
 
 #include "js_convex.h"
 #include "js_navmesh.h"
+#include "js_threads.h"
 
 #include <string.h>
 
@@ -131,7 +132,10 @@ tl_result TL_JS_FULL_EXPORT(js_obstacles_update)(tl_js_navmesh *self, uint32_t m
     uint32_t waiting = 0;
     tl_nav_bake_report report;
     memset(&report, 0, sizeof report);
-    const tl_result result = tl_nav_obstacles_update(self->obstacles, self->navmesh, max_tiles, &waiting, &report);
+    tl_result result = tl_nav_obstacles_set_tasks(self->obstacles, tl_js_tasks());
+    if (result == TL_OK) {
+        result = tl_nav_obstacles_update(self->obstacles, self->navmesh, max_tiles, &waiting, &report);
+    }
     tl_js_report = report.base;
     tl_js_put(0, waiting);
     return result;

@@ -4,6 +4,7 @@
 // a polygon already: `on_polygon` has bit 0 for the start and bit 1 for the goal, whose references stand in the slot.
 
 #include "js_navmesh.h"
+#include "js_threads.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -223,6 +224,7 @@ tl_result TL_JS_EXPORT(js_prepare)(tl_js_navmesh *self)
 {
     tl_nav_prepare_def def = tl_default_nav_prepare_def();
     def.table_bytes = (uint64_t)tl_js_slot[0];
+    def.tasks = tl_js_tasks();
     tl_nav_prepared prepared;
     const tl_result result = tl_navmesh_prepare(self->navmesh, &def, &prepared);
     tl_js_report = prepared.base;

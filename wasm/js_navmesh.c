@@ -3,6 +3,7 @@
 // Navmeshes: baked, put together from tiles, and read for drawing.
 
 #include "js_navmesh.h"
+#include "js_threads.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +11,7 @@
 tl_js_navmesh *tl_js_navmesh_create(void)
 {
     tl_js_navmesh *self = calloc(1, sizeof *self);
-    if (self == NULL || tl_navmesh_create(NULL, &self->navmesh) != TL_OK) {
+    if (self == NULL || tl_navmesh_create(tl_js_allocator(), &self->navmesh) != TL_OK) {
         free(self);
         return NULL;
     }

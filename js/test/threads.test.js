@@ -30,6 +30,12 @@ function everything(talus, hash) {
     add(`${name} navmesh`, ...tilesOf(whole));
     add(`${name} tiles`, ...tilesOf(tiled));
     add(`${name} with obstacles`, ...tilesOf(obstacles));
+    const place = (navmesh, i, k) => navmesh.randomPoint({ random: () => ((i * 37 + k * 17) % 103) / 103 }).point;
+    for (let i = 0; i < 20; i++) obstacles.addObstacle({ type: 'cylinder', base: place(obstacles, i, 1), radius: 0.4, height: 2 });
+    words.push(`${name} wait ${obstacles.updateObstacles()}`);
+    add(`${name} under obstacles`, ...tilesOf(obstacles));
+    words.push(`${name} prepared ${JSON.stringify([tiled.prepare(), obstacles.prepare({ tableBytes: 0 })])}`);
+    for (let i = 0; i < 20; i++) words.push(`${obstacles.findPath(place(obstacles, i, 2), place(obstacles, i, 3))?.length}`);
     add(`${name} hull`, talus.Hull.bake(mesh.vertices).toBytes());
     words.push(`${name} peak ${whole.report.peakBytes > 0} ${JSON.stringify(whole.audit(soup, { pathCount: 50 }))}`);
     const rays = Float32Array.from({ length: 7 * 20000 }, (_, i) => (i % 7 === 6 ? 1000 : Math.fround(((i * 7919) % 1009) / 20 - (i % 7 > 2 ? 25 : 0))));
