@@ -9,13 +9,24 @@
 
 #include <string.h>
 
+// What was cancelled within a task stays so behind it.
+static tl_result call_progress(tl_stage *stage)
+{
+    const tl_result result = stage->is_cancelled
+                                 ? TL_ERR_CANCELLED
+                                 : tl_progress_update(stage->host, stage->name, stage->done, stage->total);
+    stage->is_cancelled = result == TL_ERR_CANCELLED;
+    return result;
+}
+
 tl_result tl_stage_begin(tl_stage *stage, const tl_host *host, const char *name, uint64_t total)
 {
     stage->host = host;
     stage->name = name;
     stage->done = 0;
     stage->total = total;
-    return tl_progress_update(host, name, 0, total);
+    stage->is_cancelled = false;
+    return call_progress(stage);
 }
 
 tl_result tl_stage_add(tl_stage *stage, uint64_t amount)
@@ -24,13 +35,13 @@ tl_result tl_stage_add(tl_stage *stage, uint64_t amount)
         return TL_OK;
     }
     stage->done += tl_min_u64(amount, stage->total - stage->done);
-    return tl_progress_update(stage->host, stage->name, stage->done, stage->total);
+    return call_progress(stage);
 }
 
 tl_result tl_stage_end(tl_stage *stage)
 {
     stage->done = stage->total;
-    return tl_progress_update(stage->host, stage->name, stage->total, stage->total);
+    return call_progress(stage);
 }
 
 typedef struct batch_of_tasks {

@@ -18,6 +18,7 @@ typedef struct tl_stage {
     const tl_host *host; ///< NULL: silent
     const char *name;
     uint64_t done, total; ///< in units of the stage's choice
+    bool is_cancelled;    ///< progress said so, and is not called again
 } tl_stage;
 
 /// The first call of a stage, with 0 done.

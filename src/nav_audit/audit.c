@@ -135,7 +135,7 @@ tl_result tl_audit_run_shares(tl_audit_job *job, const char *stage, uint32_t cou
             tl_audit_records_free(&b.shares[i].records);
         }
         if (result == TL_OK && job->records.count > 2 * TL_NAV_AUDIT_MAX_PLACES) {
-            const tl_stage now = { job->host, stage, b.first, count };
+            const tl_stage now = { .host = job->host, .name = stage, .done = b.first, .total = count };
             job->stage = now;
             result = thin_records(job);
         }

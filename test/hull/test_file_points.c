@@ -19,7 +19,7 @@ static uint64_t hull_of(const tl_vec3 *points, uint32_t count, const tl_hull_def
     tl_arena arena;
     tl_arena_init(&arena, NULL);
     tl_quickhull hull;
-    tl_stage stage = { NULL, "hull", 0, count };
+    tl_stage stage = { .name = "hull", .total = count };
     tl_quickhull_init(&hull, points, count, &arena, &stage);
     hull.file_points = kernel;
     tl_hull_polygons polygons;

@@ -361,7 +361,7 @@ tl_result tl_hull_bake_merged(const tl_hull *corners, float distance, const tl_a
     tl_arena arena;
     tl_arena_init(&arena, allocator);
     tl_quickhull hull;
-    tl_stage stage = { NULL, "hull", 0, count };
+    tl_stage stage = { .name = "hull", .total = count };
     tl_quickhull_init(&hull, tl_hull_vertices(corners), count, &arena, &stage);
     hull.named = corners;
     tl_hull_polygons exact;

@@ -80,6 +80,7 @@ static tl_result remake_tile_cones(const graph_mend *m, cone_worker *worker, uin
     const tl_navmesh *navmesh = m->changes.navmesh;
     tl_nav_corner_cones *cones = &m->changes.graph->tiles[slot].cones;
     const uint32_t first = m->looks.first_cones[slot], count = m->looks.first_cones[slot + 1] - first;
+    const tl_nav_corner_cone *fresh = count > 0 ? m->looks.cones + first : NULL;
     const bool is_other = (m->changes.slot_bits[slot] & TL_NAV_SLOT_OTHER) != 0;
     bool drops = false;
     worker->bytes_before += tl_nav_cones_size(cones);
@@ -92,7 +93,7 @@ static tl_result remake_tile_cones(const graph_mend *m, cone_worker *worker, uin
         if (is_other || drops || count > 0 || old_polygons != NULL) {
             TL_TRY(tl_nav_remake_cones(m->changes.allocator, m->changes.graph, slot,
                                        navmesh->slots[slot].rings.polygon_count, old_polygons, worker->is_dropped,
-                                       m->looks.cones + first, count));
+                                       fresh, count));
         }
     }
     worker->bytes += tl_nav_cones_size(cones);
