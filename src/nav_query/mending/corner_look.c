@@ -26,7 +26,7 @@ static tl_result make_look_query(tl_nav_corner_look *look, uint32_t max_nodes)
     tl_nav_query_release(look->query);
     look->query = NULL;
     const tl_nav_query_sizes none = { 0, 0 };
-    return tl_nav_query_allocate(max_nodes, none, look->changes->allocator, &look->query);
+    return tl_nav_query_allocate(max_nodes, none, look->ground->changes->allocator, &look->query);
 }
 
 static tl_result list_new_polygons(tl_nav_look_ground *ground)
@@ -89,7 +89,6 @@ static tl_result begin_looks(const tl_nav_look_ground *ground, tl_nav_corner_loo
     const tl_allocator *allocator = ground->changes->allocator;
     const uint64_t slots = ground->changes->graph->slot_count, polygons = polygon_count(ground);
     look->ground = ground;
-    look->changes = ground->changes;
     look->cones.allocator = allocator;
     look->last_looks = tl_allocate_array(allocator, slots, sizeof *look->last_looks);
     look->last_anew = tl_allocate_array(allocator, polygons, sizeof *look->last_anew);
@@ -106,21 +105,21 @@ void tl_nav_end_looks(tl_nav_corner_look *look)
     if (look->ground == NULL) {
         return; // there was none
     }
-    const tl_allocator *allocator = look->changes->allocator;
+    const tl_allocator *allocator = look->ground->changes->allocator;
     tl_nav_query_release(look->query);
     tl_nav_free_pairs(allocator, &look->seen.edges);
     tl_nav_free_pairs(allocator, &look->seen.reaches);
     tl_nav_free_pairs(allocator, &look->dropped);
     tl_nav_free_numbers(allocator, &look->is_changed);
     tl_release_array(allocator, look->cones.cones, look->cones.capacity, sizeof *look->cones.cones);
-    tl_release_array(allocator, look->last_looks, look->changes->graph->slot_count, sizeof *look->last_looks);
+    tl_release_array(allocator, look->last_looks, look->ground->changes->graph->slot_count, sizeof *look->last_looks);
     tl_release_array(allocator, look->last_anew, polygon_count(look->ground), sizeof *look->last_anew);
 }
 
 // Whether a corner vertex has an edge to another, and keeps it.
 static bool has_edge(const tl_nav_corner_look *look, uint32_t from, uint32_t to)
 {
-    const tl_nav_corner_vertex *vertex = &look->changes->graph->vertices[from];
+    const tl_nav_corner_vertex *vertex = &look->ground->changes->graph->vertices[from];
     const uint32_t k = tl_nav_find_visibility_edge(vertex, to);
     return k < vertex->edge_count && vertex->edges[k].to == to && tl_nav_edge_stays(look->ground->sectors, from, to);
 }
@@ -129,16 +128,17 @@ static bool has_edge(const tl_nav_corner_look *look, uint32_t from, uint32_t to)
 static void add_edge_seen(tl_nav_corner_look *look, uint32_t from, uint32_t to)
 {
     if (look->result == TL_OK && !has_edge(look, from, to)) {
-        look->result = tl_nav_add_pair(look->changes->allocator, &look->seen.edges, from, to);
-        look->result = look->result == TL_OK ? tl_nav_add_pair(look->changes->allocator, &look->seen.edges, to, from)
-                                             : look->result;
+        look->result = tl_nav_add_pair(look->ground->changes->allocator, &look->seen.edges, from, to);
+        look->result = look->result == TL_OK
+                           ? tl_nav_add_pair(look->ground->changes->allocator, &look->seen.edges, to, from)
+                           : look->result;
     }
 }
 
 static void note_sight(void *user, uint32_t turn)
 {
     tl_nav_corner_look *look = (tl_nav_corner_look *)user;
-    const tl_nav_visibility_graph *graph = look->changes->graph;
+    const tl_nav_visibility_graph *graph = look->ground->changes->graph;
     const uint32_t seen = tl_nav_find_name(&graph->names, turn);
     TL_ASSERT(seen != TL_NAV_NO_VERTEX);
     const tl_nav_corner_vertex *from = &graph->vertices[look->vertex];
@@ -165,10 +165,10 @@ static bool looks_through(void *user, const tl_nav_wedge *wedge)
 
 static tl_result see_from(tl_nav_corner_look *look, bool all_around)
 {
-    const tl_nav_corner_vertex *from = &look->changes->graph->vertices[look->vertex];
+    const tl_nav_corner_vertex *from = &look->ground->changes->graph->vertices[look->vertex];
     tl_nav_shortest_search start;
     memset(&start, 0, sizeof start);
-    start.navmesh = look->changes->navmesh;
+    start.navmesh = look->ground->changes->navmesh;
     start.start_slot = from->place.slot;
     start.start_polygon = from->place.polygon;
     start.start = tl_vec3_make(from->x, from->y, from->z);
@@ -191,12 +191,12 @@ static tl_result see_from(tl_nav_corner_look *look, bool all_around)
 static tl_result take_wedge(tl_nav_corner_look *look, const tl_nav_wedge *wedge)
 {
     const uint64_t before = look->cones.count;
-    TL_TRY(tl_nav_add_cones(&look->cones, look->changes->graph, look->vertex, wedge));
+    TL_TRY(tl_nav_add_cones(&look->cones, look->ground->changes->graph, look->vertex, wedge));
     if (look->cones.count == before || look->last_looks[wedge->slot] == look->look_count) {
         return TL_OK;
     }
     look->last_looks[wedge->slot] = look->look_count;
-    return tl_nav_add_pair(look->changes->allocator, &look->seen.reaches, look->vertex, wedge->slot);
+    return tl_nav_add_pair(look->ground->changes->allocator, &look->seen.reaches, look->vertex, wedge->slot);
 }
 
 static tl_result look_around(tl_nav_corner_look *look)
@@ -257,7 +257,8 @@ static void begin_view(tl_nav_corner_look *look, uint32_t order)
          i++) {
         const tl_sort_item *item = &s->beyond.items[i];
         const uint32_t slot = (uint32_t)item->key;
-        const tl_nav_sector sector = tl_nav_sector_of_cone(&look->changes->graph->tiles[slot].cones, item->value);
+        const tl_nav_sector sector =
+            tl_nav_sector_of_cone(&look->ground->changes->graph->tiles[slot].cones, item->value);
         if (!is_in_view(&look->view, &sector)) {
             widen_view(&look->view, sector);
         }
@@ -269,13 +270,13 @@ static void begin_view(tl_nav_corner_look *look, uint32_t order)
 // at.
 static tl_result drop_cones_in(tl_nav_corner_look *look, uint32_t slot, uint32_t polygon, bool *widens)
 {
-    const tl_nav_corner_cones *cones = &look->changes->graph->tiles[slot].cones;
-    const uint32_t old = tl_nav_old_polygon(look->changes, slot, polygon);
+    const tl_nav_corner_cones *cones = &look->ground->changes->graph->tiles[slot].cones;
+    const uint32_t old = tl_nav_old_polygon(look->ground->changes, slot, polygon);
     for (uint32_t i = old != TL_NO_POLYGON ? cones->first[old] : 1; old != TL_NO_POLYGON && i < cones->first[old + 1];
          i++) {
         if (tl_nav_cone_vertex(cones, i) == look->vertex) {
             const tl_nav_sector sector = tl_nav_sector_of_cone(cones, i);
-            TL_TRY(tl_nav_add_pair(look->changes->allocator, &look->dropped, slot, i));
+            TL_TRY(tl_nav_add_pair(look->ground->changes->allocator, &look->dropped, slot, i));
             if (!is_in_view(&look->view, &sector)) {
                 widen_view(&look->view, sector);
                 *widens = true;
@@ -295,7 +296,7 @@ static tl_result find_changed_sight(tl_nav_corner_look *look, bool *widens)
         uint32_t *anew = anew_in(look, wedge->slot, wedge->polygon);
         const bool by_parent = wedge->parent < i && look->is_changed.numbers[wedge->parent] != 0;
         const bool is_changed = by_parent || look->ground->is_new[anew - look->last_anew];
-        TL_TRY(tl_nav_add_number(look->changes->allocator, &look->is_changed, is_changed ? 1 : 0));
+        TL_TRY(tl_nav_add_number(look->ground->changes->allocator, &look->is_changed, is_changed ? 1 : 0));
         if (is_changed && *anew != look->look_count) {
             *anew = look->look_count;
             TL_TRY(drop_cones_in(look, wedge->slot, wedge->polygon, widens));

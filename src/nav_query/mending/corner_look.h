@@ -28,7 +28,6 @@ typedef struct tl_nav_look_ground {
 /// Looks one after another, and what all of them have seen.
 typedef struct tl_nav_corner_look {
     const tl_nav_look_ground *ground;
-    const tl_nav_graph_changes *changes; ///< the ground's
     tl_nav_query *query;
     tl_nav_seen seen;
     tl_nav_cone_list cones;
