@@ -2,6 +2,7 @@
 //
 // The functions of nav_obstacles.h under the contract.
 
+#include "backward_tasks.h"
 #include "contract.h"
 
 #include <talus/nav_obstacles.h>
@@ -80,18 +81,11 @@ static tl_result nav_obstacles_destroy(contract_run *run)
     return TL_OK;
 }
 
-static void run_in_order(tl_task_fn *task, uint32_t count, void *task_user, void *user)
-{
-    (void)user;
-    for (uint32_t i = 0; i < count; i++) {
-        task(i, 0, task_user);
-    }
-}
-
 static tl_result nav_obstacles_set_tasks(contract_run *run)
 {
     tl_nav_obstacles *obstacles = make_obstacles();
-    const tl_tasks tasks = { run_in_order, 4, NULL };
+    tl_tasks tasks;
+    test_backward_tasks(&tasks, 4);
     tl_result result = tl_nav_obstacles_set_tasks(is_null_input(run, 0) ? NULL : obstacles, &tasks);
     result = result == TL_OK ? tl_nav_obstacles_set_tasks(obstacles, NULL) : result;
     run->is_clear = true;

@@ -2,6 +2,7 @@
 //
 // Audits of levels whose contradictions are known: each is found where it is, and nothing else.
 
+#include "backward_tasks.h"
 #include "nav_audit_level.h"
 
 #include <math.h>
@@ -325,22 +326,14 @@ static void links_are_not_walked(void **state)
     tear_down(&h);
 }
 
-// Tasks from last to first, by three workers.
-static void run_backwards(tl_task_fn *task, uint32_t count, void *task_user, void *user)
-{
-    (void)user;
-    for (uint32_t i = count; i-- > 0;) {
-        task(i, i % 3, task_user);
-    }
-}
-
 static void any_host_gives_the_same(void **state)
 {
     (void)state;
     hall one, three;
     set_up(&one, 24, NOWHERE);
     set_up(&three, 24, NOWHERE);
-    const tl_tasks tasks = { run_backwards, 3, NULL };
+    tl_tasks tasks;
+    test_backward_tasks(&tasks, 3);
     three.def.host.tasks = &tasks;
     hall *halls[] = { &one, &three };
     for (int i = 0; i < 2; i++) {
@@ -442,7 +435,8 @@ static void too_many_steps_are_refused(void **state)
     // Before the first line; among the paths; while floors are sampled: the same with one worker and with many.
     const uint64_t limits[3] = { 100, steps / 2, steps + 100 };
     for (uint32_t i = 0; i < 6; i++) {
-        const tl_tasks backwards = { run_backwards, 3, NULL };
+        tl_tasks backwards;
+        test_backward_tasks(&backwards, 3);
         tl_report report;
         calls = 0;
         h.def.max_steps = limits[i % 3];

@@ -4,6 +4,7 @@
 // climb, a ledge to climb, and an island behind a gap. Then the same bytes on any tasks, failing memory, cancelling,
 // damage.
 
+#include "backward_tasks.h"
 #include "talus_test.h"
 
 #include <math.h>
@@ -176,15 +177,6 @@ static void test_limits(void **state)
     free_level(&level);
 }
 
-// Tasks backwards, on three workers.
-static void run_backwards(tl_task_fn *task, uint32_t count, void *task_user, void *user)
-{
-    (void)user;
-    for (uint32_t i = count; i > 0; i--) {
-        task(i - 1, i % 3, task_user);
-    }
-}
-
 static bool stop_late(const char *stage, uint64_t done, uint64_t total, void *user)
 {
     (void)done;
@@ -197,7 +189,8 @@ static void test_hosts(void **state)
     (void)state;
     linked_level level;
     make_level(&level);
-    tl_tasks tasks = { run_backwards, 3, NULL };
+    tl_tasks tasks;
+    test_backward_tasks(&tasks, 3);
     tl_host host = { NULL, &tasks, NULL };
     tl_nav_links_def def = tl_default_nav_links_def();
     tl_nav_links *first, *second;

@@ -3,10 +3,10 @@
 // Temporary obstacles: the same bytes as a bake with those volumes, whatever came and went before; floors and
 // names kept right under random edits.
 
+#include "backward_tasks.h"
 #include "nav_obstacles/footprint.h"
 #include "nav_obstacles/unpacked_tiles.h"
 #include "obstacle_world.h"
-#include "task_threads.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -203,11 +203,10 @@ static void test_random_edits(void **state)
     tl_nav_obstacle_id ids[CAPACITY], other_id;
     uint32_t count = 0, added = 0, moved = 0, removed = 0, compared = 0;
     test_random random = { asked != NULL ? (uint64_t)edits : 3 };
-    uint32_t workers = 1;
-    const tl_tasks tasks = { run_backwards, 5, &workers };
+    tl_tasks tasks;
     for (int edit = 0; edit < edits; edit++) {
         if (edit % 50 == 0) { // in turn without tasks, and by other numbers of workers
-            workers = 1 + test_random_below(&random, tasks.worker_count);
+            test_backward_tasks(&tasks, 1 + test_random_below(&random, 5));
             TEST_RESULT(tl_nav_obstacles_set_tasks(w.obstacles, edit % 100 == 0 ? NULL : &tasks), TL_OK);
         }
         uint32_t what = test_random_below(&random, 3);
@@ -431,8 +430,9 @@ static void test_update_out_of_memory(void **state)
     make_world(&w, &counting.allocator);
     settle(&w);
     settle(&other);
-    uint32_t workers = 3, failures = 0;
-    const tl_tasks tasks = { run_backwards, workers, &workers };
+    uint32_t failures = 0;
+    tl_tasks tasks;
+    test_backward_tasks(&tasks, 3);
     TEST_RESULT(tl_nav_obstacles_set_tasks(w.obstacles, &tasks), TL_OK);
     test_random random = { 12 };
     for (int edit = 0; edit < 6; edit++) {

@@ -3,6 +3,7 @@
 // Preparing by tasks: the same graph, bit for bit, for any number of workers, after edits too; cancelled, and out of
 // memory.
 
+#include "backward_tasks.h"
 #include "nav_fixture.h"
 #include "nav_query/prepared/visibility_graph.h"
 #include "task_threads.h"
@@ -55,19 +56,6 @@ static void check_tables(const tl_nav_visibility_graph *a, const tl_nav_visibili
     }
 }
 
-// Opens or closes a random cell, and puts its tile into both.
-static void change_cell(fixture_level *level, tl_navmesh *const both[2], test_random *random)
-{
-    const uint32_t x = test_random_below(random, level->width), z = test_random_below(random, level->height);
-    const int32_t tile_x = (int32_t)(x / level->tile_cells), tile_z = (int32_t)(z / level->tile_cells);
-    level->cells[z][x] = level->cells[z][x] == '#' ? '0' : '#';
-    for (int i = 0; i < 2; i++) {
-        tl_nav_tile *tile = fixture_build_tile(level, tile_x, tile_z, NULL);
-        TEST_CHECK(!tl_is_error(tl_navmesh_remove_tile(both[i], tile_x, tile_z)));
-        TEST_RESULT(tile != NULL ? tl_navmesh_add_tile(both[i], tile, TL_NAV_TILE_OWNED) : TL_OK, TL_OK);
-    }
-}
-
 // The first is prepared by this thread, the second by tasks.
 static void prepare_both(tl_navmesh *const both[2], const tl_tasks *tasks, bool has_table)
 {
@@ -85,7 +73,7 @@ static void prepare_both(tl_navmesh *const both[2], const tl_tasks *tasks, bool 
     }
 }
 
-static void compare_workers(tl_tasks tasks, uint64_t seed, uint32_t edits)
+static void compare_workers(const tl_tasks *tasks, uint64_t seed, uint32_t edits)
 {
     test_random random = { seed };
     uint32_t graphs = 0;
@@ -94,10 +82,10 @@ static void compare_workers(tl_tasks tasks, uint64_t seed, uint32_t edits)
         level.tile_cells = 4;
         tl_navmesh *const both[2] = { fixture_build(&level, NULL), fixture_build(&level, NULL) };
         for (uint32_t edit = 0; edit < edits; edit++) {
-            prepare_both(both, &tasks, edit % 4 == 3);
+            prepare_both(both, tasks, edit % 4 == 3);
             graphs += tl_navmesh_is_prepared(both[1]);
             for (uint32_t i = 0; i < 1 + edit % 3; i++) {
-                change_cell(&level, both, &random);
+                fixture_change_cell(&level, both, &random);
             }
         }
         tl_navmesh_destroy(both[0]);
@@ -110,7 +98,9 @@ static void test_any_order(void **state)
 {
     (void)state;
     for (uint32_t workers = 1; workers <= 9; workers += 4) {
-        compare_workers((tl_tasks){ run_backwards, workers, &workers }, workers, 12);
+        tl_tasks tasks;
+        test_backward_tasks(&tasks, workers);
+        compare_workers(&tasks, workers, 12);
     }
 }
 
@@ -118,7 +108,8 @@ static void test_threads(void **state)
 {
     (void)state;
     uint32_t workers = 3;
-    compare_workers((tl_tasks){ run_on_threads, workers, &workers }, 20, 8);
+    const tl_tasks tasks = { run_on_threads, workers, &workers };
+    compare_workers(&tasks, 20, 8);
 }
 
 // Calls progress only between tasks, and stops where it says so.
@@ -207,7 +198,8 @@ static void test_memory(void **state)
     fixture_level level = fixture_random(&random, 1, 16);
     level.tile_cells = 4;
     for (uint32_t workers = 1; workers <= 3; workers += 2) {
-        const tl_tasks tasks = { run_backwards, workers, &workers };
+        tl_tasks tasks;
+        test_backward_tasks(&tasks, workers);
         tl_nav_prepare_def def = tl_default_nav_prepare_def();
         def.tasks = &tasks;
         TEST_CHECK(fail_at_each(&level, &def, false) > 100);

@@ -289,21 +289,6 @@ static void test_links(void **state)
     tl_navmesh_destroy(navmesh);
 }
 
-// Opens or closes a random cell of the level, and puts its tile into both.
-static void change_tile(fixture_level *level, tl_navmesh *const both[2], test_random *random)
-{
-    const uint32_t x = test_random_below(random, level->width), z = test_random_below(random, level->height);
-    const int32_t tile_x = (int32_t)(x / level->tile_cells), tile_z = (int32_t)(z / level->tile_cells);
-    level->cells[z][x] = level->cells[z][x] == '#' ? '0' : '#';
-    for (int i = 0; i < 2; i++) {
-        tl_nav_tile *tile = fixture_build_tile(level, tile_x, tile_z, NULL);
-        TEST_CHECK(!tl_is_error(tl_navmesh_remove_tile(both[i], tile_x, tile_z)));
-        if (tile != NULL) {
-            TEST_RESULT(tl_navmesh_add_tile(both[i], tile, TL_NAV_TILE_OWNED), TL_OK);
-        }
-    }
-}
-
 // Takes two random tiles out of both, and puts equal ones back in an order that gives them each other's slots.
 static void exchange_slots(const fixture_level *level, tl_navmesh *const both[2], test_random *random)
 {
@@ -425,7 +410,7 @@ static void test_mended(void **state)
         TEST_CHECK(made.renewed_count == made.corner_vertex_count);
         for (uint32_t edit = 0; edit < 30; edit++) {
             for (uint32_t i = 0; i < 1 + edit % 3; i++) {
-                change_tile(&level, both, &random);
+                fixture_change_cell(&level, both, &random);
             }
             if (edit % 5 == 4) {
                 exchange_slots(&level, both, &random);

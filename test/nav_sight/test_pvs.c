@@ -2,6 +2,7 @@
 //
 // Tables of sight against lines cast one by one.
 
+#include "backward_tasks.h"
 #include "nav_audit_level.h"
 
 #include <math.h>
@@ -130,20 +131,13 @@ static void equals_lines_cast_one_by_one(void **state)
     }
 }
 
-static void run_backwards(tl_task_fn *task, uint32_t count, void *task_user, void *user)
-{
-    (void)user;
-    for (uint32_t i = count; i-- > 0;) {
-        task(i, i % 3, task_user);
-    }
-}
-
 static void any_host_gives_the_same_bytes(void **state)
 {
     (void)state;
     rooms r;
     set_up(&r, 24);
-    const tl_tasks tasks = { run_backwards, 3, NULL };
+    tl_tasks tasks;
+    test_backward_tasks(&tasks, 3);
     tl_nav_pvs_def def = tl_default_nav_pvs_def();
     tl_nav_pvs *one, *three;
     TEST_RESULT(tl_nav_pvs_bake(&def, r.navmesh, r.soup, &one, NULL), TL_OK);

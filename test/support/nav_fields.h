@@ -6,6 +6,7 @@
 #ifndef TALUS_TEST_NAV_FIELDS_H
 #define TALUS_TEST_NAV_FIELDS_H
 
+#include "backward_tasks.h"
 #include "talus_test.h"
 
 #include <string.h>
@@ -57,22 +58,6 @@ static inline tl_nav_heightfield test_random_heightfield(test_random *random, co
     }
     field.first_span[columns] = field.span_count;
     return field;
-}
-
-/// Runs tasks backwards, workers in turn: what a parallel host may do, without threads.
-static inline void test_run_backwards(tl_task_fn *task, uint32_t count, void *task_user, void *user)
-{
-    const tl_tasks *tasks = (const tl_tasks *)user;
-    for (uint32_t i = count; i-- > 0;) {
-        task(i, i % tasks->worker_count, task_user);
-    }
-}
-
-static inline tl_tasks test_backward_tasks(tl_tasks *self, uint32_t workers)
-{
-    tl_tasks tasks = { test_run_backwards, workers, self };
-    *self = tasks;
-    return tasks;
 }
 
 /// Counts progress calls and cancels at one of them (0: never). Checks that `done` never exceeds `total`.

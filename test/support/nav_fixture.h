@@ -549,4 +549,19 @@ static inline tl_nav_query *fixture_query(uint32_t max_nodes)
     return query;
 }
 
+/// Opens or closes a random cell of the level, and puts its tile into both.
+static inline void fixture_change_cell(fixture_level *level, tl_navmesh *const both[2], test_random *random)
+{
+    const uint32_t x = test_random_below(random, level->width), z = test_random_below(random, level->height);
+    const int32_t tile_x = (int32_t)(x / level->tile_cells), tile_z = (int32_t)(z / level->tile_cells);
+    level->cells[z][x] = level->cells[z][x] == '#' ? '0' : '#';
+    for (int i = 0; i < 2; i++) {
+        tl_nav_tile *tile = fixture_build_tile(level, tile_x, tile_z, NULL);
+        TEST_CHECK(!tl_is_error(tl_navmesh_remove_tile(both[i], tile_x, tile_z)));
+        if (tile != NULL) {
+            TEST_RESULT(tl_navmesh_add_tile(both[i], tile, TL_NAV_TILE_OWNED), TL_OK);
+        }
+    }
+}
+
 #endif

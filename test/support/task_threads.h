@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Tasks on threads that are made for each call, but for the first worker's, which is the caller's: slow, but any number
-// of them, and no thread lives between calls. And tasks in another order.
+// of them, and no thread lives between calls.
 
 #ifndef TALUS_TEST_TASK_THREADS_H
 #define TALUS_TEST_TASK_THREADS_H
@@ -43,15 +43,6 @@ static inline void run_on_threads(tl_task_fn *task, uint32_t count, void *task_u
     run_stride(&jobs[0]);
     for (uint32_t w = 1; w < workers; w++) {
         pthread_join(threads[w], NULL);
-    }
-}
-
-/// For tl_tasks; `user` points to the number of workers. Without threads: the last first, and what a worker takes is
-/// not side by side.
-static inline void run_backwards(tl_task_fn *task, uint32_t count, void *task_user, void *user)
-{
-    for (uint32_t i = count; i > 0; i--) {
-        task(i - 1, (i * 7) % *(const uint32_t *)user, task_user);
     }
 }
 
